@@ -7,7 +7,7 @@ use numpy::{PyArray1, PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rheology::fit::{
-    Control, Ending, IdentifyOptions, MeasuredCurve, RelativeError, RelaxationPoint, expand,
+    Control, IdentifyOptions, LongTimeLimit, MeasuredCurve, RelativeError, RelaxationPoint, expand,
     identify,
 };
 use rheology::{RelaxationSpectrum, RheologyError};
@@ -97,12 +97,15 @@ impl Options {
             (None, _, Some(_)) => return Err(wrong("smoothing needs branches")),
             (Some(_), Some(_), _) => return Err(wrong("either branches or tolerance, not both")),
         };
-        let ending = if self.liquid {
-            Ending::Liquid
+        let long_time_limit = if self.liquid {
+            LongTimeLimit::Liquid
         } else {
-            Ending::Solid
+            LongTimeLimit::Solid
         };
-        Ok(IdentifyOptions { ending, control })
+        Ok(IdentifyOptions {
+            long_time_limit,
+            control,
+        })
     }
 }
 
@@ -191,7 +194,7 @@ pub(crate) fn fitted<'py>(
     dictionary.set_item("loss_error", pair(found.loss_error))?;
     dictionary.set_item("max_relative_error", found.max_relative_error)?;
     if let Some(covariance) = found.covariance {
-        dictionary.set_item("covariance_method", covariance.in_words())?;
+        dictionary.set_item("covariance_method", covariance.description())?;
         let relative = PyArray2::from_vec2(py, &covariance.relative).map_err(wrong)?;
         dictionary.set_item("relative_covariance", relative)?;
         dictionary.set_item("shift_errors", covariance.shift_errors)?;

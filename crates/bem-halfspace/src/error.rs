@@ -98,9 +98,9 @@ pub enum BemError {
         Rounded(*x), Rounded(*y)
     )]
     VerticalWall {
-        /// x of the wall relative to the lowest point, \[m].
+        /// Position x of the wall relative to the lowest point, \[m].
         x: f64,
-        /// y of the wall relative to the lowest point, \[m].
+        /// Position y of the wall relative to the lowest point, \[m].
         y: f64,
     },
     /// Elements do not resolve the slope: the body rises over one of them in contact by more than the depth scale.
@@ -194,7 +194,7 @@ pub enum BemError {
     /// The load has no sliding distance where one is needed.
     #[error("a sliding distance is needed: {why}")]
     SlidingDistanceMissing {
-        /// The reason.
+        /// Reason why the distance is needed.
         why: &'static str,
     },
     /// A periodic surface slides from rest at a given depth, which is not supported: only a mean pressure is.

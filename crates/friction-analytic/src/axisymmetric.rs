@@ -8,7 +8,7 @@ use indenters::{Axisymmetric, IndenterError, SlidingLoad, contact_radius};
 use numerics::Estimate;
 use rheology::Viscous;
 
-use crate::pieces::{accepted, ends_outside_apex, over_pieces};
+use crate::pieces::{accept_accurate, ends_outside_apex, integrate_pieces};
 use crate::stationary::checked_depth;
 use crate::{DivergenceCause, FrictionError, StationarySliding};
 
@@ -89,7 +89,7 @@ pub(crate) fn refuse_divergence(
     })
 }
 
-/// ∫₀^a h̃'(x)² dx, \[m], for a line over which it does not diverge.
+/// Integral of the squared slope, ∫₀^a h̃'(x)² dx, \[m], for a line over which it does not diverge.
 pub(crate) fn slope_energy(
     body: &dyn Axisymmetric,
     radius: f64,
@@ -97,16 +97,16 @@ pub(crate) fn slope_energy(
     // The slope may be singular at the apex only; between kinks the line is smooth.
     let ends = ends_outside_apex(body, radius);
     let inner = slope_energy_at_apex(body, ends[0]);
-    let outer = over_pieces(|x| body.line_slope(x).powi(2), &ends);
-    accepted("integral of the squared slope", inner + outer)
+    let outer = integrate_pieces(|x| body.line_slope(x).powi(2), &ends);
+    accept_accurate("integral of the squared slope", inner + outer)
 }
 
-/// ∫ h̃'² dx from the apex, where h̃' ∼ x^(p−1) may be singular, to `end`, \[m].
+/// Integral of the squared slope, ∫ h̃'² dx, from the apex, where h̃' ∼ x^(p−1) may be singular, to `end`, \[m].
 fn slope_energy_at_apex(body: &dyn Axisymmetric, end: f64) -> Estimate {
     let square = |x: f64| body.line_slope(x).powi(2);
     let exponent = body.profile_exponent();
     if exponent >= 1.0 {
-        return over_pieces(square, &[0.0, end]);
+        return integrate_pieces(square, &[0.0, end]);
     }
     // As p approaches 1/2, most of the integral lies below the smallest number. The innermost part is therefore that of the
     // leading power, and elsewhere x = end s^(1/(2p − 1)) makes the integrand of that power a constant.
@@ -117,5 +117,5 @@ fn slope_energy_at_apex(body: &dyn Axisymmetric, end: f64) -> Estimate {
         let x = end * s.powf(rate.recip());
         square(x) * x / (rate * s)
     };
-    over_pieces(integrand, &[LEADING_POWER_REACH.powf(rate), 1.0]) + Estimate::exact(innermost)
+    integrate_pieces(integrand, &[LEADING_POWER_REACH.powf(rate), 1.0]) + Estimate::exact(innermost)
 }

@@ -59,7 +59,7 @@ pub struct CylinderSliding {
     pub line_load: f64,
     /// Friction coefficient μ.
     pub friction_coefficient: f64,
-    /// Stress scale 2 G_∞ l/(f R), \[Pa].
+    /// Scale of the pressure, 2 G_∞ l/(f R), \[Pa].
     stress: f64,
     /// Relaxation length T/l.
     relaxation: f64,
@@ -132,10 +132,10 @@ impl CylinderSliding {
         let angle = 2.0 * ahead.sqrt().atan2(behind.sqrt());
         let z = self.relaxation.recip();
         let [a, _] = bessel_i_ratios(z);
-        // L − x₀ = T + C/a.
-        // q √(1 − s²), with s = cos φ, is the sum of an even and of an odd part in s.
+        // With s = cos φ, q √(1 − s²) is the sum of an even and of an odd part in s; L − x₀ = T + C/a.
         let odd = self.relaxation + self.singular / a;
         let even = |sine: f64| sine * sine + self.singular;
+        // A Kelvin–Voigt solid has no relaxation length: the pressure is q.
         if z.is_infinite() {
             let cotangent = (0.5 * angle).tan().recip();
             return self.stress * (angle.sin() + self.singular * cotangent);
@@ -151,7 +151,7 @@ impl CylinderSliding {
     }
 }
 
-/// I₁/I₀ and I₂/I₀ of z > 0, from ∫₀^π e^(z cos θ) sin^(2n) θ dθ (NIST DLMF 10.32.2).
+/// Ratios I₁/I₀ and I₂/I₀ of Bessel functions of z > 0, from ∫₀^π e^(z cos θ) sin^(2n) θ dθ (NIST DLMF 10.32.2).
 fn bessel_i_ratios(z: f64) -> [f64; 2] {
     if z.is_infinite() {
         return [1.0; 2];
@@ -167,7 +167,7 @@ fn bessel_i_ratios(z: f64) -> [f64; 2] {
     ]
 }
 
-/// K₀/K₁ of k > 0, from ∫₀^∞ e^(−k cosh t) cosh νt dt (NIST DLMF 10.32.9).
+/// Ratio K₀/K₁ of Bessel functions of k > 0, from ∫₀^∞ e^(−k cosh t) cosh νt dt (NIST DLMF 10.32.9).
 fn bessel_k_ratio(k: f64) -> f64 {
     if k.is_infinite() {
         return 1.0;
@@ -182,7 +182,7 @@ fn bessel_k_ratio(k: f64) -> f64 {
 fn trapezoid(end: f64, integrand: impl Fn(f64) -> f64) -> f64 {
     let intervals = (MIN_INTERVALS + INTERVALS_PER_UNIT_LENGTH * end).ceil();
     let step = end / intervals;
-    let inner = (1_u32..).map(f64::from).take_while(|k| *k < intervals);
-    let inner: f64 = inner.map(|k| integrand(k * step)).sum();
-    step * (inner + 0.5 * (integrand(0.0) + integrand(end)))
+    let inner_nodes = (1_u32..).map(f64::from).take_while(|k| *k < intervals);
+    let inner_sum: f64 = inner_nodes.map(|k| integrand(k * step)).sum();
+    step * (inner_sum + 0.5 * (integrand(0.0) + integrand(end)))
 }

@@ -17,8 +17,8 @@ use rheology::{Material, check_spectra};
 use crate::FrictionError;
 use crate::axisymmetric::{refuse_divergence, slope_energy};
 use crate::error::representable;
-use crate::indentation::known_moment;
-use crate::pieces::{accepted, ends_outside_apex, over_pieces};
+use crate::indentation::checked_moment;
+use crate::pieces::{accept_accurate, ends_outside_apex, integrate_pieces};
 
 /// Size and speed of a contact that slides over a solid.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,7 +60,7 @@ pub fn low_speed_friction(
     let radius = contact.contact_radius;
     refuse_divergence(body, -radius, radius, depth)?;
     // The force is 8 G times this moment.
-    let moment = known_moment(body, radius)?;
+    let moment = checked_moment(body, radius)?;
     let relaxation = solid.relaxation();
     // A fluid has no elastic limit at low speed.
     let modulus = positive("equilibrium_modulus", relaxation.equilibrium_modulus())?;
@@ -86,7 +86,7 @@ pub fn high_speed_friction(
 ) -> Result<ElasticLimitFriction, FrictionError> {
     check_spectra(solid)?;
     let depth = checked_depth(body, contact)?;
-    let moment = known_moment(body, contact.contact_radius)?;
+    let moment = checked_moment(body, contact.contact_radius)?;
     let relaxation = solid.relaxation();
     // A lone dashpot has no elastic limit at high speed.
     let glass = positive("glass_modulus", relaxation.glass_modulus())?;
@@ -97,10 +97,10 @@ pub fn high_speed_friction(
     // ∫₀^a (d − h̃)² dx.
     let mut ends = ends_outside_apex(body, contact.contact_radius);
     ends.insert(0, 0.0);
-    let energy = over_pieces(|x| (depth - body.line_height(x)).powi(2), &ends);
-    let energy = accepted("squared compression", energy)?.value;
+    let integral = integrate_pieces(|x| (depth - body.line_height(x)).powi(2), &ends);
+    let squared_compression = accept_accurate("squared compression", integral)?.value;
     // μ = (8 α/v) ∫ (d − h̃)² dx/F_N.
-    let friction = rate / contact.velocity * (energy / moment);
+    let friction = rate / contact.velocity * (squared_compression / moment);
     let force = 8.0 * (glass / solid.half_space_factor()) * moment;
     checked_limit(force, friction, friction)
 }

@@ -14,7 +14,7 @@ pub enum DivergenceCause {
         "the profile rises from its apex with exponent {exponent}, and an exponent above 0.5 is needed"
     )]
     ApexExponent {
-        /// The exponent.
+        /// Exponent of the profile at its apex.
         exponent: f64,
     },
     /// The slope of the profile jumps upwards inside the contact.
@@ -142,7 +142,7 @@ pub enum FrictionError {
     BeyondStationaryDepth {
         /// Present depth, \[m].
         depth: f64,
-        /// F/(4 η v), (12), \[m].
+        /// Stationary depth F/(4 η v), (12), \[m].
         stationary_depth: f64,
     },
 }

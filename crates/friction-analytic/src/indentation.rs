@@ -16,7 +16,7 @@ use rheology::Viscous;
 
 use crate::FrictionError;
 use crate::error::{out_of_range, representable};
-use crate::pieces::{accepted, ends_outside_apex, over_pieces};
+use crate::pieces::{accept_accurate, ends_outside_apex, integrate_pieces};
 use crate::stationary::quotient;
 
 /// Contact radius and depth of a body pressed into a half space without sliding.
@@ -89,7 +89,7 @@ pub fn indentation_after_impulse(
         });
     };
     // Refuse a moment whose error is too large.
-    known_moment(body, radius)?;
+    checked_moment(body, radius)?;
     let depth = representable("indentation depth", body.line_height(radius))?;
     // Refuses a line that turns downwards inside the contact.
     contact_radius(body, depth)?;
@@ -110,7 +110,7 @@ pub fn impulse_to_depth(
     depth: f64,
 ) -> Result<f64, FrictionError> {
     let radius = contact_radius(body, depth)?;
-    let moment = known_moment(body, radius)?;
+    let moment = checked_moment(body, radius)?;
     // Zero up to rounding except for a flat punch, which sinks with a constant contact.
     let punch_moment = radius * (depth - body.line_height(radius));
     representable(
@@ -162,9 +162,9 @@ pub fn indentation_pressure(
     let contact = contact_radius(body, depth)?;
     // Check that the pressure is finite at this radius.
     let is_finite = radius > 0.0 || body.profile_exponent() > 1.0;
-    let holds = (0.0..contact).contains(&radius) && is_finite;
+    let is_allowed = (0.0..contact).contains(&radius) && is_finite;
     let allowed = "inside the contact, and not at a tip";
-    in_range("radius", radius, holds, allowed)?;
+    in_range("radius", radius, is_allowed, allowed)?;
     let root = |x: f64| ((x - radius) * (x + radius)).sqrt();
     let kinks_and_contact = ends_outside_apex(body, contact).into_iter();
     let ends = [radius]
@@ -174,11 +174,11 @@ pub fn indentation_pressure(
     let angle = |x: f64| (root(x) / radius).asinh();
     let over_angle = |t: f64| body.line_slope((radius * t.cosh()).min(contact));
     let integral = if radius > 0.0 {
-        over_pieces(over_angle, &ends.map(angle).collect::<Vec<f64>>())
+        integrate_pieces(over_angle, &ends.map(angle).collect::<Vec<f64>>())
     } else {
-        over_pieces(|x| body.line_slope(x) / x, &ends.collect::<Vec<f64>>())
+        integrate_pieces(|x| body.line_slope(x) / x, &ends.collect::<Vec<f64>>())
     };
-    let smooth_part = accepted("pressure", integral)?.value;
+    let smooth_part = accept_accurate("pressure", integral)?.value;
     let punch_part = (depth - body.line_height(contact)) / root(contact);
     Ok(4.0 / PI * (smooth_part + punch_part))
 }
@@ -206,7 +206,7 @@ pub fn power_peak_pressure(
     // f as a function of l = √(1 − ρ²).
     let f = |l: f64| {
         let log_integrand = |s: f64| (0.5 * p - 1.0) * (-l * l * (1.0 - s) * (1.0 + s)).ln_1p();
-        l * over_pieces(|s| log_integrand(s).exp(), &[0.0, 1.0]).value
+        l * integrate_pieces(|s| log_integrand(s).exp(), &[0.0, 1.0]).value
     };
     // On the axis, and for p > 2 off it.
     let mut maximum = (p - 1.0).recip();
@@ -230,15 +230,15 @@ fn moment(body: &dyn Axisymmetric, radius: f64) -> Estimate {
     // From the contact boundary at ψ = 0 to the apex at ψ = π/2.
     let radii = ends_outside_apex(body, radius).into_iter().rev();
     let angles: Vec<f64> = radii.chain([0.0]).map(angle).collect();
-    let angular = over_pieces(integrand, &angles);
+    let angular = integrate_pieces(integrand, &angles);
     // One factor at a time, because the square alone underflows for small bodies.
     angular * radius * radius
 }
 
 /// The contact moment, \[m²], if its error is small enough.
-pub(crate) fn known_moment(body: &dyn Axisymmetric, radius: f64) -> Result<f64, FrictionError> {
+pub(crate) fn checked_moment(body: &dyn Axisymmetric, radius: f64) -> Result<f64, FrictionError> {
     let end = body.max_radius();
-    match accepted("contact moment", moment(body, radius)) {
+    match accept_accurate("contact moment", moment(body, radius)) {
         Err(_) if end.is_finite() && body.line_height(end).is_infinite() => {
             Err(FrictionError::BeyondEdge { radius: end })
         }
@@ -252,21 +252,23 @@ fn radius_of_moment(body: &dyn Axisymmetric, target: f64) -> Result<Option<f64>,
     // A body that ends with a vertical edge, such as a sphere, has an infinite moment there, whatever the quadrature gives.
     let has_vertical_edge = end.is_finite() && body.line_height(end).is_infinite();
     // The moment grows with the radius: bracket its target, and solve.
-    let excess = |radius: f64| {
+    let moment_excess = |radius: f64| {
         if has_vertical_edge && radius >= end {
             return f64::INFINITY;
         }
         moment(body, radius).value - target
     };
     let bracket = if end.is_infinite() {
-        bracket(&excess)
-    } else if excess(end) < 0.0 {
+        bracket(&moment_excess)
+    } else if moment_excess(end) < 0.0 {
         return Ok(None);
     } else {
         [0.0, end]
     };
-    let failed = out_of_range("contact radius", bracket[1]);
-    bracketed_root(excess, bracket).ok_or(failed).map(Some)
+    let overflow = out_of_range("contact radius", bracket[1]);
+    bracketed_root(moment_excess, bracket)
+        .ok_or(overflow)
+        .map(Some)
 }
 
 /// Factor between two radii of the search for a bracket. It changes the number of evaluations only: the root is the
@@ -276,13 +278,13 @@ const BRACKET_FACTOR: f64 = 64.0;
 /// Two radii \[m] between which the excess of the moment changes its sign.
 ///
 /// The search starts at 1 m for lack of a scale, and reaches every representable radius.
-fn bracket(excess: &impl Fn(f64) -> f64) -> [f64; 2] {
+fn bracket(moment_excess: &impl Fn(f64) -> f64) -> [f64; 2] {
     let mut upper = 1.0;
-    while excess(upper) < 0.0 && upper < f64::MAX / BRACKET_FACTOR {
+    while moment_excess(upper) < 0.0 && upper < f64::MAX / BRACKET_FACTOR {
         upper *= BRACKET_FACTOR;
     }
     let mut lower = upper / BRACKET_FACTOR;
-    while excess(lower) > 0.0 && lower > f64::MIN_POSITIVE {
+    while moment_excess(lower) > 0.0 && lower > f64::MIN_POSITIVE {
         upper = lower;
         lower /= BRACKET_FACTOR;
     }

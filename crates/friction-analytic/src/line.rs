@@ -9,7 +9,7 @@ use numerics::Estimate;
 use rheology::Viscous;
 
 use crate::axisymmetric::no_stationary_state;
-use crate::pieces::{accepted, over_pieces};
+use crate::pieces::{accept_accurate, integrate_pieces};
 use crate::stationary::checked_depth;
 use crate::{FrictionError, StationarySliding};
 
@@ -43,15 +43,15 @@ fn end_term(line: &dyn RigidLine, end: f64) -> f64 {
     slope * (slope * end.abs() + line.height(end).abs())
 }
 
-/// ∫ h̃'² dx over the contact intervals, (11), \[m], with separate integrals between the kinks of the line.
+/// Integral of the squared slope, ∫ h̃'² dx, over the contact intervals, (11), \[m], with separate integrals between the kinks of the line.
 fn slope_energy(line: &dyn RigidLine, intervals: &[[f64; 2]]) -> Result<Estimate, FrictionError> {
     let kinks = line.kinks();
     let square = |x: f64| line.slope(x).powi(2);
     let energy = |&[start, end]: &[f64; 2]| {
         let inside = kinks.iter().copied().filter(|x| start < *x && *x < end);
         let ends: Vec<f64> = [start].into_iter().chain(inside).chain([end]).collect();
-        over_pieces(square, &ends)
+        integrate_pieces(square, &ends)
     };
     let energy = intervals.iter().map(energy).sum();
-    accepted("integral of the squared slope", energy)
+    accept_accurate("integral of the squared slope", energy)
 }

@@ -60,7 +60,7 @@ impl EnergyFactor {
     /// S = (5 − 2 P² + 6 P⁴)/9, Wang and Müser (2017), Tribol. Lett. 65, 103.
     pub const WANG_MUSER_2017: Self = Self([5.0 / 9.0, -2.0 / 9.0, 2.0 / 3.0]);
 
-    /// S = γ + (1 − γ) P².
+    /// Factor S = γ + (1 − γ) P².
     ///
     /// # Errors
     /// [`FrictionError::InvalidParameter`] for a γ that is not finite.
@@ -156,15 +156,15 @@ pub fn persson_of_waves(
         let [along, across] = wave.wave_vector;
         let wave_number = positive("length of a wave vector", along.hypot(across))?;
         let amplitude = numerics::finite("amplitude", wave.amplitude)?;
-        let steepness = (0.5 * amplitude * wave_number) * (amplitude * wave_number);
+        let squared_slope = (0.5 * amplitude * wave_number) * (amplitude * wave_number);
         let response = loaded.response(along.abs() / wave_number, wave_number);
-        contributions.push((wave_number, response.map(|rate| steepness * rate)));
+        contributions.push((wave_number, response.map(|rate| squared_slope * rate)));
     }
     contributions.sort_by(|(one, _), (other, _)| one.total_cmp(other));
     // Sum over shells of equal wave numbers.
     let mut integrals = SpectralIntegrals::default();
     for shell in contributions.chunk_by(|(one, _), (other, _)| other - one <= EQUAL_LENGTHS * one) {
-        let total = |index: usize| shell.iter().map(|(_, both)| both[index]).sum::<f64>();
+        let total = |index: usize| shell.iter().map(|(_, rates)| rates[index]).sum::<f64>();
         integrals.g += 0.5 * total(0);
         integrals.add_friction(total(1));
         integrals.g += 0.5 * total(0);
@@ -183,9 +183,9 @@ pub fn persson_of_spectrum(
     load: RoughLoad,
     relative_error: f64,
 ) -> Result<PerssonSliding, FrictionError> {
-    let holds = (1e-11..1.0).contains(&relative_error);
+    let is_allowed = (1e-11..1.0).contains(&relative_error);
     let allowed = "at least 1e-11 and below 1";
-    in_range("relative_error", relative_error, holds, allowed)?;
+    in_range("relative_error", relative_error, is_allowed, allowed)?;
     // Check the spectrum and the load.
     spectrum.validate()?;
     let loaded = LoadedMaterial::new(material, load)?;
@@ -241,6 +241,7 @@ const MAX_STEPS: usize = 1 << 14;
 const ANGULAR_TOLERANCE: f64 = 1e-13;
 
 impl SelfAffineSpectrum {
+    /// Refuses an exponent, a slope or wavelengths that are no spectrum.
     fn validate(&self) -> Result<(), FrictionError> {
         between_zero_and_one("hurst_exponent", self.hurst_exponent)?;
         positive("rms_slope", self.rms_slope)?;
@@ -249,14 +250,14 @@ impl SelfAffineSpectrum {
         let allowed = "longer than the shortest one";
         in_range("longest_wavelength", longest, longest > shortest, allowed)?;
         let roll_off = self.roll_off_wavelength;
-        let holds = (shortest..=longest).contains(&roll_off);
+        let is_allowed = (shortest..=longest).contains(&roll_off);
         let allowed = "between the shortest and the longest wave length";
-        in_range("roll_off_wavelength", roll_off, holds, allowed)?;
+        in_range("roll_off_wavelength", roll_off, is_allowed, allowed)?;
         Ok(())
     }
 
-    /// q⁴ C(q), normalised by 2π ∫ q³ C dq = ⟨|∇h|²⟩.
-    fn steepness(&self, q: f64) -> f64 {
+    /// Squared slope of the waves per logarithm of the wave number over 2π, q⁴ C(q), normalised by 2π ∫ q³ C dq = ⟨|∇h|²⟩.
+    fn squared_slope_density(&self, q: f64) -> f64 {
         let waves = [self.longest_wavelength, self.shortest_wavelength];
         let [ratio_long, ratio_short] = waves.map(|wave| self.roll_off_wavelength / wave);
         let power = 2.0 - 2.0 * self.hurst_exponent;
@@ -271,13 +272,16 @@ impl SelfAffineSpectrum {
 
 /// A material, with the pressure and the speed at which it is loaded.
 struct LoadedMaterial {
+    /// Relaxation spectrum in shear.
     relaxation: RelaxationSpectrum,
-    /// E*/(G* σ₀), \[1/Pa].
+    /// Ratio E*/(G* σ₀) of the modulus of the half space to the shear modulus, over the mean pressure, \[1/Pa].
     factor: f64,
+    /// Sliding speed, \[m/s].
     velocity: f64,
 }
 
 impl LoadedMaterial {
+    /// Checks the material, the pressure and the speed.
     fn new(material: &dyn Material, load: RoughLoad) -> Result<Self, FrictionError> {
         check_spectra(material)?;
         let mean_pressure = positive("mean_pressure", load.mean_pressure)?;
@@ -288,7 +292,7 @@ impl LoadedMaterial {
         })
     }
 
-    /// |E*/σ₀|²/8 and |cos φ| Im E*/(2 σ₀) of a wave at an angle φ to the motion; NaN if the frequency overflows.
+    /// Responses |E*/σ₀|²/8 and |cos φ| Im E*/(2 σ₀) of a wave at an angle φ to the motion; NaN if the frequency overflows.
     fn response(&self, cosine: f64, q: f64) -> [f64; 2] {
         let modulus = self.relaxation.complex_modulus(q * cosine * self.velocity);
         modulus.map_or([f64::NAN; 2], |modulus| {
@@ -338,7 +342,7 @@ impl LoadedMaterial {
             let mut integrands = |index: usize| {
                 let t = step * index as f64;
                 let q = first * (range * t * t * t).exp();
-                let weight = 3.0 * range * t * t * spectrum.steepness(q);
+                let weight = 3.0 * range * t * t * spectrum.squared_slope_density(q);
                 self.angular_integrals(q, max_error)
                     .map(|rate| weight * rate)
             };
@@ -362,7 +366,7 @@ impl LoadedMaterial {
 /// The integrals up to a wave number.
 #[derive(Debug, Clone, Copy, Default)]
 struct SpectralIntegrals {
-    /// G, half the variance of the pressure over the square of the mean pressure.
+    /// Integral G, half the variance of the pressure over the square of the mean pressure.
     g: f64,
     /// Friction coefficients with S = 1, P² and P⁴.
     friction_terms: [f64; N_TERMS],

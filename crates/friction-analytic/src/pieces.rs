@@ -13,7 +13,7 @@ const REQUESTED_ACCURACY: f64 = 1e-12;
 const ACCEPTED_ACCURACY: f64 = 1e2 * REQUESTED_ACCURACY;
 
 /// The integral over the pieces between successive `ends`.
-pub(crate) fn over_pieces(integrand: impl Fn(f64) -> f64, ends: &[f64]) -> Estimate {
+pub(crate) fn integrate_pieces(integrand: impl Fn(f64) -> f64, ends: &[f64]) -> Estimate {
     let piece = |ends: &[f64]| integrate(&integrand, [ends[0], ends[1]], REQUESTED_ACCURACY);
     ends.windows(2).map(piece).sum()
 }
@@ -26,7 +26,7 @@ pub(crate) fn ends_outside_apex(body: &dyn Axisymmetric, radius: f64) -> Vec<f64
 }
 
 /// The integral if its error is at most [`ACCEPTED_ACCURACY`], otherwise [`FrictionError::NotConverged`].
-pub(crate) fn accepted(
+pub(crate) fn accept_accurate(
     quantity: &'static str,
     integral: Estimate,
 ) -> Result<Estimate, FrictionError> {

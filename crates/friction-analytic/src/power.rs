@@ -50,9 +50,9 @@ pub fn power_sliding(
 /// The power profiles with further closed forms: transients on a dashpot, stationary states on other materials.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum PowerShape {
-    /// Exponent 1.
+    /// Cone: exponent 1.
     Cone,
-    /// Exponent 2.
+    /// Paraboloid: exponent 2.
     Paraboloid,
 }
 

@@ -13,7 +13,7 @@ use rheology::{Material, check_spectra};
 
 use crate::FrictionError;
 use crate::error::representable;
-use crate::pieces::{accepted, over_pieces};
+use crate::pieces::{accept_accurate, integrate_pieces};
 
 /// End of a ramp: a depth that has grown at a constant rate since first touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,8 +47,8 @@ pub fn ramp_force(
         let rate = time / branch.relaxation_time;
         // M as an integral over 1 − u, from the end of the ramp backwards.
         let integrand = |before: f64| (-rate * before).exp() * (1.0 - before).powf(power - 1.0);
-        let integral = over_pieces(integrand, &[0.0, (NEGLIGIBLE_EXPONENT / rate).min(1.0)]);
-        modulus += branch.modulus * power * accepted("memory of a ramp", integral)?.value;
+        let integral = integrate_pieces(integrand, &[0.0, (NEGLIGIBLE_EXPONENT / rate).min(1.0)]);
+        modulus += branch.modulus * power * accept_accurate("memory of a ramp", integral)?.value;
     }
     let depth_times_radius = depth * profile.line_position(depth);
     let force = 8.0 / material.half_space_factor() * modulus * (depth_times_radius / power);

@@ -70,9 +70,9 @@ pub fn one_sided_sinking_velocity(
 
 /// Sums over the intervals of a contact in the balance of forces.
 struct ContactSums {
-    /// a = Σ (β − α), \[m].
+    /// Length a = Σ (β − α) of the contact intervals, \[m].
     length: f64,
-    /// Σ [h̃(β) − h̃(α)], \[m].
+    /// Sum Σ [h̃(β) − h̃(α)] of the heights gained, \[m].
     rise: f64,
 }
 

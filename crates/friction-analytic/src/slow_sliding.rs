@@ -25,7 +25,7 @@ use rheology::{Material, RelaxationBranch};
 
 use crate::FrictionError;
 use crate::elastic_limit::{ElasticContact, low_speed_friction};
-use crate::indentation::known_moment;
+use crate::indentation::checked_moment;
 
 /// A body of revolution that slides slowly over a solid half space.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -97,23 +97,23 @@ pub fn slow_sliding(
     let radius = contact.contact_radius;
     let memory = MemoryMoments::new(solid, contact.velocity)?;
     let MemoryMoments { shift, second, .. } = memory;
-    let small = second / (shift * radius);
-    let is_slow = small <= MAX_MEMORY_OVER_RADIUS;
-    in_range("memory over radius", small, is_slow, "at most 1")?;
+    let memory_ratio = second / (shift * radius);
+    let is_slow = memory_ratio <= MAX_MEMORY_OVER_RADIUS;
+    in_range("memory over radius", memory_ratio, is_slow, "at most 1")?;
     let slope = body.line_slope(radius);
     let steepness = slope * radius / body.line_height(radius);
     let is_moderate = steepness <= MAX_STEEPNESS;
     in_range("steepness", steepness, is_moderate, "at most 10")?;
 
     // The terms of first and second order, over F_N = 2 E* ∫ x h̃' dx.
-    let moment = known_moment(body, radius)?;
+    let moment = checked_moment(body, radius)?;
     let per_square = FRAC_1_PI / (3.0 * moment);
     let mu = first_order.half_space;
     let rear_term = per_square * second * slope * slope;
     let (tip_slope, apex_error) = if exponent <= 1.0 {
         (body.line_slope(0.0), 0.0)
     } else if exponent < 2.0 {
-        (0.0, APEX_BOUND * small.powf(2.0 * exponent - 1.0))
+        (0.0, APEX_BOUND * memory_ratio.powf(2.0 * exponent - 1.0))
     } else {
         (0.0, 0.0)
     };
@@ -123,8 +123,8 @@ pub fn slow_sliding(
     let square = (rear_term / mu).powi(2);
     // (1/a) ∫₀^a h̃'² dx, which is h̃'(0)² for a cone.
     let mean_square_slope = 2.0 * mu * moment / (shift * radius);
-    let opened = body.line_slope(small * radius).powi(2) / mean_square_slope;
-    let logarithm = 1.0 - OPENING_BOUND * opened.min(1.0) * small.ln();
+    let opened = body.line_slope(memory_ratio * radius).powi(2) / mean_square_slope;
+    let logarithm = 1.0 - OPENING_BOUND * opened.min(1.0) * memory_ratio.ln();
     let third_error = THIRD_ORDER_BOUND * logarithm * memory.third / (shift * radius * radius);
     let inner_error =
         apex_loss(body, solid, contact, tip_slope) / (shift * radius * mean_square_slope);
@@ -176,8 +176,8 @@ fn apex_loss(
             sum += (slope - before).powi(2) * (length / width) * length;
         }
         // The square of the changes, and their product with the slope of a tip.
-        let both = 2.0 * sum + 4.0 * (length * sum).sqrt() * tip_slope.abs();
-        0.5 * (branch.modulus / modulus) * length * both
+        let changes = 2.0 * sum + 4.0 * (length * sum).sqrt() * tip_slope.abs();
+        0.5 * (branch.modulus / modulus) * length * changes
     };
     let relaxation = solid.relaxation();
     let modulus = relaxation.equilibrium_modulus();
@@ -187,17 +187,18 @@ fn apex_loss(
 
 /// Moments of the memory of a solid over a sliding distance, as lengths and their powers.
 struct MemoryMoments {
-    /// x_s = m₁ v, \[m].
+    /// Shift of the pressure, x_s = m₁ v, \[m].
     shift: f64,
-    /// Λ v², the sum of λ² − τ² over retardation and relaxation times, times v², \[m²].
+    /// Second moment Λ v², the sum of λ² − τ² over retardation and relaxation times, times v², \[m²].
     second: f64,
-    /// Λ₃ v³, the sum of λ³ − τ³ over retardation and relaxation times, times v³, \[m³].
+    /// Third moment Λ₃ v³, the sum of λ³ − τ³ over retardation and relaxation times, times v³, \[m³].
     third: f64,
-    /// n₂ v², \[m²].
+    /// Second moment n₂ v² of the relaxation times alone, \[m²].
     branches: f64,
 }
 
 impl MemoryMoments {
+    /// The moments of a viscoelastic solid at a speed, \[m/s].
     fn new(solid: &dyn Material, velocity: f64) -> Result<Self, FrictionError> {
         let relaxation = solid.relaxation();
         let modulus = positive("equilibrium_modulus", relaxation.equilibrium_modulus())?;

@@ -77,7 +77,7 @@ pub(crate) fn depth_under_force(
     checked_depth(material, load)
 }
 
-/// numerator/(a b) of positive numbers, without overflow or underflow of an intermediate result unless the quotient itself
+/// Quotient numerator/(a b) of positive numbers, without overflow or underflow of an intermediate result unless the quotient itself
 /// is out of range.
 pub(crate) fn quotient(numerator: f64, a: f64, b: f64) -> f64 {
     // A numerator below 1 is divided by the smaller number first, so that it grows; one above by the larger one.

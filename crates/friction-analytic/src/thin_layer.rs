@@ -14,8 +14,11 @@ use crate::error::representable;
 /// An elastic layer of thickness t, bonded to a rigid base and frictionless above.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ThinLayer {
+    /// Shear modulus G, \[Pa].
     shear_modulus: f64,
+    /// Poisson ratio ν.
     poisson_ratio: f64,
+    /// Thickness t, \[m].
     thickness: f64,
 }
 
@@ -38,11 +41,11 @@ impl ThinLayer {
         poisson_ratio: f64,
         thickness: f64,
     ) -> Result<Self, InvalidParameter> {
-        let holds = poisson_ratio > -1.0 && poisson_ratio <= 0.5;
+        let is_allowed = poisson_ratio > -1.0 && poisson_ratio <= 0.5;
         let allowed = "greater than -1 and at most 0.5";
         Ok(Self {
             shear_modulus: positive("shear_modulus", shear_modulus)?,
-            poisson_ratio: in_range("poisson_ratio", poisson_ratio, holds, allowed)?,
+            poisson_ratio: in_range("poisson_ratio", poisson_ratio, is_allowed, allowed)?,
             thickness: positive("thickness", thickness)?,
         })
     }

@@ -38,6 +38,7 @@ pub struct TransientSliding {
 
 /// Shape and stationary state, which scale the transient.
 struct TransientScales {
+    /// Cone or paraboloid.
     shape: PowerShape,
     /// Stationary depth D, (12), \[m].
     depth: f64,
@@ -76,8 +77,8 @@ pub fn sliding_distance_to_depth(
     fraction: f64,
 ) -> Result<f64, FrictionError> {
     let scales = TransientScales::new(profile, material, load)?;
-    let holds = (0.0..1.0).contains(&fraction);
-    in_range("fraction", fraction, holds, "at least 0 and less than 1")?;
+    let is_part = (0.0..1.0).contains(&fraction);
+    in_range("fraction", fraction, is_part, "at least 0 and less than 1")?;
     Ok(scales.length
         * match scales.shape {
             // Before and after the trailing flank lifts off, which a cone does at D/2 and a paraboloid at D/4.
@@ -117,11 +118,12 @@ pub fn cone_depth_by_equation_15(
     }
     let distance = load.velocity() * not_negative("time", time)? / scales.length;
     let fraction = bracketed_root(|q| distance_by_equation_15(q) - distance, [0.0, 1.0]);
-    let failed = out_of_range("sliding distance", distance);
-    Ok(scales.depth * fraction.ok_or(failed)?)
+    let overflow = out_of_range("sliding distance", distance);
+    Ok(scales.depth * fraction.ok_or(overflow)?)
 }
 
 impl TransientScales {
+    /// The stationary state of a cone or paraboloid under a load.
     fn new(
         profile: &PowerProfile,
         material: &Viscous,
@@ -192,7 +194,7 @@ fn is_two_sided(shape: PowerShape, distance: f64) -> bool {
     distance <= shape.lift_off() * (1.0 + 16.0 * f64::EPSILON)
 }
 
-/// T(y) = y − ln y − ½ − ln 2, the sliding distance after t* over x_d.
+/// Distance T(y) = y − ln y − ½ − ln 2, the sliding distance after t* over x_d.
 fn distance_since_lift_off(y: f64) -> f64 {
     y - y.ln() - 0.5 - LN_2
 }

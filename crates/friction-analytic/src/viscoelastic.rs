@@ -17,7 +17,7 @@ use rheology::{KelvinVoigt, Maxwell};
 
 use crate::FrictionError;
 use crate::error::{out_of_range, representable};
-use crate::pieces::{accepted, over_pieces};
+use crate::pieces::{accept_accurate, integrate_pieces};
 use crate::power::PowerShape;
 
 /// Front and speed of a sliding contact.
@@ -112,11 +112,11 @@ pub fn maxwell_sliding(
 
 /// Rear, load and friction of a contact in units of its front and depth.
 struct RelativeSliding {
-    /// x_l/x_r.
+    /// Position of the rear end over that of the front, x_l/x_r.
     rear: f64,
-    /// ∫ w dx/(G d x_r).
+    /// Normal force over the product of four times the modulus, depth and front, ∫ w dx/(G d x_r).
     load: f64,
-    /// μ x_r/d.
+    /// Friction coefficient over depth/front, μ x_r/d.
     friction: f64,
 }
 
@@ -147,15 +147,15 @@ fn maxwell_cone(ratio: f64) -> RelativeSliding {
 /// The paraboloid for Y = x_r/l, with the functions φ_k of [`Phi`].
 fn maxwell_paraboloid(ratio: f64) -> Result<RelativeSliding, FrictionError> {
     // Solve Y = z φ₂/φ₁, where x_r < x_r − x_l < 2 x_r.
-    let excess = |z: f64| {
+    let ratio_excess = |z: f64| {
         let Phi { one, two, .. } = Phi::new(z);
         z * two / one - ratio
     };
     let bracket = [ratio, 2.0 * ratio * (1.0 + BRACKET_MARGIN)];
-    let failed = out_of_range("contact length", ratio);
-    let z = bracketed_root(excess, bracket).ok_or(failed)?;
-    let Phi { one, two, rest } = Phi::new(z);
-    let load = z.powi(3) * rest / one;
+    let overflow = out_of_range("contact length", ratio);
+    let z = bracketed_root(ratio_excess, bracket).ok_or(overflow)?;
+    let Phi { one, two, load } = Phi::new(z);
+    let load_integral = z.powi(3) * load / one;
 
     // Integrate the work. φ₁(ζ) − φ₁(z) is a difference of numbers near 1 where z is small.
     let difference = |zeta: f64| {
@@ -169,12 +169,12 @@ fn maxwell_paraboloid(ratio: f64) -> Result<RelativeSliding, FrictionError> {
     let square = |zeta: f64| (zeta * difference(zeta) / one).powi(2);
     let mut ends = vec![0.0, NEGLIGIBLE_EXPONENT.min(z), z];
     ends.dedup();
-    let work = accepted("friction work", over_pieces(square, &ends))?;
+    let work = accept_accurate("friction work", integrate_pieces(square, &ends))?;
     // In units of x_r: l = 1/Y, w = 2 G k l² …, so that the friction of slope 2 k x_r is 2 ∫ / (Y load).
-    let friction = 4.0 * work.value / (load * ratio);
+    let friction = 4.0 * work.value / (load_integral * ratio);
     Ok(RelativeSliding {
         rear: 1.0 - z / ratio,
-        load: load / ratio.powi(3),
+        load: load_integral / ratio.powi(3),
         friction,
     })
 }
@@ -188,15 +188,16 @@ const BRACKET_MARGIN: f64 = 0.1;
 
 /// The functions φ₁ = (1 − e^(−z))/z and φ_(k+1) = (1/k! − φ_k)/z of z > 0, without cancellation.
 struct Phi {
-    /// φ₁.
+    /// Function φ₁.
     one: f64,
-    /// φ₂.
+    /// Function φ₂.
     two: f64,
-    /// φ₂ − 2 φ₃.
-    rest: f64,
+    /// Difference φ₂ − 2 φ₃, which the load contains.
+    load: f64,
 }
 
 impl Phi {
+    /// The functions at z > 0: from a series where z < 1, and from exponentials elsewhere.
     fn new(z: f64) -> Self {
         if z < 1.0 {
             // φ₃ = 1/3! − z/4! + z²/5! − …, and from it the lower orders.
@@ -210,28 +211,30 @@ impl Phi {
             return Self {
                 one: 1.0 - z * two,
                 two,
-                rest: two - 2.0 * three,
+                load: two - 2.0 * three,
             };
         }
         let one = -(-z).exp_m1() / z;
         Self {
             one,
             two: (1.0 - one) / z,
-            rest: (1.0 + (-z).exp() - 2.0 * one) / z / z,
+            load: (1.0 + (-z).exp() - 2.0 * one) / z / z,
         }
     }
 }
 
 /// A cone or paraboloid with a given front of the contact.
 struct SlidingProfile {
+    /// Cone or paraboloid.
     shape: PowerShape,
-    /// x_r, \[m].
+    /// Position x_r of the leading edge, \[m].
     front: f64,
-    /// d = h̃(x_r), \[m].
+    /// Indentation depth d = h̃(x_r), \[m].
     depth: f64,
 }
 
 impl SlidingProfile {
+    /// Checks the front and the speed, and computes the depth.
     fn new(profile: &PowerProfile, contact: SlidingContact) -> Result<Self, FrictionError> {
         let front = positive("front", contact.front)?;
         positive("velocity", contact.velocity)?;

@@ -55,14 +55,14 @@ pub fn wavy_sliding(line: WavyLine, material: &dyn Material) -> Result<FullConta
     let wave_number = std::f64::consts::TAU / positive("wavelength", line.wavelength)?;
     let frequency = positive("angular frequency", wave_number * line.velocity)?;
     let modulus = complex_modulus(material, frequency)?;
-    // |G*|, which scales the amplitude of the load.
-    let size = modulus.storage.hypot(modulus.loss);
-    let steepness = wave_number * amplitude;
+    // The modulus |G*| scales the amplitude of the load.
+    let dynamic_modulus = modulus.storage.hypot(modulus.loss);
+    let slope = wave_number * amplitude;
     let loss = modulus.loss / material.half_space_factor();
     Ok(FullContact {
-        friction_per_length: representable("friction", 2.0 * steepness * amplitude * loss)?,
-        least_depth: amplitude * (size / material.relaxation().equilibrium_modulus()),
-        largest_friction_coefficient: 0.5 * steepness * (modulus.loss / size),
+        friction_per_length: representable("friction", 2.0 * slope * amplitude * loss)?,
+        least_depth: amplitude * (dynamic_modulus / material.relaxation().equilibrium_modulus()),
+        largest_friction_coefficient: 0.5 * slope * (modulus.loss / dynamic_modulus),
     })
 }
 
@@ -123,9 +123,9 @@ pub fn wavy_surface_sliding(
         let [along, across] = wave.wave_vector;
         let wave_number = positive("length of a wave vector", along.hypot(across))?;
         let modulus = complex_modulus(material, along.abs() * velocity)?;
-        let steepness = wave_number * amplitude / material.half_space_factor();
-        stress += modulus.loss * steepness * (along.abs() * amplitude);
-        pressure += 2.0 * modulus.storage.hypot(modulus.loss) * steepness;
+        let pressure_slope = wave_number * amplitude / material.half_space_factor();
+        stress += modulus.loss * pressure_slope * (along.abs() * amplitude);
+        pressure += 2.0 * modulus.storage.hypot(modulus.loss) * pressure_slope;
     }
     let friction_stress = representable("friction", stress)?;
     let full_contact_pressure = representable("pressure", pressure)?;

@@ -9,8 +9,11 @@ use numerics::finite;
 /// A rigid line whose height and slope are functions of the position.
 #[derive(Clone)]
 pub struct AnalyticLine<H, S> {
+    /// Height \[m] as a function of the position \[m].
     height: H,
+    /// Slope as a function of the position \[m].
     slope: S,
+    /// Rear and front end of the line, \[m].
     domain: [f64; 2],
 }
 

@@ -64,7 +64,9 @@ pub fn contact_radius(
 
 /// Search for the contact radius of a body at one depth.
 struct Search<'a, P: ?Sized> {
+    /// Body that is pressed.
     body: &'a P,
+    /// Indentation depth, \[m].
     depth: f64,
 }
 

@@ -23,7 +23,9 @@ const EDGE_TOLERANCE: f64 = 1e-12;
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct HeightMap {
+    /// Rows along x and columns along y.
     shape: [usize; 2],
+    /// Distances between rows and between columns, \[m].
     spacing: [f64; 2],
     /// Row and column of the lowest height.
     lowest: [usize; 2],

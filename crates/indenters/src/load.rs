@@ -30,6 +30,7 @@ impl Control {
         }
     }
 
+    /// Refuses a force or depth that is not greater than zero.
     fn checked(self) -> Result<Self, InvalidParameter> {
         match self {
             Self::NormalForce(force) => positive("normal_force", force).map(Self::NormalForce),
@@ -62,8 +63,11 @@ impl HistoryPoint {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SlidingLoad {
+    /// Prescribed force or depth.
     control: Control,
+    /// Sliding speed, \[m/s].
     velocity: f64,
+    /// Sliding distance since first touch, \[m]; `None` for the stationary state.
     sliding_distance: Option<f64>,
     /// Length of a closed track, \[m]; `None` if a sliding distance is set.
     track: Option<f64>,
@@ -191,7 +195,9 @@ impl SlidingLoad {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PressingLoad {
+    /// Prescribed force or depth.
     control: Control,
+    /// Time since first touch, \[s].
     duration: f64,
 }
 

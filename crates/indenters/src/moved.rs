@@ -98,7 +98,7 @@ pub struct MotionRecord {
     /// Number of cycles so far.
     pub n_cycles: usize,
     /// Estimated remaining changes up to the limit cycle: friction coefficient, tangential force, normal force, depth.
-    pub rest: [f64; 4],
+    pub remaining_changes: [f64; 4],
     /// Largest change of a history variable by the last cycle, relative to the largest of them; 0 if they were not compared.
     pub history_change: f64,
     /// Work less the energy dissipated by the elements, \[J].
@@ -106,7 +106,7 @@ pub struct MotionRecord {
     /// Length of an element, \[m].
     pub spacing: f64,
     /// Root mean square slope of a periodic surface; 0 for a body, whose slope follows from depth and contact.
-    pub steepness: f64,
+    pub rms_slope: f64,
 }
 
 impl MotionRecord {
@@ -117,7 +117,7 @@ impl MotionRecord {
         self.steps.push(step);
     }
 
-    /// Estimated remaining changes up to the limit cycle, in the order of [`rest`](Self::rest).
+    /// Estimated remaining changes up to the limit cycle, in the order of [`remaining_changes`](Self::remaining_changes).
     ///
     /// Changes from the previous cycle to this one consist of a slow drift, which is uniform over the cycle, and of elements
     /// that come and go in single steps. The drift, estimated by the mean change, is extrapolated by the factor `slowness`.
@@ -139,7 +139,7 @@ impl MotionRecord {
         ]
     }
 
-    /// Scales of the quantities in [`rest`](Self::rest): the friction coefficient, and largest forces and depth.
+    /// Scales of the quantities in [`remaining_changes`](Self::remaining_changes): the friction coefficient, and largest forces and depth.
     fn scales(&self) -> [f64; 4] {
         let largest = |quantity: fn(&MotionStep) -> f64| {
             self.steps
@@ -165,19 +165,20 @@ impl MotionRecord {
         }
     }
 
-    /// Updates [`rest`](Self::rest) from the previous cycle and returns the largest weighted relative remaining change.
+    /// Updates [`remaining_changes`](Self::remaining_changes) from the previous cycle and returns the largest weighted relative remaining change.
     ///
     /// The history variables count too, because a surface that rises towards the body changes no force until they touch. For the same
     /// reason a cycle without contact is never the limit cycle, and its remaining change is infinite.
-    pub fn rest_after(&mut self, before: &Self, slowness: f64) -> f64 {
-        self.rest = self.remaining_change(before, slowness);
+    pub fn update_remaining_changes(&mut self, before: &Self, slowness: f64) -> f64 {
+        self.remaining_changes = self.remaining_change(before, slowness);
         if self.steps.iter().all(|step| step.normal_force <= 0.0) {
             return f64::INFINITY;
         }
         let history = HISTORY_WEIGHT * slowness * self.history_change;
-        let weighted = self.rest.iter().zip(self.scales()).zip(LIMIT_CYCLE_WEIGHTS);
+        let changes = self.remaining_changes.iter();
+        let weighted = changes.zip(self.scales()).zip(LIMIT_CYCLE_WEIGHTS);
         weighted
-            .map(|((rest, scale), weight)| weight * rest / scale)
+            .map(|((change, scale), weight)| weight * change / scale)
             .fold(history, f64::max)
     }
 
@@ -214,7 +215,9 @@ type PointValues = [f64; POINT_QUANTITIES];
 /// A position of a motion: a stage and the fraction of it that has passed.
 #[derive(Clone, Copy)]
 struct Station {
+    /// Index of the stage.
     stage: usize,
+    /// Fraction of its duration, from 0 to 1.
     part: f64,
 }
 
@@ -254,7 +257,7 @@ impl MotionView<'_> {
     /// The friction coefficient controls a refinement; so do the tangential forces of a single motion.
     pub fn quantities(&self, record: &MotionRecord) -> Vec<Quantity> {
         let mut quantities = self.motion_quantities(record).to_vec();
-        let steepness = self.steepness(record);
+        let slope_scale = self.slope_scale(record);
         let points: Vec<Interpolated> = self
             .stations()
             .iter()
@@ -268,7 +271,7 @@ impl MotionView<'_> {
             }
         }
         scales[0] = scales[0].max(if self.is_elastic {
-            steepness * scales[1]
+            slope_scale * scales[1]
         } else {
             0.0
         });
@@ -285,16 +288,17 @@ impl MotionView<'_> {
 
     /// Friction coefficient, peak friction and work.
     fn motion_quantities(&self, record: &MotionRecord) -> [Quantity; MOTION_QUANTITIES] {
+        // Values and scales of the record.
         let friction = record.friction();
         let peak = record.peak();
-        let steepness = self.steepness(record);
+        let slope_scale = self.slope_scale(record);
         let is_cycle = self.load.is_cycle();
         let imbalance = record.imbalance / record.normal_work;
         let resolution_error = record.resolution_error();
         [
             Quantity {
                 scale: if self.is_elastic {
-                    steepness
+                    slope_scale
                 } else if is_cycle {
                     friction.abs()
                 } else {
@@ -305,7 +309,7 @@ impl MotionView<'_> {
                 } else {
                     0.0
                 }),
-                rounding_error: FRICTION_ROUNDING * steepness,
+                rounding_error: FRICTION_ROUNDING * slope_scale,
                 extrapolation_order: self.extrapolation_order,
                 ..Quantity::from(friction)
             },
@@ -320,7 +324,7 @@ impl MotionView<'_> {
                 } else {
                     0.0
                 }),
-                rounding_error: FRICTION_ROUNDING * steepness * record.normal_work,
+                rounding_error: FRICTION_ROUNDING * slope_scale * record.normal_work,
                 extrapolation_order: self.extrapolation_order,
                 controls_refinement: false,
                 ..Quantity::from(record.work)
@@ -329,7 +333,7 @@ impl MotionView<'_> {
     }
 
     /// Estimate of the mean slope in the contact: the largest ratio of depth to length of contact.
-    fn steepness(&self, record: &MotionRecord) -> f64 {
+    fn slope_scale(&self, record: &MotionRecord) -> f64 {
         let steps = record.steps.iter();
         let slopes = steps.filter_map(|step| {
             let [rear, front] = step.contact?;
@@ -337,11 +341,11 @@ impl MotionView<'_> {
         });
         slopes
             .filter(|slope| slope.is_finite())
-            .fold(record.steepness, f64::max)
+            .fold(record.rms_slope, f64::max)
     }
 
     /// Name of the quantity with this index.
-    pub const fn in_words(quantity: usize) -> &'static str {
+    pub const fn quantity_name(quantity: usize) -> &'static str {
         match quantity {
             0 => "friction coefficient",
             1 => "largest friction coefficient",
@@ -355,23 +359,23 @@ impl MotionView<'_> {
     }
 
     /// Truncation errors of the [`quantities`](Self::quantities) up to the limit cycle; empty for a single motion.
-    pub fn rests(&self, record: &MotionRecord) -> Vec<ErrorParts> {
+    pub fn truncation_errors(&self, record: &MotionRecord) -> Vec<ErrorParts> {
         if !self.load.is_cycle() {
             return Vec::new();
         }
-        let truncated = |rest: f64| ErrorParts {
-            truncation: Some(rest),
+        let truncated = |change: f64| ErrorParts {
+            truncation: Some(change),
             ..ErrorParts::NONE
         };
-        let [friction, of_point @ ..] = record.rest;
-        let [tangential_force, normal_force, _] = of_point;
+        let [friction, point_errors @ ..] = record.remaining_changes;
+        let [tangential_force, normal_force, _] = point_errors;
         let force_scale = record.scales()[2];
         let work = friction * record.normal_work + normal_force / force_scale * record.work.abs();
-        let of_motion = [friction, tangential_force / force_scale, work];
-        let of_points = self.stations().into_iter().flat_map(|_| of_point);
-        of_motion
+        let motion_errors = [friction, tangential_force / force_scale, work];
+        let all_point_errors = self.stations().into_iter().flat_map(|_| point_errors);
+        motion_errors
             .into_iter()
-            .chain(of_points)
+            .chain(all_point_errors)
             .map(truncated)
             .collect()
     }
@@ -396,7 +400,7 @@ impl MotionView<'_> {
         let is_prescribed = |k: usize| (k == 1 && is_force) || (k == 2 && !is_force);
         let stations = self.stations().into_iter().enumerate();
         let points = stations.map(|(index, station)| {
-            let prescribed = self.load.stages()[station.stage].at(station.part);
+            let prescribed = self.load.stages()[station.stage].point_at(station.part);
             let values = interpolate(self.load, &record.steps, station).values;
             let [tangential_force, normal_force, indentation_depth] = std::array::from_fn(|k| {
                 if is_prescribed(k) {
@@ -441,7 +445,9 @@ impl MotionView<'_> {
 
 /// Quantities at a station, and the scatter of the steps around it.
 struct Interpolated {
+    /// Interpolated quantities.
     values: PointValues,
+    /// Scatter of each quantity.
     scatter: PointValues,
 }
 
@@ -457,17 +463,20 @@ fn interpolate(load: &MovingLoad, steps: &[MotionStep], station: Station) -> Int
             step.indentation_depth,
         ]
     };
+    // Find the two steps of the stage around the station.
     let first = steps.partition_point(|step| step.stage < stage);
     let count = steps[first..].partition_point(|step| step.stage == stage);
     let steps = &steps[first..first + count];
-    let time = Stage::at(&load.stages()[stage], part).time;
+    let time = Stage::point_at(&load.stages()[stage], part).time;
     let after = steps
         .partition_point(|step| step.time < time)
         .clamp(1, count - 1);
     let (before, next) = (&steps[after - 1], &steps[after]);
+    // Interpolate between them.
     let along = (time - before.time) / (next.time - before.time);
     let (from, to) = (values(before), values(next));
     let interpolated = std::array::from_fn(|k| from[k] + along * (to[k] - from[k]));
+    // Find the scatter, with three steps at least.
     let scatter = match steps.get((after + 1).saturating_sub(2).min(count.saturating_sub(3))..) {
         Some([a, b, c, ..]) => {
             let middle = (b.time - a.time) / (c.time - a.time);

@@ -50,7 +50,9 @@ pub struct Stroke {
 pub struct MovingLoad {
     /// Time at which the motion begins, \[s]; times of the stages count from it, so that they keep their digits.
     start_time: f64,
+    /// Stages in the order of time.
     stages: Vec<Stage>,
+    /// True for one cycle of a reciprocating motion.
     is_cycle: bool,
 }
 
@@ -62,6 +64,7 @@ pub struct Stage {
     pub start: MovingPoint,
     /// Last point of the stage.
     pub end: MovingPoint,
+    /// Position as a function of time.
     shape: Shape,
 }
 
@@ -73,7 +76,7 @@ impl MovingLoad {
     /// - [`IndenterError::NotIncreasing`] for times that do not increase;
     /// - [`IndenterError::InvalidParameter`] for numbers out of range, for positions that are all the same, and for points of
     ///   which some have a force and some a depth.
-    pub fn through(points: &[MovingPoint]) -> Result<Self, IndenterError> {
+    pub fn through_points(points: &[MovingPoint]) -> Result<Self, IndenterError> {
         let [first, .., last] = points else {
             return Err(IndenterError::TooFew {
                 list: "points of the motion",
@@ -81,6 +84,7 @@ impl MovingLoad {
                 length: points.len(),
             });
         };
+        // Check the points.
         let is_force = |point: &MovingPoint| matches!(point.control, Control::NormalForce(_));
         for (index, point) in points.iter().enumerate() {
             finite("time", point.time)?;
@@ -103,6 +107,7 @@ impl MovingLoad {
             }
         }
         positive("duration of the motion", last.time - first.time)?;
+        // Turn each interval into a stage.
         let relative_to_start = |point: MovingPoint| MovingPoint {
             time: point.time - first.time,
             ..point
@@ -117,6 +122,7 @@ impl MovingLoad {
             stages: points.windows(2).map(stage).collect(),
             is_cycle: false,
         };
+        // Check the whole motion.
         positive("length of the motion", load.length())?;
         let allowed = "above 0 at one point of the motion at least";
         let largest = load.largest_control().value();
@@ -201,7 +207,7 @@ impl MovingLoad {
 
 impl Stage {
     /// Point after a fraction of the duration, from 0 to 1.
-    pub fn at(&self, part: f64) -> MovingPoint {
+    pub fn point_at(&self, part: f64) -> MovingPoint {
         let (start, end) = (&self.start, &self.end);
         let path_fraction = match self.shape {
             Shape::Sinusoidal => (std::f64::consts::FRAC_PI_2 * part).sin().powi(2),

@@ -121,14 +121,16 @@ fn point_at(stage: &Stage, part: f64) -> MovingPoint {
     if part >= 1.0 {
         stage.end
     } else {
-        stage.at(part)
+        stage.point_at(part)
     }
 }
 
 /// A step of a stage, relative to the duration of the stage.
 #[derive(Clone, Copy)]
 struct StagePart {
+    /// End of the step.
     end: f64,
+    /// Length of the step.
     length: f64,
 }
 
@@ -144,7 +146,9 @@ fn equal_parts(count: f64) -> impl Iterator<Item = StagePart> {
 
 /// Geometrically growing steps up to the longest, then equal ones; lengths are relative to the stage.
 struct Graded {
+    /// Lengths of the growing steps.
     growing: Vec<f64>,
+    /// Number of equal steps, a whole number.
     n_equal: f64,
     /// Total length of the equal steps.
     equal_total: f64,
@@ -180,6 +184,7 @@ impl Graded {
         self.n_equal.recip() * self.equal_total
     }
 
+    /// All steps in the order of time.
     fn parts(&self) -> Vec<StagePart> {
         let equal = equal_parts(self.n_equal).map(|_| self.equal_length());
         let mut end = 0.0;

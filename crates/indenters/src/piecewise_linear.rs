@@ -16,7 +16,9 @@ use numerics::in_range;
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PiecewiseLinearProfile {
+    /// Radii of the points, increasing from 0, \[m].
     radii: Vec<f64>,
+    /// Heights of the points, \[m].
     heights: Vec<f64>,
     /// Slope of each piece.
     #[cfg_attr(feature = "serde", serde(skip))]

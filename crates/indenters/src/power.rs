@@ -14,7 +14,9 @@ use numerics::positive;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PowerProfile {
+    /// Coefficient c, in metres to the power 1 − p.
     coefficient: f64,
+    /// Exponent p.
     exponent: f64,
     /// Stretch κ(p), stored because every height of the line needs it.
     #[cfg_attr(feature = "serde", serde(skip))]

@@ -62,10 +62,12 @@ macro_rules! surface_of_revolution {
 
 surface_of_revolution!(dyn Axisymmetric + '_);
 
+/// Height of a body of revolution at a point, \[m].
 pub fn height(body: &(impl Axisymmetric + ?Sized), [x, y]: [f64; 2]) -> f64 {
     body.profile_height(x.hypot(y))
 }
 
+/// Gradient of a body of revolution at a point; 0 at the apex, at a vertical edge, and outside.
 pub fn gradient(body: &(impl Axisymmetric + ?Sized), [x, y]: [f64; 2]) -> [f64; 2] {
     let radius = x.hypot(y);
     if radius == 0.0 || radius > body.max_radius() {

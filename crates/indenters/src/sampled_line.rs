@@ -7,7 +7,9 @@ use crate::{IndenterError, RigidLine};
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SampledLine {
+    /// Positions of the points, increasing, \[m].
     positions: Vec<f64>,
+    /// Heights of the points, \[m].
     heights: Vec<f64>,
 }
 

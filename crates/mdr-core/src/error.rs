@@ -141,7 +141,7 @@ pub enum MdrError {
         reached: Box<Sliding>,
     },
     /// A quantity of a motion has a larger error than asked for on the finest resolution allowed.
-    #[error("the {} {missed}", MotionView::in_words(missed.quantity))]
+    #[error("the {} {missed}", MotionView::quantity_name(missed.quantity))]
     MotionNotReached {
         /// The quantity, its value and its error.
         missed: NotReached,
@@ -164,7 +164,7 @@ pub enum MdrError {
         cycles: usize,
         /// Relative change that may remain.
         change: f64,
-        /// The tolerance.
+        /// Largest relative change that counts as periodic.
         tolerance: f64,
     },
     /// The body is longer than the track.
@@ -250,7 +250,7 @@ pub enum MdrError {
     NonFinite {
         /// Name of the quantity.
         quantity: &'static str,
-        /// Its value.
+        /// Its value in the unit of the quantity.
         value: f64,
         /// Time since first contact, \[s].
         time: f64,

@@ -77,6 +77,7 @@ impl ErrorParts {
         })
     }
 
+    /// Combines each part of this error bar with the same part of another one.
     fn combined_by(
         self,
         other: Self,

@@ -50,18 +50,19 @@ impl fmt::Display for Estimate {
         }
 
         // Powers of ten of the last digit shown and of the first one.
-        let error = error.max(MIN_RELATIVE_ERROR * value.abs());
-        let last = power_of_rounded(error) - 1;
-        let first = power_of_ten(value).max(power_of_rounded(error));
+        let shown_error = error.max(MIN_RELATIVE_ERROR * value.abs());
+        let last = power_of_rounded(shown_error) - 1;
+        let first = power_of_ten(value).max(power_of_rounded(shown_error));
         if PLAIN_POWERS.contains(&first) && last <= 0 {
-            let [value, error] = [value, error].map(|number| fixed(number, -last));
-            return write!(formatter, "{value} ± {error}");
+            let [digits, error_digits] = [value, shown_error].map(|number| fixed(number, -last));
+            return write!(formatter, "{digits} ± {error_digits}");
         }
         // Half of the power at a time, because the whole one may overflow.
         let half = 10.0_f64.powi(-first / 2);
-        let rest = 10.0_f64.powi(-first - -first / 2);
-        let [value, error] = [value, error].map(|number| fixed(number * half * rest, first - last));
-        write!(formatter, "({value} ± {error})e{first}")
+        let other_half = 10.0_f64.powi(-first - -first / 2);
+        let mantissa = |number: f64| fixed(number * half * other_half, first - last);
+        let [digits, error_digits] = [value, shown_error].map(mantissa);
+        write!(formatter, "({digits} ± {error_digits})e{first}")
     }
 }
 

@@ -106,9 +106,9 @@ pub fn anderson_fixed_point<T, E>(
 
 /// One evaluation of the map g.
 struct Evaluation {
-    /// x.
+    /// Point x.
     start: Vec<f64>,
-    /// g(x).
+    /// Value g(x) at this point.
     value: Vec<f64>,
 }
 
@@ -146,7 +146,7 @@ fn combine(evaluated: &[Evaluation], state: &mut [f64]) {
     }
 }
 
-/// a − b.
+/// Difference a − b, element by element.
 fn minus(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a - b).collect()
 }

@@ -3,7 +3,7 @@
 /// Largest angle at which the series of j₀ and j₁ are used; the first terms left out are at most 2e-16 of the functions there.
 const MAX_SERIES_ANGLE: f64 = 1e-2;
 
-/// |∫ f e^(ikx) dx|² of a piecewise linear function f at the wave number k.
+/// Power spectrum |∫ f e^(ikx) dx|² of a piecewise linear function f at the wave number k.
 ///
 /// The function is linear between `points` [x, f], whose positions do not decrease, and 0 outside of them. Two points at one
 /// position are a jump.

@@ -23,7 +23,7 @@ pub fn legendre_values<const N: usize>(t: f64) -> [f64; N] {
     })
 }
 
-/// P_(n+1)(t) from P_(n−1)(t) and P_n(t): (n + 1) P_(n+1) = (2n + 1) t P_n − n P_(n−1) (NIST DLMF 18.9.1).
+/// Polynomial P_(n+1)(t) from P_(n−1)(t) and P_n(t): (n + 1) P_(n+1) = (2n + 1) t P_n − n P_(n−1) (NIST DLMF 18.9.1).
 fn next_legendre(degree: usize, t: f64, previous: f64, current: f64) -> f64 {
     let n = degree as f64;
     ((2.0 * n + 1.0) * t * current - n * previous) / (n + 1.0)

@@ -57,6 +57,7 @@ impl Progress for CappedProgress<'_> {
 /// Progress of one part of the work, reported as a fraction of all work; from [`WorkProgress::partial`].
 #[derive(Debug)]
 pub struct PartialProgress<'a> {
+    /// Receiver of the reports.
     watch: &'a dyn Progress,
     /// Fraction of all work that is completed before this part begins.
     start: f64,
@@ -78,8 +79,11 @@ impl Progress for PartialProgress<'_> {
 /// Completed and expected work, in a unit that the caller chooses.
 #[derive(Debug)]
 pub struct WorkProgress<'a> {
+    /// Receiver of the reports.
     watch: &'a dyn Progress,
+    /// Work that is completed.
     completed: f64,
+    /// Expected total work.
     expected: f64,
 }
 

@@ -132,7 +132,7 @@ impl From<f64> for Quantity {
 /// The result on the finest resolution, with the error of each quantity.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Refined<T> {
-    /// The result.
+    /// Result on the finest resolution.
     pub value: T,
     /// Value of each quantity: that of the result, or [extrapolated](Quantity::extrapolation_order).
     pub quantities: Vec<f64>,
@@ -189,8 +189,8 @@ impl NotReached {
         })
     }
 
-    /// Factor by which the error is too large.
-    pub fn excess(&self) -> f64 {
+    /// The error over the requested one: the factor by which it is too large.
+    pub fn error_ratio(&self) -> f64 {
         self.error / (self.relative_error * self.scale)
     }
 }
@@ -231,7 +231,7 @@ pub const SUMMATION_ERROR: f64 = 1e-12;
 /// The result on one level of a refinement.
 #[derive(Debug)]
 pub struct Level<T> {
-    /// The result.
+    /// Result on this resolution.
     pub found: T,
     /// The quantity whose error is too large; `None` if all are small enough, or no relative error was requested.
     pub missed: Option<NotReached>,
@@ -280,7 +280,7 @@ pub struct LevelForecast {
 impl LevelForecast {
     /// Number of levels, at least 1, until the error is small enough or the limits are reached.
     fn levels(&self, missed: &NotReached) -> f64 {
-        let needed = missed.excess().ln() / -self.error_ratio.ln();
+        let needed = missed.error_ratio().ln() / -self.error_ratio.ln();
         needed.min(self.max_levels).ceil().max(1.0)
     }
 
@@ -295,19 +295,19 @@ impl LevelForecast {
 ///
 /// - `solve` computes the result on a number of elements.
 /// - `quantities` extracts the numbers that are refined, equally many on every resolution.
-/// - `others` returns the error parts that are equal on all resolutions and hence invisible in their differences. It may
+/// - `other_errors` returns the error parts that are equal on all resolutions and hence invisible in their differences. It may
 ///   return those of the first quantities only. It is called once the discretisation error is small enough, and on the last
 ///   resolution.
 ///
-/// `solve` and `others` receive a function that reports their completed fraction, from 0 to 1.
+/// `solve` and `other_errors` receive a function that reports their completed fraction, from 0 to 1.
 ///
 /// # Errors
-/// Those of `solve` and `others`.
+/// Those of `solve` and `other_errors`.
 pub fn refine<T, E>(
     goal: &Goal,
     solve: impl Fn(usize, &dyn Fn(f64)) -> Result<T, E>,
     quantities: impl Fn(&T) -> Vec<Quantity>,
-    others: impl Fn(&T, &dyn Fn(f64)) -> Result<Vec<ErrorParts>, E>,
+    other_errors: impl Fn(&T, &dyn Fn(f64)) -> Result<Vec<ErrorParts>, E>,
 ) -> Result<Refined<T>, E> {
     let Request { accuracy, watch } = goal.request;
     let (mut elements, relative_error, selection_factor) = match accuracy {
@@ -358,14 +358,14 @@ pub fn refine<T, E>(
         let is_last = || elements >= goal.max_elements || !watch.may_refine(2 * elements);
         if not_reached(relative_error, &fine, &parts, elements).is_none() || is_last() {
             let work = goal.extra_work * goal.work_on(elements as f64);
-            let others = progress.run(work, |report| others(&value, report))?;
-            for (part, other) in parts.iter_mut().zip(others) {
+            let other_parts = progress.run(work, |report| other_errors(&value, report))?;
+            for (part, other) in parts.iter_mut().zip(other_parts) {
                 *part = part.plus(other);
             }
         }
 
         // Richardson extrapolation, where the order is known.
-        let stated = fine.iter().zip(&half).map(|(fine, half)| {
+        let extrapolated = fine.iter().zip(&half).map(|(fine, half)| {
             let gain = fine
                 .extrapolation_order
                 .map(|order| (order * LN_2).exp_m1());
@@ -373,7 +373,7 @@ pub fn refine<T, E>(
                 fine.value + (fine.value - half.value) / gain
             })
         });
-        let stated: Vec<f64> = stated.collect();
+        let stated: Vec<f64> = extrapolated.collect();
 
         // Double the elements; their half and three eighths are known then.
         let missed =
@@ -431,10 +431,13 @@ impl Goal<'_> {
 
 /// Values of one quantity on n, 3n/4, n/2 and 3n/8 elements.
 struct ResolutionValues {
+    /// Value on n elements.
     fine: f64,
+    /// Value on 3n/4 elements.
     three_quarters: f64,
+    /// Value on n/2 elements.
     half: f64,
-    /// `None` if n is too small for 3n/8 elements.
+    /// Value on 3n/8 elements; `None` if n is too small for them.
     three_eighths: Option<f64>,
 }
 

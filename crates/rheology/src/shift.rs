@@ -96,11 +96,11 @@ impl Shift {
     ///
     /// # Errors
     /// The errors of [`Self::log10_factor`].
-    pub fn about(&self, temperature: f64) -> Result<Self, RheologyError> {
+    pub fn with_reference(&self, temperature: f64) -> Result<Self, RheologyError> {
         self.log10_factor(temperature)?;
         let law = match self.law {
             ShiftLaw::Wlf([c1, c2]) => {
-                let law = WlfShift::new(c1, c2, self.temperature)?.about(temperature)?;
+                let law = WlfShift::new(c1, c2, self.temperature)?.with_reference(temperature)?;
                 ShiftLaw::Wlf(law.constants())
             }
             ShiftLaw::Arrhenius(_) => self.law,
@@ -117,6 +117,7 @@ impl Shift {
     }
 }
 
+/// Refuses a temperature outside a range, \[°C].
 fn check_within(temperature: f64, [lowest, highest]: [f64; 2]) -> Result<(), RheologyError> {
     if (lowest..=highest).contains(&temperature) {
         return Ok(());
@@ -128,6 +129,7 @@ fn check_within(temperature: f64, [lowest, highest]: [f64; 2]) -> Result<(), Rhe
     })
 }
 
+/// Refuses a table that is empty or not ordered, or whose factors are not positive.
 fn check_table(table: &[[f64; 2]]) -> Result<(), InvalidParameter> {
     for (index, [temperature, factor]) in table.iter().enumerate() {
         positive("shift.vertical.table factor", *factor)?;

@@ -21,6 +21,7 @@ use numerics::positive;
 pub struct ExponentialStep {
     /// Instantaneous compliance, \[1/Pa].
     direct: f64,
+    /// Coefficients of the history variables.
     fields: Vec<Field>,
     /// Whether the state ends with the last input.
     keeps_input: bool,
@@ -112,7 +113,7 @@ impl ExponentialStep {
     }
 
     /// Complex compliance of the discrete steps for an oscillating input with a phase `angle` ωΔt \[rad] per step.
-    pub fn turning_response(&self, angle: f64) -> ComplexCompliance {
+    pub fn harmonic_response(&self, angle: f64) -> ComplexCompliance {
         let mut response = ComplexCompliance {
             storage: self.direct,
             loss: 0.0,

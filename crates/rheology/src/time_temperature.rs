@@ -16,8 +16,11 @@ const GAS_CONSTANT: f64 = 8.314_462_618_153_24;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct WlfShift {
+    /// Constant C₁.
     c1: f64,
+    /// Constant C₂, \[K].
     c2: f64,
+    /// Reference temperature T_r, \[°C] or \[K].
     reference_temperature: f64,
 }
 
@@ -25,7 +28,9 @@ pub struct WlfShift {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ArrheniusShift {
+    /// Activation energy, \[J/mol].
     activation_energy: f64,
+    /// Reference temperature T_r, \[K].
     reference_temperature: f64,
 }
 
@@ -66,7 +71,7 @@ impl WlfShift {
     ///
     /// # Errors
     /// [`RheologyError::BelowWlfPole`] at and below T_r − C₂.
-    pub fn about(&self, reference_temperature: f64) -> Result<Self, RheologyError> {
+    pub fn with_reference(&self, reference_temperature: f64) -> Result<Self, RheologyError> {
         self.log10_factor(reference_temperature)?;
         let c2 = self.c2 + (reference_temperature - self.reference_temperature);
         Self::new(self.c1 * self.c2 / c2, c2, reference_temperature)
@@ -80,7 +85,7 @@ impl WlfShift {
     /// # Errors
     /// [`RheologyError::TooFewPoints`] with fewer than two temperatures besides the reference;
     /// [`RheologyError::InvalidParameter`] when no positive constants describe the pairs.
-    pub fn through(shifts: &[[f64; 2]], reference_temperature: f64) -> Result<Self, RheologyError> {
+    pub fn fit(shifts: &[[f64; 2]], reference_temperature: f64) -> Result<Self, RheologyError> {
         let pairs: Vec<[f64; 2]> = shifts
             .iter()
             .map(|[t, log]| [t - reference_temperature, *log])
@@ -137,7 +142,7 @@ impl ArrheniusShift {
     ///
     /// # Errors
     /// [`RheologyError::InvalidParameter`] when no positive energy describes the pairs.
-    pub fn through(shifts: &[[f64; 2]], reference_temperature: f64) -> Result<Self, RheologyError> {
+    pub fn fit(shifts: &[[f64; 2]], reference_temperature: f64) -> Result<Self, RheologyError> {
         let per_energy = Self::new(1.0, reference_temperature)?;
         let [mut products, mut squares] = [0.0; 2];
         for &[temperature, log] in shifts {

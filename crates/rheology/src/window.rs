@@ -49,6 +49,7 @@ impl CreepSpectrum {
         for StressBand { band, weight } in bands {
             let [start, end] = band;
             let width = end - start;
+            // Dissipation of a part of the band, or of a single frequency.
             let part = |[from, to]: [f64; 2]| {
                 if width > 0.0 {
                     weight / width * (self.loss_integral(to) - self.loss_integral(from))
@@ -57,6 +58,7 @@ impl CreepSpectrum {
                 }
             };
             all += part(band);
+            // Add the parts outside the window.
             if end <= lowest {
                 below += part(band);
             } else if start < lowest {

@@ -221,17 +221,17 @@ impl ActiveSet {
 /// Replaces `runs` by those of consecutive rows of flags, whose first element has the index `first`.
 fn find_runs_in<'a>(rows: impl Iterator<Item = &'a [bool]>, first: usize, runs: &mut Vec<Run>) {
     runs.clear();
-    let (mut end, mut packed_index) = (first, 0);
+    let (mut end, mut packed) = (first, 0);
     for equal in rows.flat_map(|row| row.chunk_by(|left, right| left == right)) {
         let (element, length) = (end, equal.len());
         end += length;
         if equal[0] {
             runs.push(Run {
                 element,
-                packed_start: packed_index,
+                packed_start: packed,
                 length,
             });
-            packed_index += length;
+            packed += length;
         }
     }
 }
@@ -254,15 +254,13 @@ pub(crate) fn sum_blocks<const EDGE: usize>(
         let row = start / columns;
         let sums = &mut sums[(row - first_row) / EDGE * columns.div_ceil(EDGE)..];
         let (mut column, end) = (start - row * columns, end - row * columns);
-        let mut packed_index = run.packed_range().start;
+        let mut packed = run.packed_range().start;
         while column < end {
             let block = column / EDGE;
             // Part of the run in one block of elements.
             let length = ((block + 1) * EDGE).min(end) - column;
-            sums[block] += (packed_index..packed_index + length)
-                .map(&term)
-                .sum::<f64>();
-            (column, packed_index) = (column + length, packed_index + length);
+            sums[block] += (packed..packed + length).map(&term).sum::<f64>();
+            (column, packed) = (column + length, packed + length);
         }
     }
 }

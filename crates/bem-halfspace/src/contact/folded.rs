@@ -104,14 +104,16 @@ impl ContactBox {
                 .chunks_exact_mut(whole[1])
                 .zip(displacements.chunks_exact_mut(whole[1]));
             for (row, (loads, displacements)) in row_blocks.rows(row_block).zip(rows) {
+                // Copy the half in front, without the weights of the mirror.
                 let row = in_front(row, whole[0], mirrors[0]);
                 let part = row * columns..(row + 1) * columns;
                 let front = whole[1] - columns;
                 displacements[front..].copy_from_slice(&self.state.displacement[part.clone()]);
                 loads[front..].copy_from_slice(&self.state.load[part.clone()]);
-                for (column, weight) in weights.weights_in_row(part) {
+                for (column, weight) in weights.row_weights(part) {
                     loads[front + column] /= weight;
                 }
+                // Mirror it to the half behind.
                 mirror_behind(displacements, columns);
                 mirror_behind(loads, columns);
             }

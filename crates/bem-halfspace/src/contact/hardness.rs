@@ -69,6 +69,7 @@ impl<'a> SaturatedSet<'a> {
     /// The elements of the first guess that are at the limit, or none if they bear the whole force or more.
     fn new(largest_load: f64, problem: LoadProblem<'a>, state: &LoadState) -> Self {
         let weights = MirrorWeights::new(problem.convolution);
+        // Elements at the largest load start in the saturated set.
         let elements = state.load.iter().zip(problem.separation).enumerate();
         let is_saturated = elements.map(|(element, (load, height))| {
             *load >= largest_load * weights.of_element(element) && height.is_finite()
@@ -86,6 +87,7 @@ impl<'a> SaturatedSet<'a> {
             separation: vec![0.0; n],
         };
         saturated.update_loads();
+        // A set that bears more than the whole force is no start.
         if matches!(problem.control, Control::NormalForce(total) if saturated.total >= total) {
             saturated.is_saturated.fill(false);
             saturated.update_loads();
@@ -149,6 +151,7 @@ impl<'a> SaturatedSet<'a> {
 
     /// Updates loads, displacement and separation from the saturated set.
     fn update_loads(&mut self) {
+        // Load the saturated elements.
         let flags = self.is_saturated.iter();
         for (element, (load, is_saturated)) in self.load.iter_mut().zip(flags).enumerate() {
             let weight = f64::from(*is_saturated) * self.weights.of_element(element);
@@ -159,6 +162,7 @@ impl<'a> SaturatedSet<'a> {
             };
         }
         self.total = self.load.iter().sum();
+        // Find their displacements, and the separation that the other elements see.
         let convolution = self.problem.convolution;
         convolution.apply(&mut self.workspace, &self.load, &mut self.displacement);
         let heights = self.problem.separation.iter().zip(&self.displacement);

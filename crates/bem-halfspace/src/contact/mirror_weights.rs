@@ -27,7 +27,7 @@ impl MirrorWeights {
     }
 
     /// The weights that may differ from one, for a range of elements in one row, with their indices in the range.
-    pub(super) fn weights_in_row(
+    pub(super) fn row_weights(
         &self,
         elements: Range<usize>,
     ) -> impl Iterator<Item = (usize, f64)> + use<> {
@@ -45,9 +45,7 @@ impl MirrorWeights {
     pub(super) fn apply(&self, loads: &mut [f64]) {
         let lines = loads.chunks_exact_mut(self.columns).enumerate();
         for (row, line) in lines {
-            for (column, weight) in
-                self.weights_in_row(row * self.columns..(row + 1) * self.columns)
-            {
+            for (column, weight) in self.row_weights(row * self.columns..(row + 1) * self.columns) {
                 line[column] *= weight;
             }
         }

@@ -36,7 +36,7 @@ pub(super) const FINEST_BLOCK_EDGE: usize = RowBlocks::MAX_COARSE_BLOCK;
 /// Conductances of the active elements, and the hierarchy of blocks over which they are summed.
 #[derive(Debug, Clone)]
 pub(super) struct MultilevelCorrection {
-    /// w = S 1, packed over the active set.
+    /// Conductances w = S 1, packed over the active set.
     conductances: Vec<f64>,
     /// Blocks from the smallest to a single one, each level with twice the edges of the one before.
     levels: Vec<Level>,
@@ -47,9 +47,9 @@ pub(super) struct MultilevelCorrection {
 struct Level {
     /// Numbers of blocks along x and y.
     shape: [usize; 2],
-    /// k: excess of the self-influence of a block over the influence of its parent, per W.
+    /// Factor k: excess of the self-influence of a block over the influence of its parent, per W.
     excess_influence: f64,
-    /// W k / (1 + W k) of each block: weight of its own mean gap in its displacement.
+    /// Fraction W k / (1 + W k) of each block: weight of its own mean gap in its displacement.
     local_fraction: Vec<f64>,
     /// W of each block: sum of the conductances w of its elements, or of W / (1 + W k) of its children.
     conductance: Vec<f64>,
@@ -115,12 +115,12 @@ impl MultilevelCorrection {
         });
     }
 
-    /// w, and the buffer for the loads Σ w r of the smallest blocks under a residual r.
+    /// Conductances w, and the buffer for the loads Σ w r of the smallest blocks under a residual r.
     pub(super) fn conductances_and_loads(&mut self) -> (&[f64], &mut [f64]) {
         (&self.conductances, &mut self.levels[0].values)
     }
 
-    /// w, and the displacements v of the smallest blocks.
+    /// Conductances w, and the displacements v of the smallest blocks.
     pub(super) fn conductances_and_displacements(&self) -> (&[f64], &[f64]) {
         (&self.conductances, &self.levels[0].values)
     }
@@ -195,7 +195,7 @@ impl Level {
         });
     }
 
-    /// v = (W k g + v') / (1 + W k), with v' = 0 above the largest block.
+    /// Updates the displacements v = (W k g + v') / (1 + W k), with v' = 0 above the largest block.
     fn add_parent_displacements(&mut self, parent: Option<&Self>) {
         let (columns, local_fraction) = (self.shape[1], &self.local_fraction);
         for_each_row(&mut self.values, columns, |row, values| {

@@ -39,10 +39,12 @@ impl ContactProblem<'_> {
     /// [`BemError::LengthMismatch`] for the state of another grid.
     pub fn patches(&self, state: &ContactState) -> Result<Vec<Patch>, BemError> {
         self.check_state(state)?;
+        // Mark the elements in contact.
         let mut is_unassigned = vec![false; state.pressure().len()];
         for &element in state.contact() {
             is_unassigned[element] = true;
         }
+        // Collect one patch after the other.
         let mut patches = Vec::new();
         for &element in state.contact() {
             if is_unassigned[element] {

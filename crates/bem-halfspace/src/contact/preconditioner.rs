@@ -53,7 +53,7 @@ const BLOCK_EDGE: usize = 2;
 #[derive(Debug, Clone)]
 pub(super) struct Preconditioner {
     /// Factors w/Δx and w/Δy of the differences along x and along y, \[1/m].
-    stencil_weights: [f64; 2],
+    stencil: [f64; 2],
     /// Rows and columns of the grid.
     shape: [usize; 2],
     /// Mirrors along x and y, at the first row and column of the grid.
@@ -76,18 +76,16 @@ impl Preconditioner {
     /// Preconditioner for the operator of a convolution, on an empty active set.
     pub(super) fn new(convolution: &Convolution, parameters: PreconditionerParameters) -> Self {
         let grid = convolution.grid();
-        let stencil_weights = grid
-            .spacing()
-            .map(|edge| parameters.neighbour_weight / edge);
+        // Weights of the stencil for short waves, and what it lacks for long ones.
+        let stencil = grid.spacing().map(|dx| parameters.neighbour_weight / dx);
         let long_wave_inverse = convolution.on_blocks(|q| {
-            let difference = |axis: usize| {
-                stencil_weights[axis] * (2.0 - 2.0 * (q[axis] * grid.spacing()[axis]).cos())
-            };
+            let difference =
+                |axis: usize| stencil[axis] * (2.0 - 2.0 * (q[axis] * grid.spacing()[axis]).cos());
             convolution.base.local_stiffness(q[0].hypot(q[1])) - difference(0) - difference(1)
         });
         let n_blocks = long_wave_inverse.grid().n_elements();
         Self {
-            stencil_weights,
+            stencil,
             shape: grid.shape(),
             mirrors: convolution.mirrors,
             mirror_weights: MirrorWeights::new(convolution),
@@ -142,7 +140,7 @@ impl Preconditioner {
             // A mean counts an element on a mirror by its weight.
             let first = row_blocks.elements(row_block).start;
             for run in active.runs(row_block) {
-                for (index, weight) in mirror_weights.weights_in_row(run.elements()) {
+                for (index, weight) in mirror_weights.row_weights(run.elements()) {
                     let element = run.elements_from(first).start + index;
                     let [row, column] = [element / columns, element % columns];
                     means[row / BLOCK_EDGE * columns.div_ceil(BLOCK_EDGE) + column / BLOCK_EDGE] -=
@@ -180,7 +178,7 @@ impl Preconditioner {
                     *value = loads[column / BLOCK_EDGE]
                         - conductance * displacements[column / FINEST_BLOCK_EDGE];
                 }
-                for (index, weight) in mirror_weights.weights_in_row(run.elements()) {
+                for (index, weight) in mirror_weights.row_weights(run.elements()) {
                     result[index] -= (1.0 - weight) * loads[(column + index) / BLOCK_EDGE];
                 }
                 this.add_differences(run, residual, field, result);
@@ -194,8 +192,8 @@ impl Preconditioner {
     fn add_differences(&self, run: &Run, residual: &[f64], field: &[f64], result: &mut [f64]) {
         let [rows, columns] = self.shape;
         let mirrors = self.mirrors;
-        let along_x = self.stencil_weights[0];
-        let along_y = self.stencil_weights[1] * self.mirror_weights.of_row(run.elements().start);
+        let along_x = self.stencil[0];
+        let along_y = self.stencil[1] * self.mirror_weights.of_row(run.elements().start);
         let Range { start, end } = run.elements();
         let row = start / columns;
         // Diagonal.

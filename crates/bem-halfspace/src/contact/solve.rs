@@ -165,6 +165,7 @@ fn prolong_coarse_solution(problem: LoadProblem, state: &mut LoadState) {
 
 /// Restriction: mean of the finite heights of two by two elements, `+∞` if there are none.
 fn restrict_heights(heights: &[f64], [rows, columns]: [usize; 2]) -> Vec<f64> {
+    // Mean of the finite heights of a block.
     let mean = |row: usize, column: usize| {
         let (mut sum, mut count) = (0.0, 0.0);
         for row in row..(row + 2).min(rows) {
@@ -182,6 +183,7 @@ fn restrict_heights(heights: &[f64], [rows, columns]: [usize; 2]) -> Vec<f64> {
             f64::INFINITY
         }
     };
+    // Take the means of all blocks.
     let shape = [rows, columns].map(|n| n.div_ceil(2));
     let mut means = vec![0.0; shape[0] * shape[1]];
     for_each_row(&mut means, shape[1], |row, means| {

@@ -23,7 +23,7 @@ pub(crate) struct AreaFraction {
     /// Perimeter correction that was subtracted, as a fraction of the period.
     #[cfg_attr(
         not(feature = "rough"),
-        expect(dead_code, reason = "it is for the bars of rough surfaces")
+        expect(dead_code, reason = "it is for the error bars of rough surfaces")
     )]
     pub(crate) perimeter_correction: f64,
 }

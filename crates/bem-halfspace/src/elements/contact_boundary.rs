@@ -47,9 +47,9 @@ pub(crate) struct BoundaryField {
 /// The derivatives of one quantity of the boundary.
 #[derive(Debug, Clone)]
 pub(crate) struct BoundaryDerivatives {
-    /// By the load or gap of each element of the box.
+    /// Derivatives by the load or gap of each element of the box.
     pub(crate) by_values: Vec<f64>,
-    /// By the second difference of the kernel along each axis.
+    /// Derivatives by the second difference of the kernel along each axis.
     pub(crate) by_second_difference: [f64; 2],
 }
 

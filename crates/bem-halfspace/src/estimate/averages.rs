@@ -53,7 +53,7 @@ impl Average {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Refinement {
-    /// Δx, \[m], the mean over the shifts. A shift whose contact does not converge is solved on elements that are 1 or 2 % finer.
+    /// Element length Δx, \[m], the mean over the shifts. A shift whose contact does not converge is solved on elements that are 1 or 2 % finer.
     pub spacing: f64,
     /// Friction coefficient.
     pub friction_coefficient: Average,
@@ -64,7 +64,7 @@ pub struct Refinement {
     /// Depth after the sliding distance of the load, or the
     /// [reference depth](crate::stationary::steady::SinkingDepth::reference_depth) without one, \[m].
     pub indentation_depth: Average,
-    /// [Area](crate::PressureField::contact_area) of the contact, \[m²].
+    /// Contact [area](crate::PressureField::contact_area), \[m²].
     pub contact_area: Average,
     /// Largest pressure of an element, \[Pa].
     pub peak_pressure: Average,

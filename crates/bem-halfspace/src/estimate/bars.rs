@@ -63,6 +63,7 @@ impl<S, O> ContactEstimate<S, O> {
 
 /// A contact on one grid.
 pub(crate) struct OnGrid<S, O> {
+    /// Values of all quantities.
     pub(crate) quantities: Quantities<f64>,
     /// Friction coefficient from the dissipated power; `None` unless the state is stationary.
     pub(crate) dissipated: Option<f64>,
@@ -70,13 +71,15 @@ pub(crate) struct OnGrid<S, O> {
     pub(crate) common_error: ErrorParts,
     /// Floor of the relative discretisation error of the target, because some grids agree by chance.
     pub(crate) min_relative_error: f64,
-    /// What the elements leave unknown of the contact area, \[m²].
+    /// Uncertainty of the contact area by the elements, \[m²].
     pub(crate) area_uncertainty: f64,
     /// Convergence order of the contact area; `None` if it is that of the target.
     pub(crate) area_order: Option<f64>,
     /// Edge of an element, the longer one of two, \[m].
     pub(crate) spacing: f64,
+    /// State of the contact.
     pub(crate) state: S,
+    /// Grid and stopping criteria.
     pub(crate) options: O,
 }
 
@@ -93,15 +96,13 @@ impl<S, O> OnGrid<S, O> {
             order: self.area_order.filter(|_| name == Name::Area),
             ..Quantity::from(value)
         };
+        // The friction from dissipation is appended as a further quantity.
         let dissipated = self.dissipated.map(|value| Quantity {
             controls_refinement: false,
             ..Quantity::from(value)
         });
-        self.quantities
-            .iter()
-            .map(quantity)
-            .chain(dissipated)
-            .collect()
+        let quantities = self.quantities.iter().map(quantity);
+        quantities.chain(dissipated).collect()
     }
 }
 
@@ -113,10 +114,13 @@ pub(crate) enum Target {
     Depth,
 }
 
-/// What a refinement aims at.
+/// Goal of a refinement.
 pub(crate) struct Resolution<'w> {
+    /// Request, limits and convergence order.
     pub(crate) goal: Goal<'w>,
+    /// Prescribed force or depth.
     pub(crate) control: Control,
+    /// Quantity that is refined besides the force.
     pub(crate) target: Target,
     /// True if the largest pressure is known to be bounded.
     pub(crate) has_peak: bool,
@@ -154,11 +158,11 @@ pub(crate) fn has_instantaneous_compliance(elastomer: &dyn Elastomer) -> bool {
 /// True if the largest pressure is known to be bounded: under a smooth body of revolution on a material with an instantaneous
 /// modulus.
 pub(crate) fn peak_has_limit(surface: &dyn Surface, elastomer: &dyn Elastomer) -> bool {
-    let smooth = surface.as_axisymmetric().is_some_and(|body| {
+    let is_smooth = surface.as_axisymmetric().is_some_and(|body| {
         let exponent = body.profile_exponent();
         body.kinks().is_empty() && exponent >= 2.0 && exponent.is_finite()
     });
-    smooth && has_instantaneous_compliance(elastomer)
+    is_smooth && has_instantaneous_compliance(elastomer)
 }
 
 /// Solves with the number of elements asked for, or on finer and finer grids until normal force and target have the error asked
@@ -172,18 +176,18 @@ pub(crate) fn resolve<S, O, E: Into<Reached>>(
 ) -> Result<E, BemError> {
     let (control, driven) = (resolution.control, resolution.driven());
     let quantities = |contact: &OnGrid<S, O>| contact.quantities_driven_by(driven);
-    let others = |contact: &OnGrid<S, O>, _: &dyn Fn(f64)| {
-        let mut others = vec![ErrorParts::NONE; DISSIPATED + 1];
-        others[driven.index()] = contact.common_error;
-        others[DISSIPATED] = contact.common_error;
-        Ok(others)
+    let common_errors = |contact: &OnGrid<S, O>, _: &dyn Fn(f64)| {
+        let mut errors = vec![ErrorParts::NONE; DISSIPATED + 1];
+        errors[driven.index()] = contact.common_error;
+        errors[DISSIPATED] = contact.common_error;
+        Ok(errors)
     };
-    let refined = numerics::refine(&resolution.goal, solve, quantities, others)?;
+    // Refine, with the errors that all grids share.
+    let refined = numerics::refine(&resolution.goal, solve, quantities, common_errors)?;
     let errors = &refined.error;
-    let known = refined
-        .value
-        .quantities
-        .map(|name, value| Estimate::new(value, errors[name.index()]));
+    let values = &refined.value.quantities;
+    let known = values.map(|name, value| Estimate::new(value, errors[name.index()]));
+    // Take the friction from dissipation if it is better known.
     let mut friction = known.friction_coefficient;
     let mut error_parts = refined.parts[driven.index()];
     if let Some(dissipated) = refined.value.dissipated {
@@ -193,7 +197,8 @@ pub(crate) fn resolve<S, O, E: Into<Reached>>(
             error_parts = refined.parts[DISSIPATED];
         }
     }
-    let [given_force, given_depth] = given(control);
+    // A prescribed quantity has no error.
+    let [given_force, given_depth] = prescribed_estimates(control);
     let estimate = finish(ContactEstimate {
         friction_coefficient: friction,
         error_parts,
@@ -230,7 +235,7 @@ pub(crate) fn reached_or_error<E: Into<Reached>>(
 }
 
 /// Exact estimates of [force, depth]; `None` for the one that is not prescribed.
-pub(crate) fn given(control: Control) -> [Option<Estimate>; 2] {
+pub(crate) fn prescribed_estimates(control: Control) -> [Option<Estimate>; 2] {
     match control {
         Control::NormalForce(force) => [Some(Estimate::exact(force)), None],
         Control::IndentationDepth(depth) => [None, Some(Estimate::exact(depth))],

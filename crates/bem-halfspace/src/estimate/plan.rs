@@ -32,7 +32,7 @@ const CONTACT_OVER_INTERSECTION_LENGTH: f64 = std::f64::consts::FRAC_1_SQRT_2;
 pub(crate) struct GridPlan {
     /// Rectangle in which contact may occur.
     pub(crate) footprint: Footprint,
-    /// Δx of the coarsest grids, \[m].
+    /// Element length Δx of the coarsest grids, \[m].
     pub(crate) coarsest_spacing: f64,
     /// Exponent p of the sharpest point h ∼ r^p in contact; 2 or more for a smooth surface.
     pub(crate) apex_exponent: f64,
@@ -105,6 +105,7 @@ impl GridPlan {
         Ok(shortest)
     }
 
+    /// The plan for a body of revolution that sinks to a depth \[m], with a spacing that resolves its flank.
     fn of_body(
         body: &dyn Axisymmetric,
         footprint: Footprint,
@@ -137,7 +138,7 @@ impl GridPlan {
         }
     }
 
-    /// Δx after a number of refinements by √2, \[m].
+    /// Element length Δx after a number of refinements by √2, \[m].
     pub(crate) fn spacing(&self, refinement: i32) -> f64 {
         self.coarsest_spacing * 2.0_f64.powf(-0.5 * f64::from(refinement))
     }
@@ -172,7 +173,7 @@ fn shows_cells(surface: &dyn Surface, depth: f64) -> bool {
         .any(|cell| (slope(cell) - slope(cell - 1.0)).abs() > MIN_EDGE_JUMP * largest)
 }
 
-/// [`GridPlan::kinks`] of a body that dips to a depth, for the kinks inside its footprint.
+/// Measure [`GridPlan::kinks`] of a body that dips to a depth, for the kinks inside its footprint.
 pub(crate) fn kinks(
     surface: &dyn Surface,
     depth: f64,

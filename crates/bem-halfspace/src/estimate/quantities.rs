@@ -25,13 +25,13 @@ impl Name {
         self as usize
     }
 
-    /// The name in words of the quantity with this index; for a history the quantities of all rows follow each other.
+    /// The description of the quantity with this index; for a history the quantities of all rows follow each other.
     pub(crate) fn of_quantity(index: usize) -> &'static str {
-        Self::ALL[index % Self::ALL.len()].in_words()
+        Self::ALL[index % Self::ALL.len()].description()
     }
 
     /// The quantity in error messages, with its unit.
-    const fn in_words(self) -> &'static str {
+    const fn description(self) -> &'static str {
         match self {
             Self::Friction => "friction coefficient",
             Self::Force => "normal force [N]",
@@ -45,14 +45,20 @@ impl Name {
 /// One value for each quantity of a contact, such as its result or its error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Quantities<T> {
+    /// Friction coefficient.
     pub(crate) friction_coefficient: T,
+    /// Normal force, \[N].
     pub(crate) normal_force: T,
+    /// Indentation depth, \[m].
     pub(crate) indentation_depth: T,
+    /// Contact area, \[m²].
     pub(crate) contact_area: T,
+    /// Largest pressure, \[Pa].
     pub(crate) peak_pressure: T,
 }
 
 impl<T: Copy> Quantities<T> {
+    /// The value of one quantity.
     pub(crate) const fn get(&self, name: Name) -> T {
         match name {
             Name::Friction => self.friction_coefficient,

@@ -184,6 +184,7 @@ impl<'a> PeriodicMarch<'a> {
         let n = grid.n_elements();
         check_spectra(&elastomer.material())?;
         let creep = elastomer.material().creep();
+        // Discretise the material, and the half space or layer.
         let step = ExponentialStep::creep(&creep, time_step)?;
         let convolution = Convolution::periodic_for_elastomer(elastomer, grid);
         Ok(Self {
@@ -239,7 +240,7 @@ impl<'a> PeriodicMarch<'a> {
         let compliances = sliding.compliances(along_x)?.into_iter();
         let symbol = |(row, compliance): (usize, Complex<f64>)| {
             let q_x = along_x[row];
-            let held_ratio = step.turning_response(q_x * length);
+            let held_ratio = step.harmonic_response(q_x * length);
             let held_ratio =
                 Complex::new(held_ratio.storage, held_ratio.loss) * factor / compliance;
             // The shortest wave stands for both directions, so that its symbols are real; its slope vanishes at the elements.
@@ -319,6 +320,7 @@ mod tests {
     /// Phase factors of waves that have not moved.
     const STILL: [Complex<f64>; 2] = [Complex::new(1.0, 0.0); 2];
 
+    /// Heights of self-affine surfaces.
     fn heights() -> impl Strategy<Value = Vec<f64>> {
         let heights = |(seed, hurst_exponent, waves): (u64, f64, f64)| {
             let surface = SelfAffine {

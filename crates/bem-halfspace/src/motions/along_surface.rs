@@ -83,7 +83,7 @@ pub fn move_along<'w>(
         &goal,
         &view,
         |elements, report| problem.solve_on_grid(elements, report),
-        |record| view.rests(record),
+        |record| view.truncation_errors(record),
     )
 }
 
@@ -118,10 +118,15 @@ pub fn move_along_memory(
 
 /// A motion that can be solved on any number of elements.
 struct MovingBody<'a> {
+    /// Body that moves.
     surface: &'a dyn Surface,
+    /// Half space or layer under it.
     elastomer: &'a dyn Elastomer,
+    /// Motion and load.
     load: &'a MovingLoad,
+    /// Creep spectrum of the material in shear.
     creep: CreepSpectrum,
+    /// Footprint and approximate contact length.
     plan: GridPlan,
     /// Search for the limit cycle; `None` for a motion through points.
     limit_cycle: Option<LimitCycle>,
@@ -220,6 +225,7 @@ fn record(steps: &[MovingStep], rows: &[MotionRow], spacing: f64) -> MotionRecor
         ..MotionRecord::default()
     };
     for (step, ends) in steps.iter().zip(rows.windows(2)) {
+        // Add the work of the step, and its state.
         let (before, row) = (&ends[0], &ends[1]);
         add_work(&mut record, step, [before, row]);
         record.steps.push(MotionStep {

@@ -40,14 +40,16 @@ pub(super) fn refine_motion(
     solve: impl Fn(usize, &dyn Fn(f64)) -> Result<MotionRecord, BemError>,
     other_errors: impl Fn(&MotionRecord) -> Vec<ErrorParts>,
 ) -> Result<Moved, BemError> {
+    // Refine elements and steps.
     let refined = refine(
         goal,
         solve,
         |record| view.quantities(record),
         |record, _: &dyn Fn(f64)| Ok::<_, BemError>(other_errors(record)),
     )?;
+    // Return the result, or an error that contains it.
     let missed = refined.missed;
-    reached_or_error(missed, MotionView::in_words, view.moved(refined))
+    reached_or_error(missed, MotionView::quantity_name, view.moved(refined))
 }
 
 /// Search for the limit cycle of a repeated motion, and its stopping criterion.
@@ -118,7 +120,7 @@ impl LimitCycle {
             Ok::<_, BemError>((record, to))
         };
         let remaining_change = |now: &mut MotionRecord, before: &MotionRecord| {
-            let change = now.rest_after(before, slowness);
+            let change = now.update_remaining_changes(before, slowness);
             let part = (change.ln() / self.tolerance.ln()).clamp(0.0, 1.0);
             convergence.set(convergence.get().max(part));
             change

@@ -80,8 +80,8 @@ pub(crate) fn by_moduli(
     in_band: impl Fn([f64; 2]) -> Result<[Change<Estimate>; 2], BemError>,
 ) -> Result<Vec<ByModuli>, BemError> {
     let bands = frequencies.windows(2).map(band);
-    let by_moduli = bands.map(|frequencies| {
-        let frequencies = frequencies?;
+    let by_moduli = bands.map(|valid_band| {
+        let frequencies = valid_band?;
         let [storage_modulus, loss_modulus] = in_band(frequencies)?;
         Ok(ByModuli {
             frequencies,
@@ -95,8 +95,8 @@ pub(crate) fn by_moduli(
 /// The band between two frequencies.
 fn band(ends: &[f64]) -> Result<[f64; 2], InvalidParameter> {
     not_negative("frequency", ends[0])?;
-    let increases = ends[1] > ends[0];
+    let is_increasing = ends[1] > ends[0];
     let allowed = "greater than the one before";
-    in_range("frequency", ends[1], increases, allowed)?;
+    in_range("frequency", ends[1], is_increasing, allowed)?;
     Ok([ends[0], ends[1]])
 }

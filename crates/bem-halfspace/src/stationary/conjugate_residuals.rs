@@ -19,6 +19,7 @@ const BREAKDOWN_TOLERANCE: f64 = 1e-7;
 /// Size of the Krylov basis and length of the iteration.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct GcrLimits {
+    /// Largest number of steps.
     pub(crate) max_steps: usize,
     /// Directions against whose images A p a new one is orthogonalised; older directions are dropped.
     pub(crate) truncation_depth: usize,
@@ -28,6 +29,7 @@ pub(crate) struct GcrLimits {
 pub(crate) struct GcrState<'a, T> {
     /// Sum of squares of the residual.
     pub(crate) residual_square: f64,
+    /// Residual r.
     pub(crate) residual: &'a [T],
     /// Vector to which the preconditioner is applied: the residual, or after stagnation the last A p, scaled to the norm of the
     /// residual.
@@ -117,13 +119,16 @@ pub(crate) fn gcr<T: Real>(
 
 /// A direction p and its image A p, orthogonal to the other images of the basis.
 struct BasisVector<T> {
+    /// Direction p.
     direction: Vec<T>,
+    /// Image A p.
     image: Vec<T>,
-    /// ‖A p‖².
+    /// Weighted sum of squares of the image, ‖A p‖².
     image_square: f64,
 }
 
 impl<T: Real> BasisVector<T> {
+    /// A vector of zeros, for a number of unknowns and of equations.
     fn new(n_unknowns: usize, n_equations: usize) -> Self {
         Self {
             direction: copies(T::default(), n_unknowns),
@@ -135,11 +140,11 @@ impl<T: Real> BasisVector<T> {
 
 /// Inner products of an orthogonalised image A p.
 struct ImageProducts {
-    /// ‖A p‖².
+    /// Weighted sum of squares ‖A p‖².
     square: f64,
-    /// (A p, r) with the residual r.
+    /// Inner product (A p, r) with the residual r.
     with_residual: f64,
-    /// ‖·‖² of the components that were removed.
+    /// Sum of squares of the components that were removed.
     removed_square: f64,
 }
 

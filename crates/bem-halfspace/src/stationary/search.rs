@@ -45,6 +45,7 @@ const MAX_STAGNATIONS: usize = 5;
 
 /// Forcing terms of the inexact Newton method: inner residual over the residual that the last exchange left.
 pub(crate) struct ForcingTerms {
+    /// Value after an exchange that left a smaller residual than the one before.
     pub(crate) usual: f64,
     /// Value after an exchange that left a larger residual than the one before: inexact solutions then move elements back and forth
     /// together.
@@ -59,6 +60,7 @@ pub(crate) struct ForcingTerms {
 pub(crate) trait FixedSetSolver {
     /// True if the first row follows the last one.
     const PERIODIC_ALONG_X: bool;
+    /// Forcing terms of the inner solutions.
     const FORCING: ForcingTerms;
     /// Rows and columns of the grid.
     fn shape(&self) -> [usize; 2];
@@ -88,11 +90,13 @@ pub(crate) trait FixedSetSolver {
     fn scale_to_force(&self, pressure: &mut [f64]);
     /// Iterations so far, in the unit of the budget.
     fn iterations(&self) -> usize;
+    /// True if no more iterations are allowed.
     fn budget_is_exhausted(&self) -> bool;
 }
 
 /// The search and its current iterate.
 pub(crate) struct Search<'a, P> {
+    /// Contact problem, with the equations on its present active set.
     problem: &'a mut P,
     /// Heights h at the points where the gaps are evaluated.
     heights: Vec<f64>,
@@ -102,9 +106,11 @@ pub(crate) struct Search<'a, P> {
     tolerance: f64,
     /// True for each element of the active set.
     pub(crate) active: Vec<bool>,
+    /// Pressure of all elements, \[Pa] or the unit of the problem.
     pub(crate) pressure: Vec<f64>,
-    /// h + K p − d.
+    /// Gap h + K p − d of all elements, in the unit of the heights.
     pub(crate) gap: Vec<f64>,
+    /// Depth d, in the unit of the heights.
     pub(crate) depth: f64,
     /// Scale of relative residuals, as returned by [`FixedSetSolver::displace`].
     scale: f64,
@@ -261,6 +267,7 @@ impl<'a, P: FixedSetSolver> Search<'a, P> {
         let self_influence = self.problem.self_influence();
         let next_to_set = thresholds.next_to_set.max(self.allowed_gap());
         let far = thresholds.far.max(self.allowed_gap());
+        // Size of the violation of an element, and its threshold.
         let violation = |element: usize| {
             let [pressure, gap] = [self.pressure[element], self.gap[element]];
             let (size, threshold) = if self.active[element] {
@@ -299,6 +306,8 @@ impl<'a, P: FixedSetSolver> Search<'a, P> {
 /// Penetrations below these count as solver error, in the unit of the heights.
 #[derive(Default)]
 struct PenetrationThresholds {
+    /// Threshold for elements next to the active set.
     next_to_set: f64,
+    /// Threshold for all other elements.
     far: f64,
 }

@@ -60,7 +60,7 @@ pub trait Substrate: Debug + Send + Sync {
     /// space of its material. It must tend to 1 for short waves like s² e^(−2s) or faster.
     fn compliance_ratio(&self, s: f64, poisson_ratio: f64) -> f64;
 
-    /// M(s) − 1. Implement it if the default, a difference, cancels and displacements are wanted to better than 1e-12.
+    /// Excess M(s) − 1 of the compliance ratio. Implement it if the default, a difference, cancels and displacements are wanted to better than 1e-12.
     fn compliance_excess(&self, s: f64, poisson_ratio: f64) -> f64 {
         self.compliance_ratio(s, poisson_ratio) - 1.0
     }
@@ -100,7 +100,7 @@ struct TabulatedSubstrate {
     substrate: Box<dyn Substrate>,
     /// Poisson ratio ν of the material at the surface.
     poisson_ratio: f64,
-    /// c(ρ), tabulated at first use.
+    /// Correction c(ρ) of the potential, tabulated at first use.
     correction: OnceLock<Correction>,
 }
 
@@ -220,7 +220,7 @@ impl Base {
         })
     }
 
-    /// [`stiffness`](Self::stiffness) with wave numbers below 2/t replaced by 2/t: to longer waves an incompressible layer is stiff
+    /// Like [`stiffness`](Self::stiffness), with wave numbers below 2/t replaced by 2/t: to longer waves an incompressible layer is stiff
     /// because it must be squeezed aside, which depends on the load around.
     pub(crate) fn local_stiffness(&self, wave_number: f64) -> f64 {
         let longest = self
@@ -251,7 +251,7 @@ impl Base {
     pub(crate) fn pile_up_factor(&self, half_length: f64, exponent: f64) -> f64 {
         self.0.as_ref().map_or(1.0, |layered| {
             let slenderness = (half_length / layered.thickness / THIN_LAYER_RATIO).min(1.0);
-            // From 0 at ν = 0.5 to 1 at ν ≤ 0.4.
+            // Weight of the compressible limit, from 0 at ν = 0.5 to 1 at ν ≤ 0.4.
             let compressibility = (10.0 * (0.5 - layered.shared.poisson_ratio)).clamp(0.0, 1.0);
             1.0 + slenderness * (PILE_UP_MARGIN + 0.5 * exponent * (1.0 - compressibility))
         })

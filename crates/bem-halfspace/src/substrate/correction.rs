@@ -52,7 +52,7 @@ const FAR_WAVE_PANELS: u8 = 9;
 /// Upper limit of the integral over u, beyond which the window is below rounding.
 const FAR_MAX_WAVE_NUMBER: f64 = 220.0;
 
-/// c(ρ) as piecewise polynomials: short panels of equal length up to the influence radius of a rigid base, then panels that grow
+/// Correction c(ρ) as piecewise polynomials: short panels of equal length up to the influence radius of a rigid base, then panels that grow
 /// with ρ, and the limit [M(0) − 1]/ρ beyond.
 #[derive(Debug)]
 pub(super) struct Correction {
@@ -60,7 +60,7 @@ pub(super) struct Correction {
     near: Vec<Panel<SHORT_PANEL_TERMS>>,
     /// Panels of c(ρ) − [M(0) − 1]/ρ beyond; empty if the substrate has no influence there.
     far: Vec<Panel<LONG_PANEL_TERMS>>,
-    /// M(0) − 1: excess of the compliance ratio for long waves.
+    /// Limit M(0) − 1: excess of the compliance ratio for long waves.
     limit: f64,
 }
 
@@ -109,7 +109,7 @@ impl Correction {
     }
 }
 
-/// c(ρ) − [M(0) − 1]/ρ beyond the influence radius of a rigid base; empty if the substrate has no larger influence radius.
+/// Panels of c(ρ) − [M(0) − 1]/ρ beyond the influence radius of a rigid base; empty if the substrate has no larger influence radius.
 fn far_panels(substrate: &dyn Substrate, poisson_ratio: f64) -> Vec<Panel<LONG_PANEL_TERMS>> {
     if substrate.influence_radius() <= RIGID_BASE_INFLUENCE_RADIUS {
         return Vec::new();
@@ -208,7 +208,7 @@ impl<const N: usize> Panel<N> {
 mod tests {
     use super::*;
 
-    /// M − 1 = (A + B s) e^(−3s), whose potential is A/√(9 + ρ²) + 3 B/(9 + ρ²)^(3/2).
+    /// Layer with M − 1 = (A + B s) e^(−3s), whose potential is A/√(9 + ρ²) + 3 B/(9 + ρ²)^(3/2).
     #[derive(Debug)]
     struct Images(f64, f64);
 

@@ -66,11 +66,11 @@ impl PlaneKernel for Reciprocal {
     }
 }
 
-/// ∫ dx' / √(x'² + height²) over an interval of the length `edge` around `x` ≥ 0.
+/// Integral ∫ dx' / √(x'² + height²) over an interval of the length `edge` around `x` ≥ 0.
 fn strip(x: f64, edge: f64, height: f64) -> f64 {
     let (lower, upper) = (x - 0.5 * edge, x + 0.5 * edge);
     if lower > 0.0 {
-        // A form that also holds for a height of 0.
+        // The logarithm in a form that also holds for a height of 0.
         return ((upper + distance(upper, height)) / (lower + distance(lower, height))).ln();
     }
     (upper / height.abs()).asinh() - (lower / height.abs()).asinh()

@@ -11,7 +11,7 @@
 /// integrand.
 pub(crate) const EIGHT_POINT_DISTANCE: f64 = 8.0;
 
-/// A Gauss–Legendre rule on [−1, 1] (NIST DLMF 3.5): the weight of the middle, and positive nodes with their weights.
+/// Gauss–Legendre rule on [−1, 1] (NIST DLMF 3.5): the weight of the middle, and positive nodes with their weights.
 type Rule = (f64, &'static [(f64, f64)]);
 
 /// Gauss–Legendre rule of two points.
@@ -79,17 +79,17 @@ pub(crate) trait PlaneKernel {
     /// The kernel k at (x, y).
     fn value(x: f64, y: f64) -> f64;
 
-    /// ∫ k dx' over the edge `a` around x.
+    /// Integral ∫ k dx' over the edge `a` around x.
     fn strip_along_x(x: f64, a: f64, y: f64) -> f64;
 
-    /// ∫ k dy' over the edge `b` around y.
+    /// Integral ∫ k dy' over the edge `b` around y.
     fn strip_along_y(x: f64, y: f64, b: f64) -> f64;
 
     /// The double antiderivative, up to functions of x or y alone.
     fn corner(x: f64, y: f64) -> f64;
 }
 
-/// ∬ k(x − x', y − y') dA' over the rectangle with edges [a, b] around the origin, for y ≥ 0.
+/// Integral ∬ k(x − x', y − y') dA' over the rectangle with edges [a, b] around the origin, for y ≥ 0.
 pub(crate) fn integrate<K: PlaneKernel>([x, y]: [f64; 2], [a, b]: [f64; 2]) -> f64 {
     // Distance from the rectangle to the singularities of the integrand along x, and along y.
     let distances = [
@@ -114,7 +114,7 @@ pub(crate) fn integrate<K: PlaneKernel>([x, y]: [f64; 2], [a, b]: [f64; 2]) -> f
     }
 }
 
-/// ∬ f(x', y') dA' over the rectangle with edges [a, b] around [x, y], for a function of the distance r from the origin that is
+/// Integral ∬ f(x', y') dA' over the rectangle with edges [a, b] around [x, y], for a function of the distance r from the origin that is
 /// singular at r = ±i `singular`. Rectangles that are too large for all rules are halved.
 pub(crate) fn integrate_smooth(
     singular: f64,
@@ -125,7 +125,7 @@ pub(crate) fn integrate_smooth(
     // Distance from the rectangle to the singularities.
     let [beside, above] = [x.abs() - 0.5 * a, y.abs() - 0.5 * b].map(|gap| gap.max(0.0));
     let to_singularity = (beside * beside + above * above + singular * singular).sqrt();
-    let integrate_half = |centre, edges| integrate_smooth(singular, centre, edges, function);
+    let half = |centre, edges| integrate_smooth(singular, centre, edges, function);
     match (
         rule(&SMOOTH_KERNEL_RULES, to_singularity, a),
         rule(&SMOOTH_KERNEL_RULES, to_singularity, b),
@@ -136,17 +136,11 @@ pub(crate) fn integrate_smooth(
         // Too long for all rules: halve along x, and then along y.
         (None, _) => {
             let halves = [x - 0.25 * a, x + 0.25 * a];
-            halves
-                .into_iter()
-                .map(|x| integrate_half([x, y], [0.5 * a, b]))
-                .sum()
+            halves.into_iter().map(|x| half([x, y], [0.5 * a, b])).sum()
         }
         (_, None) => {
             let halves = [y - 0.25 * b, y + 0.25 * b];
-            halves
-                .into_iter()
-                .map(|y| integrate_half([x, y], [a, 0.5 * b]))
-                .sum()
+            halves.into_iter().map(|y| half([x, y], [a, 0.5 * b])).sum()
         }
     }
 }
@@ -176,7 +170,7 @@ pub(crate) fn distance(x: f64, y: f64) -> f64 {
     (x * x + y * y).sqrt()
 }
 
-/// x asinh(y / |x|), with the limit 0 at x = 0.
+/// Product x asinh(y / |x|), with the limit 0 at x = 0.
 pub(crate) fn product_asinh(x: f64, y: f64) -> f64 {
     if x == 0.0 {
         0.0

@@ -76,7 +76,7 @@ impl PressureField {
         [0, 1].map(|axis| std::f64::consts::TAU / (period[axis] as f64 * spacing[axis]))
     }
 
-    /// Σ |p̂|² M/|q| over all waves along y, for the wave numbers 0, 1, 2, … along x of a period in elements.
+    /// Sums Σ |p̂|² M/|q| over all waves along y, for the wave numbers 0, 1, 2, … along x of a period in elements.
     fn dissipation_weights(&self, period: [usize; 2], elastomer: &dyn Elastomer) -> Vec<f64> {
         let [rows, columns] = self.grid.shape();
         // Transform the rows of the contact, padded with zeros.
@@ -114,7 +114,7 @@ impl PressureField {
         squares
     }
 
-    /// M/|q| as a function of the wave numbers along x and y; for the zero wave with the mean of 1/|q| over its cell.
+    /// Compliance M/|q| as a function of the wave numbers along x and y; for the zero wave with the mean of 1/|q| over its cell.
     fn compliance(
         &self,
         period: [usize; 2],

@@ -39,7 +39,7 @@ fn a_long_path_ends_in_steady_sliding() {
         control: Control::NormalForce(FORCE),
     };
     let path = [0.0, distance / velocity].map(point);
-    let load = MovingLoad::through(&path).expect("a motion");
+    let load = MovingLoad::through_points(&path).expect("a motion");
     let moved = move_along(&ball(), &rubber(), &load, Accuracy::Elements(8)).expect("a motion");
     let load = SlidingLoad::new(FORCE, velocity).expect("a load");
     let state = steady(&ball(), &rubber(), &load, 1e-2).expect("a stationary state");

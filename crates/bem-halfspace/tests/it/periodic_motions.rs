@@ -187,7 +187,8 @@ fn a_straight_path_is_sliding_from_rest() {
         position: 5.0 + velocity * time,
         control: force,
     };
-    let path = MovingLoad::through(&[3.0, 3.0 + distance / velocity].map(point)).expect("a path");
+    let path =
+        MovingLoad::through_points(&[3.0, 3.0 + distance / velocity].map(point)).expect("a path");
     let moved = periodic::move_along(&surface, &rubber, &path, Accuracy::Elements(64));
     let points = moved.expect("a motion").points;
     let last = points[points.len() - 1];
@@ -218,7 +219,7 @@ fn paths_are_followed_on_fluids_and_lifted() {
         (0.8, 0.2, 0.0),
         (1.0, 0.0, 0.1),
     ];
-    let path = MovingLoad::through(&points.map(point)).expect("a path");
+    let path = MovingLoad::through_points(&points.map(point)).expect("a path");
     let moved = periodic::move_along(&rough(), &fluid, &path, Accuracy::Elements(32));
     let moved = moved.expect("a motion");
     let lifted = moved

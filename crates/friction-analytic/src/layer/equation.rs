@@ -48,6 +48,7 @@ struct PointCount {
 }
 
 impl PointCount {
+    /// A number of points that grows linearly with the length.
     const fn new(fixed: f64, per_thickness: f64) -> Self {
         Self {
             fixed,
@@ -68,6 +69,7 @@ impl PointCount {
 
 /// Quadrature over the wave number ξ = L (1 ∓ t)/2 in inverse thicknesses, and rules for integrals along the line.
 pub(super) struct WaveQuadrature {
+    /// Nodes and weights over the wave number.
     pairs: Vec<WavePair>,
     /// Rules on [0, 1] by their numbers of points.
     rules: RefCell<BTreeMap<usize, Rc<[[f64; 2]]>>>,
@@ -75,8 +77,9 @@ pub(super) struct WaveQuadrature {
 
 /// Two nodes that lie symmetrically about L/2.
 struct WavePair {
+    /// Distance of both nodes from L/2, over L/2.
     t: f64,
-    /// The root of (2/π) (1 − M) times the weight, at both nodes.
+    /// Root of (2/π) (1 − M) times the weight, at both nodes.
     root_weights: [f64; 2],
 }
 
@@ -98,11 +101,12 @@ impl WaveQuadrature {
         }
     }
 
+    /// Number of wave numbers: two for each pair.
     fn n_waves(&self) -> usize {
         2 * self.pairs.len()
     }
 
-    /// √(weight (2/π) (1 − M)) cos ξx for all wave numbers, by the addition theorem from one sine and cosine per pair.
+    /// Weighted cosines √(weight (2/π) (1 − M)) cos ξx for all wave numbers, by the addition theorem from one sine and cosine per pair.
     fn cosines_at(&self, x: f64) -> impl Iterator<Item = f64> {
         let half = 0.5 * MAX_WAVE_NUMBER * x;
         let (sine, cosine) = half.sin_cos();
@@ -131,8 +135,11 @@ fn unit_rule(n_points: usize) -> Rc<[[f64; 2]]> {
 
 /// The equivalent line of a body on a layer, with its integrals up to its kinks.
 pub(super) struct EquivalentLine<'a> {
+    /// Body that is pressed into the layer.
     body: &'a dyn Axisymmetric,
+    /// Thickness of the layer, \[m].
     thickness: f64,
+    /// Wave numbers of the integrals.
     waves: &'a WaveQuadrature,
     /// Integrals up to the point from which the line rises, and up to its kinks inside the widest contact.
     at_kinks: Vec<LineIntegrals>,
@@ -143,15 +150,16 @@ pub(super) struct EquivalentLine<'a> {
 pub(super) struct LineIntegrals {
     /// The radius, \[m].
     radius: f64,
-    /// g at the radius, \[m].
+    /// Height g of the line at the radius, \[m].
     height: f64,
-    /// ∫₀^x g ds over the thickness, \[m].
+    /// Area below the line, ∫₀^x g ds, over the thickness, \[m].
     area: f64,
-    /// ∫₀^x g(s) cos ξs ds for all wave numbers, with the factors of [`WaveQuadrature::cosines_at`].
+    /// Cosine transform of the line, ∫₀^x g(s) cos ξs ds, for all wave numbers, with the factors of [`WaveQuadrature::cosines_at`].
     waves: DVector<f64>,
 }
 
 impl<'a> EquivalentLine<'a> {
+    /// The line of a body on a layer, for contacts up to a largest radius, \[m].
     pub(super) fn new(
         body: &'a dyn Axisymmetric,
         thickness: f64,
@@ -219,15 +227,15 @@ impl<'a> EquivalentLine<'a> {
 ///
 /// C has the entries √w_i √(weight (2/π) (1 − M)) cos ξ_j x_i. The roots of the weights make the matrix symmetric.
 pub(super) struct ContactDisc {
-    /// C.
+    /// Matrix C of the cosines of the wave numbers at the nodes.
     cosines: DMatrix<f64>,
-    /// Factors of 1 − C Cᵀ.
+    /// Cholesky factors of 1 − C Cᵀ.
     factors: Cholesky<f64, Dyn>,
-    /// √w φ at the nodes.
+    /// Solution for the flat punch: √w φ at the nodes.
     punch: DVector<f64>,
-    /// √w at the edge.
+    /// Root of the weight of the node at the edge, √w.
     root_weight_at_edge: f64,
-    /// ∫ φ dx.
+    /// Radius of the flat punch of the same stiffness on the half space, ∫ φ dx, over the thickness.
     equivalent_radius: f64,
 }
 
@@ -267,7 +275,7 @@ impl ContactDisc {
         self.equivalent_radius
     }
 
-    /// φ at the edge.
+    /// Solution φ of the flat punch at the edge.
     fn punch_at_edge(&self) -> f64 {
         self.punch[self.punch.len() - 1] / self.root_weight_at_edge
     }
@@ -279,7 +287,7 @@ impl ContactDisc {
         (integrals.height + at_edge) / self.punch_at_edge()
     }
 
-    /// ∫₀^a q dx at a depth: ∫ φ (d − g) dx, over the thickness, \[m].
+    /// Load ∫₀^a q dx at a depth, from ∫ φ (d − g) dx, over the thickness, \[m].
     pub(super) fn load(&self, integrals: &LineIntegrals, depth: f64) -> f64 {
         let correction = self.cosines.tr_mul(&self.punch).dot(&integrals.waves);
         self.equivalent_radius * depth - (integrals.area + correction)

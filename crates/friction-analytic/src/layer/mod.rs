@@ -24,7 +24,9 @@ const MAX_RADIUS_OVER_THICKNESS: f64 = 100.0;
 /// A layer bonded to a rigid base, of a material with a constant Poisson ratio.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BondedLayer {
+    /// Thickness, \[m].
     thickness: f64,
+    /// Poisson ratio.
     poisson_ratio: f64,
 }
 
@@ -43,11 +45,11 @@ impl BondedLayer {
     /// # Errors
     /// [`InvalidParameter`] for other numbers.
     pub fn new(thickness: f64, poisson_ratio: f64) -> Result<Self, InvalidParameter> {
-        let holds = poisson_ratio > -1.0 && poisson_ratio <= 0.5;
+        let is_allowed = poisson_ratio > -1.0 && poisson_ratio <= 0.5;
         let allowed = "greater than -1 and at most 0.5";
         Ok(Self {
             thickness: positive("thickness", thickness)?,
-            poisson_ratio: in_range("poisson_ratio", poisson_ratio, holds, allowed)?,
+            poisson_ratio: in_range("poisson_ratio", poisson_ratio, is_allowed, allowed)?,
         })
     }
 

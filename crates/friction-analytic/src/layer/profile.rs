@@ -72,11 +72,11 @@ pub struct LayerProfile {
 /// Equivalent radius A and contact radius a as functions of the depth.
 #[derive(Debug, Clone, PartialEq)]
 struct Piece {
-    /// The depth, \[m].
+    /// Map of x onto the depths of the piece, \[m].
     depths: GradedMap,
     /// Exponent e of the factor y^e in both radii.
     apex_exponent: f64,
-    /// A/y^e and a/y^e over x.
+    /// Series of both radii over x, A/y^e and a/y^e.
     radii: ChebyshevPair,
 }
 
@@ -89,11 +89,12 @@ struct GradedMap {
     power: f64,
     /// Scale σ of y on which the nodes are dense at the start.
     sigma: f64,
-    /// asinh(1/σ).
+    /// Inverse hyperbolic sine of 1/σ.
     asinh: f64,
 }
 
 impl GradedMap {
+    /// The map onto an interval, with the exponent m and the scale σ.
     fn new(ends: [f64; 2], power: f64, sigma: f64) -> Self {
         Self {
             ends,
@@ -103,7 +104,7 @@ impl GradedMap {
         }
     }
 
-    /// y from 0 to 1 for x from −1 to 1.
+    /// Coordinate y from 0 to 1 for x from −1 to 1.
     fn y(&self, x: f64) -> f64 {
         self.sigma * (0.5 * (1.0 + x) * self.asinh).sinh()
     }
@@ -114,7 +115,7 @@ impl GradedMap {
         start + (end - start) * self.y(x).powf(self.power)
     }
 
-    /// y and x of a value in the interval.
+    /// Coordinates y and x of a value in the interval.
     fn inverse(&self, value: f64) -> [f64; 2] {
         let [start, end] = self.ends;
         let y = ((value - start) / (end - start)).powf(self.power.recip());
@@ -177,10 +178,10 @@ impl LayerProfile {
             .min(MAX_RADIUS_RATIO * half_space_radius);
 
         // Find a radius that reaches the depth.
-        let waves = WaveQuadrature::new(layer.poisson_ratio, max_radius / layer.thickness);
-        let problem = LayerProblem::new(body, layer, &waves, max_radius);
+        let search_waves = WaveQuadrature::new(layer.poisson_ratio, max_radius / layer.thickness);
+        let search_problem = LayerProblem::new(body, layer, &search_waves, max_radius);
         let start = half_space_radius.min(max_radius);
-        let radius = problem.radius_reaching(wanted, [start, max_radius])?;
+        let radius = search_problem.radius_reaching(wanted, [start, max_radius])?;
 
         // Expand with the wave numbers that this radius needs, which may be fewer.
         let waves = WaveQuadrature::new(layer.poisson_ratio, radius / layer.thickness);
@@ -280,7 +281,7 @@ impl EquivalentProfile for LayerProfile {
     }
 
     fn height_at(&self, position: f64) -> f64 {
-        let excess = |depth: f64| self.radii(depth)[0] - position;
+        let radius_excess = |depth: f64| self.radii(depth)[0] - position;
         if position > self.end {
             return f64::INFINITY;
         }
@@ -288,7 +289,7 @@ impl EquivalentProfile for LayerProfile {
         if self.depth().is_infinite() {
             return 0.0;
         }
-        bracketed_root(excess, [0.0, self.depth()]).unwrap_or(0.0)
+        bracketed_root(radius_excess, [0.0, self.depth()]).unwrap_or(0.0)
     }
 
     fn end(&self) -> f64 {
@@ -307,9 +308,13 @@ impl EquivalentProfile for LayerProfile {
 
 /// The contact problem of a body and a layer.
 struct LayerProblem<'a> {
+    /// Body that is pressed into the layer.
     body: &'a dyn Axisymmetric,
+    /// Thickness of the layer, \[m].
     thickness: f64,
+    /// Wave numbers of the integrals.
     waves: &'a WaveQuadrature,
+    /// Equivalent line of the body on a half space.
     line: EquivalentLine<'a>,
 }
 
@@ -326,9 +331,9 @@ struct ContactOnLayer {
 
 /// The contacts between two kinks of a body.
 struct ContactSeries {
-    /// The contact radius, \[m].
+    /// Map of x onto the contact radii, \[m].
     contact_radii: GradedMap,
-    /// ln(A/a), and the depth over the height of the line.
+    /// Series over x of ln(A/a), and of the depth over the height of the line.
     ratios: ChebyshevPair,
 }
 
@@ -375,8 +380,8 @@ impl<'a> LayerProblem<'a> {
                 / (contact.depth / previous.depth).ln();
             if part < 1.0 {
                 let radius = previous.radius * (contact.radius / previous.radius).powf(part);
-                let is_short = self.contact(radius)?.depth < depth;
-                if !is_short {
+                let is_deep_enough = self.contact(radius)?.depth >= depth;
+                if is_deep_enough {
                     return Ok(radius);
                 }
             }
@@ -490,9 +495,9 @@ impl<'a> LayerProblem<'a> {
         // Solve d(a) at each node.
         let radii = |x: f64| {
             let target = depths.value(x);
-            let excess = |radius: f64| depth(radius) - target;
+            let depth_excess = |radius: f64| depth(radius) - target;
             let nearer_end = if x < 0.0 { inner } else { outer };
-            let radius = bracketed_root(excess, [inner, outer]).unwrap_or(nearer_end);
+            let radius = bracketed_root(depth_excess, [inner, outer]).unwrap_or(nearer_end);
             let factor = if is_apex {
                 depths.y(x).powf(-grading)
             } else {

@@ -35,13 +35,13 @@ const STENCIL_NODES: usize = 6;
 /// with their weights: at most about 1e-3 of the value for cusps with p < 0.65, and about 1e-4 for the others.
 ///
 /// # Errors
-/// [`FrictionError::InvalidParameter`] for exponents outside the table, from 0.501 to 64. At p = 1/2 both frictions
-/// diverge; their ratio does not.
+/// [`FrictionError::InvalidParameter`] for exponents outside the table, from 0.501 to 64. At p = 1/2 the
+/// friction of either model is infinite, and their ratio is finite.
 pub fn scaling_factor(exponent: f64) -> Result<Estimate, FrictionError> {
     let [first, last] = [TABLE[0].0, TABLE[TABLE.len() - 1].0];
-    let holds = (first..=last).contains(&exponent);
+    let is_allowed = (first..=last).contains(&exponent);
     let allowed = "between 0.501 and 64, where s(p) was computed";
-    in_range("exponent", exponent, holds, allowed)?;
+    in_range("exponent", exponent, is_allowed, allowed)?;
     let above = TABLE.partition_point(|(node, _)| *node < exponent);
     let start = above
         .saturating_sub(STENCIL_NODES / 2)
@@ -69,9 +69,9 @@ fn interpolate(nodes: &[(f64, Estimate)], exponent: f64) -> Estimate {
     let abscissa = |exponent: f64| (2.0 * exponent - 1.0).ln();
     let x = abscissa(exponent);
     let term = |(index, &(node, factor)): (usize, &(f64, Estimate))| {
-        let others = nodes[..index].iter().chain(&nodes[index + 1..]);
-        let ratios =
-            others.map(|(other, _)| (x - abscissa(*other)) / (abscissa(node) - abscissa(*other)));
+        let other_nodes = nodes[..index].iter().chain(&nodes[index + 1..]);
+        let ratios = other_nodes
+            .map(|(other, _)| (x - abscissa(*other)) / (abscissa(node) - abscissa(*other)));
         factor * ratios.product::<f64>()
     };
     nodes.iter().enumerate().map(term).sum()

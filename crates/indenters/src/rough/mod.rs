@@ -4,12 +4,12 @@
 //! h(x, y) = Σ a cos(2π (m x/L_x + n y/L_y) + φ)
 //! ```
 
+mod from_map;
 mod random;
 mod roughness;
 mod self_affine;
 mod spectrum;
 mod tabulated;
-mod through;
 
 use std::borrow::Cow;
 use std::f64::consts::TAU;
@@ -44,7 +44,9 @@ pub struct Wave {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PeriodicSurface {
+    /// Periods along x and y, \[m].
     period: [f64; 2],
+    /// Waves of which the heights are the sum.
     waves: Vec<Wave>,
 }
 
@@ -131,7 +133,7 @@ impl PeriodicSurface {
     /// The surface with only the waves that a grid of this shape resolves; `None` if it resolves none.
     ///
     /// A wave is resolved if it has more than two elements per wave length along x and along y.
-    pub fn told_by(&self, shape: [usize; 2]) -> Option<Cow<'_, Self>> {
+    pub fn resolved_on(&self, shape: [usize; 2]) -> Option<Cow<'_, Self>> {
         let is_resolved = |wave: &&Wave| {
             let mut numbers = wave.numbers.iter().zip(shape);
             numbers.all(|(number, elements)| elements > 2 * number.unsigned_abs() as usize)

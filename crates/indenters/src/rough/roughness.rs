@@ -49,7 +49,7 @@ impl Roughness {
     pub fn of(map: &HeightMap, repeats: bool) -> Result<Self, IndenterError> {
         check_min_length(3, "heights along x", map.shape()[0])?;
         check_min_length(3, "heights along y", map.shape()[1])?;
-        let surface = PeriodicSurface::through(map, 0.0)?;
+        let surface = PeriodicSurface::from_map(map, 0.0)?;
         check_lengths(map)?;
         let [along_x, along_y, laplacian] = if repeats {
             mean_squares_of_waves(&surface)

@@ -56,6 +56,7 @@ impl SelfAffine {
         Ok(surface)
     }
 
+    /// Refuses numbers out of their ranges.
     fn validate(&self) -> Result<(), IndenterError> {
         between_zero_and_one("hurst_exponent", self.hurst_exponent)?;
         positive("rms_slope", self.rms_slope)?;

@@ -48,9 +48,9 @@ impl PowerSpectrum {
     /// [`IndenterError::InvalidParameter`] for the same maps as [`Roughness::of`](super::Roughness::of).
     pub fn of(map: &HeightMap, repeats: bool) -> Result<Self, IndenterError> {
         let waves = if repeats {
-            PeriodicSurface::through(map, 0.0)?
+            PeriodicSurface::from_map(map, 0.0)?
         } else {
-            PeriodicSurface::through(&apply_hann_window(map)?, 0.0)?
+            PeriodicSurface::from_map(&apply_hann_window(map)?, 0.0)?
         };
         check_lengths(map)?;
         Ok(Self {
@@ -131,8 +131,11 @@ fn radial_average(surface: &PeriodicSurface, shape: [usize; 2]) -> Vec<Ring> {
 /// Sums over the wave vectors of a ring.
 #[derive(Clone, Copy, Default)]
 struct RingSum {
+    /// Number of wave vectors.
     waves: f64,
+    /// Sum of the wave numbers, \[1/m].
     wave_number: f64,
+    /// Sum of the densities, \[m⁴].
     density: f64,
 }
 

@@ -20,7 +20,9 @@ use crate::table::{check_increasing, check_min_length};
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct TabulatedSpectrum {
+    /// Wave numbers, increasing, \[1/m].
     wave_numbers: Vec<f64>,
+    /// Spectral density at each wave number, \[m⁴].
     densities: Vec<f64>,
 }
 

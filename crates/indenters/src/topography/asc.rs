@@ -25,9 +25,11 @@ const HEADER_NAMES: [&str; 10] = [
     "nodata_value",
 ];
 
+/// Reads an ASCII grid: a header with names and numbers, and rows of heights.
 pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, TopographyError> {
     memory.require_text(contents)?;
     let text = text_of(contents);
+    // Read the header.
     let head = Head::of(&text)?;
     let [columns, rows] = [head.required(&["ncols"])?, head.required(&["nrows"])?];
     let spacing = [
@@ -35,6 +37,7 @@ pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, Topogr
         head.required(&["cellsize", "dy"])?,
     ];
     let missing = head.number("nodata_value").unwrap_or(DEFAULT_MISSING);
+    // Read the heights.
     let mut heights = Vec::new();
     let mut lengths = Vec::new();
     let notation = Notation::of(&text);
@@ -57,6 +60,7 @@ pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, Topogr
             });
         }
     }
+    // Check their number.
     check_line_lengths(&lengths, [columns, rows])?;
     let last = lengths.last().map_or(head.lines.max(1), |(line, _)| *line);
     if [columns, rows].iter().any(|count| count.fract() != 0.0)
@@ -120,9 +124,11 @@ struct Head {
 }
 
 impl Head {
+    /// Reads the header; fails for a text without one.
     fn of(text: &str) -> Result<Self, TopographyError> {
         let mut known = Vec::new();
         for (line, text) in lines(text) {
+            // Read a name and its number, or end at the first other line.
             let mut words = text.split_whitespace();
             let name = words.next().unwrap_or_default().to_ascii_lowercase();
             if !HEADER_NAMES.contains(&&*name) {
@@ -140,6 +146,7 @@ impl Head {
                 })?;
             known.push((name, number));
         }
+        // Refuse a text without a header.
         let lines = known.len();
         if lines == 0 {
             let advice = "give points x, y and z the extension xyz, and rows of heights txt";

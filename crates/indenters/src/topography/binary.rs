@@ -77,6 +77,7 @@ pub(super) fn digital_surf(contents: &[u8], memory: Memory) -> Result<Topography
     if contents.len() < 512 || !contents.starts_with(b"DIGITAL SURF") {
         return Err("another beginning".to_owned().into());
     }
+    // Read the numbers and units of the header.
     let short = |at: usize| usize::from(u16::from_le_bytes(bytes_at(contents, at)));
     let real = |at: usize| f64::from(f32::from_le_bytes(bytes_at(contents, at)));
     let unit = |at: usize| unit_of(&text_of(&contents[at..at + 16]));
@@ -86,6 +87,7 @@ pub(super) fn digital_surf(contents: &[u8], memory: Memory) -> Result<Topography
         32 => 4,
         bits => return Err(format!("{bits} bits for a point").into()),
     };
+    // Check the number of points against the length of the file.
     let [columns, rows] = [count(108), count(112)];
     let begin = 512 + short(334) + short(336);
     let points = columns.checked_mul(rows);
@@ -99,10 +101,12 @@ pub(super) fn digital_surf(contents: &[u8], memory: Memory) -> Result<Topography
         return Err(found.into());
     }
     memory.require_heights(points)?;
+    // Read the units and spacings.
     let [unit_x, unit_y, unit_z] = [unit(180)?, unit(196)?, unit(212)?];
     let length = |at: usize, unit: Option<f64>| real(at) * unit.unwrap_or(1.0);
     let spacing = [length(120, unit_x), length(124, unit_y)];
     let step = length(128, unit_z);
+    // Read the heights.
     let missing =
         (short(86) == 1).then(|| i32::from_le_bytes(bytes_at(contents, 100)).wrapping_sub(2));
     let height = |index: usize| {

@@ -96,6 +96,7 @@ impl Format {
     /// # Errors
     /// A description of contents in none of the formats.
     pub(super) fn of(extension: &str, contents: &[u8]) -> Result<Self, String> {
+        // Refuse formats that are known and not supported.
         if let Some((_, name)) = UNSUPPORTED_SIGNATURES
             .iter()
             .find(|(start, _)| contents.starts_with(start))
@@ -105,6 +106,7 @@ impl Format {
         if contents.starts_with(b"PK\x03\x04") && extension != "x3p" {
             return archive_format(contents);
         }
+        // Decide by the beginning of the contents.
         let by_contents = [
             (contents.starts_with(b"\x93NUMPY"), Self::Npy),
             (contents.starts_with(b"Gwyddion Simple Field"), Self::Gsf),
@@ -115,6 +117,7 @@ impl Format {
         if let Some((_, format)) = by_contents.into_iter().find(|(is_it, _)| *is_it) {
             return Ok(format);
         }
+        // Decide by the extension.
         match extension {
             "asc" => Ok(Self::Asc),
             "gsf" => Ok(Self::Gsf),

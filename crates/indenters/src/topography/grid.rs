@@ -12,8 +12,11 @@ const DUPLICATE_TOLERANCE: f64 = 1e-6;
 /// Equally spaced coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Axis {
+    /// First coordinate.
     pub(super) first: f64,
+    /// Distance between two nodes.
     pub(super) step: f64,
+    /// Number of nodes.
     pub(super) count: usize,
     /// Largest deviation of a coordinate from its node, in the unit of the coordinates.
     tolerance: f64,

@@ -25,6 +25,7 @@ impl Stated {
     /// [`TopographyError::Line`] for names of columns whose units are no lengths, or differ between x and y.
     pub(super) fn of(head: &[(usize, &str)]) -> Result<Self, TopographyError> {
         let mut stated = Self::default();
+        // Read units from names of columns and from pairs.
         for &(line, text) in head {
             let [x, y, z] = units_of_columns(text);
             if let (Some(x), Some(y)) = (x, y) {
@@ -53,6 +54,7 @@ impl Stated {
                 }
             }
         }
+        // Read the size from three successive lines of Gwyddion.
         let values: Vec<_> = head.iter().map(|(_, text)| value_text(text)).collect();
         for (three, (line, _)) in values.windows(3).zip(&head[head.len().min(2)..]) {
             let size = (three[0].and_then(length), three[1].and_then(length));

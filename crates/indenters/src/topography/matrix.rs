@@ -18,6 +18,7 @@ const MIN_LABELS: usize = 4;
 /// Largest number of columns of a list of points: x, y, z, and colours and normals that scanners add (chosen).
 const MAX_POINT_COLUMNS: usize = 10;
 
+/// Reads rows of heights, with a spacing that is given or stated in the text.
 pub(super) fn read(
     contents: &[u8],
     spacing: Option<[f64; 2]>,
@@ -37,6 +38,7 @@ pub(super) fn read(
     })
 }
 
+/// Reads the rows of a sheet.
 fn rows(
     text: &str,
     sheet: &Sheet<'_>,

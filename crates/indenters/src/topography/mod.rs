@@ -235,6 +235,7 @@ impl Topography {
         let columns = self.shape[1];
         self.n_filled += self.missing();
         loop {
+            // Give each hole with a known neighbour their mean.
             let before = self.heights.clone();
             for index in (0..before.len()).filter(|index| before[*index].is_nan()) {
                 let column = index % columns;
@@ -253,6 +254,7 @@ impl Topography {
                     self.heights[index] = known.iter().sum::<f64>() / known.len() as f64;
                 }
             }
+            // End when no hole was filled.
             let missing = |heights: &[f64]| heights.iter().filter(|height| height.is_nan()).count();
             if missing(&self.heights) == missing(&before) {
                 return self;
@@ -315,6 +317,7 @@ impl Topography {
     }
 }
 
+/// Reads a file of a measuring instrument, or a list of points.
 #[cfg(feature = "topography")]
 fn read_measured(
     format: Format,

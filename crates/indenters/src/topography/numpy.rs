@@ -14,6 +14,7 @@ pub(super) fn read(
     spacing: [f64; 2],
     memory: Memory,
 ) -> Result<Topography, ReadFailure> {
+    // Read the header, and check the length.
     let (header, numbers) = split_header(contents)?;
     let size = size_of_number(header)?;
     let by_column = is_by_column(header)?;
@@ -25,6 +26,7 @@ pub(super) fn read(
         return Err(format!("{needed}, but there are {bytes} bytes").into());
     }
     memory.require_heights(Some(numbers.len() / size))?;
+    // Read the numbers.
     let mut heights: Vec<f64> = if size == F32_BYTES {
         let number = |bytes: &[u8; F32_BYTES]| f32::from_le_bytes(*bytes).into();
         numbers.as_chunks().0.iter().map(number).collect()
@@ -32,6 +34,7 @@ pub(super) fn read(
         let number = |bytes: &[u8; F64_BYTES]| f64::from_le_bytes(*bytes);
         numbers.as_chunks().0.iter().map(number).collect()
     };
+    // Put them into the order of rows.
     if by_column {
         let place = |index: usize| index / columns + index % columns * rows;
         let in_rows = (0..heights.len()).map(|index| heights[place(index)]);
@@ -71,6 +74,7 @@ fn value_of<'a>(header: &'a str, key: &str) -> Option<&'a str> {
     Some(value.trim_start().strip_prefix(':')?.trim_start())
 }
 
+/// Length of a number, \[bytes]; fails for all types but little-endian floats.
 fn size_of_number(header: &str) -> Result<usize, String> {
     match value_of(header, "'descr'") {
         Some(value) if value.starts_with("'<f8'") => Ok(F64_BYTES),
@@ -99,6 +103,7 @@ fn is_by_column(header: &str) -> Result<bool, String> {
     }
 }
 
+/// The two lengths of the array; fails for another number of dimensions.
 fn shape(header: &str) -> Result<[usize; 2], String> {
     let lengths = || {
         let tuple = value_of(header, "'shape'")?.strip_prefix('(')?;

@@ -203,6 +203,7 @@ impl<'a> Sheet<'a> {
         let mut marks: [Option<(usize, &str)>; 2] = [None, None];
         let mut digits = DigitCounts::default();
         for &(line, text) in &self.rows {
+            // Read the numbers of a row.
             let cells = self.notation.cells(text);
             let numbers = cells
                 .iter()
@@ -210,6 +211,7 @@ impl<'a> Sheet<'a> {
                 .collect::<Option<Vec<f64>>>()
                 .filter(|numbers| numbers.len() == self.width())
                 .ok_or_else(|| self.notation.wrong_row(line, &cells))?;
+            // Note the first decimal comma and the first point.
             for (first, mark) in marks.iter_mut().zip([',', '.']) {
                 let found = cells.iter().find(|cell| cell.contains(mark));
                 *first = first.or_else(|| found.map(|cell| (line, *cell)));
@@ -217,6 +219,7 @@ impl<'a> Sheet<'a> {
             digits.record(&cells);
             visit(line, &cells, &numbers)?;
         }
+        // Refuse a last number that seems truncated.
         let last = self.rows.last().map_or(1, |(line, _)| *line);
         if self.lacks_final_newline
             && let Some(problem) = digits.truncated_end()
@@ -226,6 +229,7 @@ impl<'a> Sheet<'a> {
                 problem,
             });
         }
+        // Refuse both decimal commas and points.
         let [Some((line, comma)), Some((other, point))] = marks else {
             return Ok(());
         };

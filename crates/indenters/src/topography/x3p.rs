@@ -18,20 +18,24 @@ const MAX_ARCHIVE_PARTS: usize = 1000;
 /// Largest padding after the heights, \[bytes] (chosen: a block of a file).
 const MAX_PADDING_BYTES: u64 = 4096;
 
+/// Reads an archive with a description in XML and a matrix of heights.
 pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, ReadFailure> {
     let mut archive = open_archive(contents)?;
     let mut read_part = |name: &str, max_bytes: u64| read_part(&mut archive, name, max_bytes);
+    // Read the description.
     let main = read_part("main.xml", MAX_DESCRIPTION_BYTES)?;
     if main.iter().filter(|byte| **byte == b'=').count() > MAX_ATTRIBUTES {
         return Err(format!("main.xml: more than {MAX_ATTRIBUTES} attributes").into());
     }
     let main = String::from_utf8(main).map_err(|error| error.to_string())?;
     let main = Description(Document::parse(&main).map_err(|error| error.to_string())?);
+    // Check that the points are equally spaced in one layer.
     let axes = ["CX", "CY"].map(|axis| main.text(&format!("Record1/Axes/{axis}/AxisType")));
     if axes != ["I", "I"] || main.number::<usize>("Record3/MatrixDimension/SizeZ")? != 1 {
         let [x, y] = axes;
         return Err(format!("axes '{x:.40}' and '{y:.40}'").into());
     }
+    // Read shape, spacing and type of the numbers.
     let size = |axis: &str| main.number::<usize>(&format!("Record3/MatrixDimension/Size{axis}"));
     let increment = |axis: &str| main.number::<f64>(&format!("Record1/Axes/C{axis}/Increment"));
     let [columns, rows] = [size("X")?, size("Y")?];
@@ -46,6 +50,7 @@ pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, ReadFa
     let link = main.text("Record3/DataLink/PointDataLink");
     let lengths = [points.saturating_mul(bytes), points.div_ceil(8)];
     let [max_bytes, bits] = lengths.map(|length| (length as u64).saturating_add(MAX_PADDING_BYTES));
+    // Read the heights and the marks of valid points.
     let heights = Heights {
         kind,
         step: if is_integer { increment("Z")? } else { 1.0 },
@@ -68,6 +73,7 @@ pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, ReadFa
 
 type Archive<'a> = ZipArchive<Cursor<&'a [u8]>>;
 
+/// Opens the archive; fails for one of too many parts.
 fn open_archive(contents: &[u8]) -> Result<Archive<'_>, String> {
     let parts = contents.windows(4).filter(|start| *start == b"PK\x01\x02");
     if parts.take(MAX_ARCHIVE_PARTS + 1).count() > MAX_ARCHIVE_PARTS {
@@ -114,9 +120,13 @@ impl Description<'_> {
     }
 }
 
+/// Numbers of the heights, and marks of valid points.
 struct Heights<'a> {
+    /// Type of the numbers: I, L, F or D.
     kind: &'a str,
+    /// Factor from a number to a height, \[m].
     step: f64,
+    /// Bytes of the numbers.
     data: Vec<u8>,
     /// One bit for each point, the lowest first.
     valid: Option<Vec<u8>>,
@@ -130,12 +140,14 @@ fn bytes_of(kind: &str) -> Option<usize> {
 }
 
 impl Heights<'_> {
+    /// True if there are numbers and marks for all points.
     fn are_complete(&self, points: usize) -> bool {
         let are_there = |bytes| points <= self.data.len() / bytes;
         let have_bits = |bits: &Vec<u8>| points.div_ceil(8) <= bits.len();
         bytes_of(self.kind).is_some_and(are_there) && self.valid.as_ref().is_none_or(have_bits)
     }
 
+    /// Height of a point, \[m]; NaN if it is not valid.
     fn height(&self, index: usize) -> f64 {
         let is_valid = |bits: &Vec<u8>| bits[index / 8] >> (index % 8) & 1 == 1;
         if !self.valid.as_ref().is_none_or(is_valid) {

@@ -8,6 +8,7 @@ use super::{LateralUnit, Memory, Topography, TopographyError};
 /// x and y, and z.
 type Point = ([f64; 2], f64);
 
+/// Reads a list of points x, y and z on a grid of equal spacing.
 pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, TopographyError> {
     memory.require_text(contents)?;
     let text = text_of(contents);
@@ -21,6 +22,7 @@ pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, Topogr
         );
         return Err(wrong(first, problem));
     }
+    // Find the grid of the points.
     let stated = Stated::of(&sheet.head)?;
     let (points, digits) = points(&sheet)?;
     let axis = |which: usize, name: &str| {
@@ -34,6 +36,7 @@ pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, Topogr
         })
     };
     let axes = [axis(0, "x")?, axis(1, "y")?];
+    // Put the heights on the grid, and apply the units.
     let heights = place_on_grid(axes, &points, &sheet, memory)?;
     let [x, y] = axes;
     let unit = stated.heights.as_ref().map_or(1.0, |(unit, _)| *unit);

@@ -179,7 +179,7 @@ fn a_periodic_map_is_a_sum_of_waves() {
         let heights = surface.heights([rows, columns]).expect("heights");
         let spacing = [2.0 / rows as f64, 1.0 / columns as f64];
         let map = HeightMap::new([rows, columns], spacing, heights).expect("a map");
-        let found = PeriodicSurface::through(&map, 0.0).expect("waves");
+        let found = PeriodicSurface::from_map(&map, 0.0).expect("waves");
         assert_eq!(found.waves().len(), surface.waves().len(), "as many waves");
         for wave in found.waves() {
             let is_same = |other: &&Wave| {
@@ -197,16 +197,16 @@ fn a_periodic_map_is_a_sum_of_waves() {
                 + (wave.amplitude / same.amplitude - 1.0).abs();
             assert!(off < 1e-9, "{wave:?}, {same:?}");
         }
-        let smooth = PeriodicSurface::through(&map, 0.1).expect("longer waves");
+        let smooth = PeriodicSurface::from_map(&map, 0.1).expect("longer waves");
         let longest = smooth.waves().iter().map(|wave| smooth.wave_vector(wave));
         let shortest = longest
             .map(|[x, y]| TAU / x.hypot(y))
             .fold(f64::INFINITY, f64::min);
         assert!((0.1..0.11).contains(&shortest), "shortest wave {shortest}");
-        PeriodicSurface::through(&map, 3.0).expect_err("no wave is so long");
+        PeriodicSurface::from_map(&map, 3.0).expect_err("no wave is so long");
     }
     let flat = HeightMap::new([4, 4], [1.0; 2], vec![1.0; 16]).expect("a map");
-    let refused = PeriodicSurface::through(&flat, 0.0).expect_err("a plane");
+    let refused = PeriodicSurface::from_map(&flat, 0.0).expect_err("a plane");
     let said = refused.to_string();
     assert!(
         said.starts_with("largest height above the lowest"),
@@ -215,7 +215,7 @@ fn a_periodic_map_is_a_sum_of_waves() {
     // Waves of two elements alone are none that heights tell.
     let heights = [1.0, 0.0, 1.0, 0.0].repeat(4);
     let board = HeightMap::new([4, 4], [1.0; 2], heights).expect("a map");
-    PeriodicSurface::through(&board, 0.0).expect_err("two elements per wave");
+    PeriodicSurface::from_map(&board, 0.0).expect_err("two elements per wave");
 }
 
 #[test]
@@ -318,8 +318,10 @@ fn without_short_waves_are_all_the_others() {
     assert_eq!(half, surface.without_shortest_octave(), "an octave less");
     assert_eq!(surface.without_waves_below(0.6), None, "none is so long");
     for shape in [[200, 200], [16, 200], [1, 1]] {
-        let told = surface.told_by(shape);
-        let waves = told.as_ref().map_or(&[][..], |told| told.waves());
+        let resolved = surface.resolved_on(shape);
+        let waves = resolved
+            .as_ref()
+            .map_or(&[][..], |resolved| resolved.waves());
         let is_told = |wave: &&Wave| {
             let numbers = wave
                 .numbers
@@ -328,6 +330,6 @@ fn without_short_waves_are_all_the_others() {
         };
         let expected = surface.waves().iter().filter(is_told).count();
         assert_eq!(waves.len(), expected, "{shape:?}");
-        assert_eq!(told.is_some(), expected > 0, "{shape:?}");
+        assert_eq!(resolved.is_some(), expected > 0, "{shape:?}");
     }
 }

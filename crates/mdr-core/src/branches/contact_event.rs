@@ -10,6 +10,7 @@ const MAX_CROSSING_STEPS: usize = 60;
 
 /// One element in a step during which it is in contact for a part of the time.
 pub(crate) struct ContactEvent<'a> {
+    /// Law of the element.
     pub(crate) foundation: &'a Foundation,
     /// Duration of the step, \[s].
     pub(crate) duration: f64,
@@ -18,41 +19,42 @@ pub(crate) struct ContactEvent<'a> {
 }
 
 impl ContactEvent<'_> {
-    /// Separates a loaded element when its load vanishes, on the way from one displacement to another.
+    /// Separates a loaded element when its load vanishes, while its displacement would change linearly from one value to another.
     ///
-    /// Returns the displacement to which it recovers, and its work. The energy stored at separation counts as dissipated: it is
-    /// lost during recovery.
+    /// Returns the displacement to which it recovers, and its work until separation. The energy stored at separation counts as
+    /// dissipated, because it does no work during recovery.
     pub(crate) fn separate(&mut self, [from, to]: [f64; 2]) -> (f64, StepWork) {
         let foundation = self.foundation;
         let n_branches = foundation.branches.len();
         let rise = to - from;
-        let carried = |part: f64| {
+        // Load and its derivative at a part of the step.
+        let load = |part: f64| {
             let branches = foundation.branches.iter().zip(&self.history[..n_branches]);
             let viscous = foundation.dashpot * rise / self.duration;
             let start = [
                 foundation.spring * (from + part * rise) + viscous,
                 foundation.spring * rise,
             ];
-            branches.fold(start, |[carried, rate], (branch, stress)| {
+            branches.fold(start, |[sum, rate], (branch, stress)| {
                 let a = self.duration / branch.length;
                 let work = branch.modulus * rise;
                 let change = (-part * a).exp_m1();
-                let left = 1.0 + change;
-                let stress_then = stress * left - work * change / a;
-                [carried + stress_then, rate + (work - a * stress) * left]
+                let remaining = 1.0 + change;
+                let stress_at_part = stress * remaining - work * change / a;
+                [sum + stress_at_part, rate + (work - a * stress) * remaining]
             })
         };
         // With a dashpot the load jumps where the speed does.
-        let part = crossing(carried);
+        let part = falling_zero(load);
         let mut work = StepWork::default();
         if part > 0.0 {
             let step = TimeStep::of_branches(foundation, part * self.duration);
             work = step.compress(from, part * rise, self.history);
         }
         let displacement = from + part * rise;
-        work.lost += foundation.stored_energy(displacement, &self.history[..n_branches]);
-        let rest = (1.0 - part) * self.duration;
-        (self.recover(displacement, rest), work)
+        work.dissipated += foundation.stored_energy(displacement, &self.history[..n_branches]);
+        let remaining_time = (1.0 - part) * self.duration;
+        (self.recover(displacement, remaining_time), work)
     }
 
     /// Separates a loaded element immediately; returns the displacement to which it recovers, and the energy stored in it.
@@ -64,11 +66,11 @@ impl ContactEvent<'_> {
         if foundation.has_dashpot() {
             return (self.recover(displacement, 0.0), stored);
         }
-        let carried = foundation.spring * displacement + stresses.iter().sum::<f64>();
+        let load = foundation.spring * displacement + stresses.iter().sum::<f64>();
         let moduli = foundation.branches.iter().map(|branch| branch.modulus);
-        let back = carried / (foundation.spring + moduli.sum::<f64>());
-        foundation.apply_strain_jump(stresses, -back);
-        (self.recover(displacement - back, 0.0), stored)
+        let rebound = load / (foundation.spring + moduli.sum::<f64>());
+        foundation.apply_strain_jump(stresses, -rebound);
+        (self.recover(displacement - rebound, 0.0), stored)
     }
 
     /// Replaces the stresses by amplitudes of recovery, a time after separation; returns the displacement after complete
@@ -77,10 +79,10 @@ impl ContactEvent<'_> {
         let foundation = self.foundation;
         let stresses = self.history[..foundation.branches.len()].to_vec();
         let mut limit = displacement;
-        for (slot, mode) in self.history.iter_mut().zip(&foundation.modes) {
+        for (variable, mode) in self.history.iter_mut().zip(&foundation.modes) {
             let amplitude = foundation.amplitude(mode, displacement, &stresses);
             limit += amplitude;
-            *slot = amplitude * (-time / mode.length).exp();
+            *variable = amplitude * (-time / mode.length).exp();
         }
         // A solid recovers completely; the limit would only be rounding.
         if foundation.spring > 0.0 { 0.0 } else { limit }
@@ -90,45 +92,47 @@ impl ContactEvent<'_> {
     pub(crate) fn make_contact(&mut self, limit: f64, [from, to]: [f64; 2]) -> StepWork {
         let foundation = self.foundation;
         let rise = to - from;
+        // Gap and its derivative at a part of the step.
         let gap = |part: f64| {
             let history = self.history.iter().zip(&foundation.modes);
             let start = [limit - (from + part * rise), -rise];
-            history.fold(start, |[gap, rate], (slot, mode)| {
+            history.fold(start, |[gap, rate], (variable, mode)| {
                 let a = self.duration / mode.length;
-                let left = slot * (-part * a).exp();
-                [gap - left, rate + a * left]
+                let remaining = variable * (-part * a).exp();
+                [gap - remaining, rate + a * remaining]
             })
         };
-        let part = crossing(gap);
-        for (slot, mode) in self.history.iter_mut().zip(&foundation.modes) {
-            *slot *= (-part * self.duration / mode.length).exp();
+        // Recover up to the contact, then compress for the rest of the step.
+        let part = falling_zero(gap);
+        for (variable, mode) in self.history.iter_mut().zip(&foundation.modes) {
+            *variable *= (-part * self.duration / mode.length).exp();
         }
         let start = from + part * rise;
         let (displacement, recovered) = self.make_contact_instantly(limit, start);
-        let rest = (1.0 - part) * self.duration;
+        let remaining_time = (1.0 - part) * self.duration;
         let mut work = StepWork::default();
-        if rest > 0.0 {
-            let step = TimeStep::of_branches(foundation, rest);
+        if remaining_time > 0.0 {
+            let step = TimeStep::of_branches(foundation, remaining_time);
             work = step.compress(displacement, to - displacement, self.history);
         }
-        work.lost -= recovered;
+        work.dissipated -= recovered;
         work
     }
 
-    /// Replaces the amplitudes by stresses of an element that is in contact immediately; returns its displacement, and the energy
-    /// stored in it.
-    pub(crate) fn make_contact_instantly(&mut self, limit: f64, under: f64) -> (f64, f64) {
+    /// Brings a free element that recovers to `limit` into contact with a line that imposes a displacement: its amplitudes are
+    /// replaced by stresses. Returns its displacement, and the energy stored in it.
+    pub(crate) fn make_contact_instantly(&mut self, limit: f64, imposed: f64) -> (f64, f64) {
         let foundation = self.foundation;
-        let left = self.history[..foundation.modes.len()].to_vec();
-        let mut displacement = limit - left.iter().sum::<f64>();
-        for (slot, branch) in self.history.iter_mut().zip(&foundation.branches) {
-            *slot = Foundation::free_stress(branch, &left);
+        let remaining = self.history[..foundation.modes.len()].to_vec();
+        let mut displacement = limit - remaining.iter().sum::<f64>();
+        for (variable, branch) in self.history.iter_mut().zip(&foundation.branches) {
+            *variable = Foundation::free_stress(branch, &remaining);
         }
         let stresses = &mut self.history[..foundation.branches.len()];
         // A lone dashpot resists a jump of the displacement.
         if !foundation.has_dashpot() {
-            foundation.apply_strain_jump(stresses, under - displacement);
-            displacement = under;
+            foundation.apply_strain_jump(stresses, imposed - displacement);
+            displacement = imposed;
         }
         (
             displacement,
@@ -140,7 +144,7 @@ impl ContactEvent<'_> {
 /// Zero in [0, 1] of a falling function that is given with its derivative, by Newton's method inside a bracket.
 ///
 /// 0 if the function is not positive at 0, and 1 if it is not negative at 1.
-fn crossing(function: impl Fn(f64) -> [f64; 2]) -> f64 {
+fn falling_zero(function: impl Fn(f64) -> [f64; 2]) -> f64 {
     let [start, end] = [0.0, 1.0].map(|part| function(part)[0]);
     if start <= 0.0 {
         return 0.0;
@@ -148,6 +152,7 @@ fn crossing(function: impl Fn(f64) -> [f64; 2]) -> f64 {
     if end >= 0.0 {
         return 1.0;
     }
+    // Newton steps that leave the bracket are replaced by bisection.
     let (mut low, mut high) = (0.0, 1.0);
     let mut part = start / (start - end);
     for _ in 0..MAX_CROSSING_STEPS {

@@ -4,13 +4,13 @@
 //! e^(−x),   ∫₀¹ e^(−x θ) dθ,   ∫₀¹ e^(−z (1 − θ)) θ^j dθ
 //! ```
 
-/// e^(−x) at x ≥ 0, without the slow evaluation of the library for results below the smallest number.
+/// Exponential e^(−x) at x ≥ 0, without the slow evaluation of the library for results below the smallest number.
 #[inline]
 pub(crate) fn decay(x: f64) -> f64 {
     if x > EXP_UNDERFLOW { 0.0 } else { (-x).exp() }
 }
 
-/// e^(−x) at x ≥ 0 and its mean from 0 to x, both to their own rounding: they may multiply a large force.
+/// Exponential e^(−x) at x ≥ 0 and its mean from 0 to x, both to their own rounding: they may multiply a large force.
 #[inline]
 pub(crate) fn decay_and_mean(x: f64) -> [f64; 2] {
     if x > 1.0 {
@@ -27,7 +27,7 @@ pub(crate) fn decay_and_mean(x: f64) -> [f64; 2] {
     [1.0 - x * mean, mean]
 }
 
-/// e^(−x) from its mean from 0 to x.
+/// Exponential e^(−x) from its mean from 0 to x.
 #[inline]
 pub(crate) fn decay_from_mean(x: f64, mean: f64) -> f64 {
     if x > 1.0 { decay(x) } else { 1.0 - x * mean }
@@ -81,7 +81,7 @@ pub(crate) const RECIPROCALS: [f64; 64] = {
     reciprocals
 };
 
-/// ∫₀¹ e^(−z (1 − θ)) θ^j dθ for j = 0, 1, …, to rounding at every z ≥ 0.
+/// Moments ∫₀¹ e^(−z (1 − θ)) θ^j dθ for j = 0, 1, …, to rounding at every z ≥ 0.
 ///
 /// The recurrence μ_j = (1 − j μ_(j−1))/z goes upwards to j ≤ z and downwards from the last one, each where it does not
 /// amplify errors.

@@ -20,32 +20,34 @@ pub(crate) struct Foundation {
     /// Unit of all stresses, \[Pa], so that their squares stay in range: the instantaneous modulus, or η₀ v over 1 m for a lone
     /// dashpot.
     pub(crate) unit: f64,
-    /// G_∞ over the unit.
+    /// Equilibrium modulus G_∞ over the unit.
     pub(crate) spring: f64,
-    /// η₀ v over the unit, \[m].
+    /// Lone dashpot η₀ v over the unit, \[m].
     pub(crate) dashpot: f64,
+    /// Maxwell branches, which carry the load in contact.
     pub(crate) branches: Vec<Branch>,
+    /// Modes in which a free element recovers.
     pub(crate) modes: Vec<Mode>,
 }
 
-/// A Maxwell branch.
+/// Maxwell branch of the foundation, in its units.
 pub(crate) struct Branch {
-    /// G_i over the unit.
+    /// Modulus G_i over the unit.
     pub(crate) modulus: f64,
-    /// l_i = v τ_i, \[m].
+    /// Distance of relaxation l_i = v τ_i, \[m].
     pub(crate) length: f64,
-    /// l_i/(L_k − l_i) of all modes.
+    /// Coefficients l_i/(L_k − l_i), one for each mode k.
     ratios: Vec<f64>,
 }
 
 /// A mode of free recovery.
 #[derive(Debug)]
 pub(crate) struct Mode {
-    /// J_k times the unit.
+    /// Compliance J_k times the unit.
     pub(crate) compliance: f64,
-    /// L_k = v λ_k, \[m].
+    /// Distance of retardation L_k = v λ_k, \[m].
     pub(crate) length: f64,
-    /// l_i/(L_k − l_i) of all branches.
+    /// Coefficients l_i/(L_k − l_i), one for each branch i.
     ratios: Vec<f64>,
 }
 
@@ -61,13 +63,13 @@ impl Foundation {
     pub(crate) fn new(material: &dyn Material, velocity: f64) -> Result<Self, MdrError> {
         check_spectra(material)?;
         let (relaxation, creep) = (material.relaxation(), material.creep());
-        let factor = material.half_space_factor();
+        let half_space_factor = material.half_space_factor();
 
         // Unit of stress.
-        let dashpot = relaxation.viscosity() * velocity / factor;
+        let dashpot = relaxation.viscosity() * velocity / half_space_factor;
         let moduli = relaxation.branches().iter().map(|branch| branch.modulus);
-        let spring = relaxation.equilibrium_modulus() / factor;
-        let instantaneous = spring + moduli.sum::<f64>() / factor;
+        let spring = relaxation.equilibrium_modulus() / half_space_factor;
+        let instantaneous = spring + moduli.sum::<f64>() / half_space_factor;
         let stiffness = if instantaneous > 0.0 {
             instantaneous
         } else {
@@ -91,7 +93,7 @@ impl Foundation {
         let ratio = |branch: f64, mode: f64| branch / (mode - branch);
         let branch_lengths = relaxation.branches().iter().zip(&relaxation_lengths);
         let branches = branch_lengths.map(|(branch, &length)| Branch {
-            modulus: branch.modulus / factor / unit,
+            modulus: branch.modulus / half_space_factor / unit,
             length,
             ratios: recovery_lengths
                 .iter()
@@ -100,7 +102,7 @@ impl Foundation {
         });
         let mode_lengths = creep.elements().iter().zip(&recovery_lengths);
         let modes = mode_lengths.map(|(element, &length)| Mode {
-            compliance: element.compliance * factor * unit,
+            compliance: element.compliance * half_space_factor * unit,
             length,
             ratios: relaxation_lengths
                 .iter()
@@ -116,10 +118,12 @@ impl Foundation {
         })
     }
 
+    /// True if the material has a lone dashpot.
     pub(crate) fn has_dashpot(&self) -> bool {
         self.dashpot > 0.0
     }
 
+    /// True if the material neither relaxes nor flows.
     pub(crate) fn is_elastic(&self) -> bool {
         self.branches.is_empty() && !self.has_dashpot()
     }
@@ -130,8 +134,8 @@ impl Foundation {
             return 0.0;
         }
         let branches = self.branches.iter();
-        let left = |b: &Branch| -(-time / b.length).exp_m1() * b.length / time;
-        let relaxing: f64 = branches.map(|b| b.modulus * left(b)).sum();
+        let mean_decay = |b: &Branch| -(-time / b.length).exp_m1() * b.length / time;
+        let relaxing: f64 = branches.map(|b| b.modulus * mean_decay(b)).sum();
         self.spring + self.dashpot / time + relaxing
     }
 
@@ -149,15 +153,15 @@ impl Foundation {
         0.5 * (self.spring * displacement * displacement + stored)
     }
 
-    /// Amplitude β of a mode after a separation with this displacement and these stresses.
+    /// Amplitude β of a mode of recovery after a separation at a displacement, with the stresses of the branches.
     pub(crate) fn amplitude(&self, mode: &Mode, displacement: f64, stresses: &[f64]) -> f64 {
         let terms = mode.ratios.iter().zip(stresses).map(|(r, e)| r * e);
         mode.compliance * (terms.sum::<f64>() - self.spring * displacement)
     }
 
-    /// Stress in a branch of a free surface with the amplitudes `left` = β e^(−ξ/L) in the modes.
-    pub(crate) fn free_stress(branch: &Branch, left: &[f64]) -> f64 {
-        let modes = branch.ratios.iter().zip(left);
+    /// Stress in a branch of a free surface with the `amplitudes` β e^(−ξ/L) in the modes.
+    pub(crate) fn free_stress(branch: &Branch, amplitudes: &[f64]) -> f64 {
+        let modes = branch.ratios.iter().zip(amplitudes);
         branch.modulus * modes.map(|(r, beta)| r * beta).sum::<f64>()
     }
 }

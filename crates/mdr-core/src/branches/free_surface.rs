@@ -2,18 +2,18 @@
 
 use super::foundation::{Branch, Foundation, Mode};
 
-/// A free part of the surface, which recovers since the last separation.
+/// Displacement of a free part of the surface, which recovers since the last separation.
 pub(crate) struct FreeSurface {
     /// Displacement at separation, in depths.
     pub(crate) displacement: f64,
-    /// β_k, in depths.
+    /// Amplitudes β_k of the modes at separation, in depths.
     amplitudes: Vec<f64>,
-    /// Distance ξ since then, \[m]; infinite if it was never loaded.
+    /// Distance ξ since the separation, \[m]; infinite if it was never loaded.
     pub(crate) distance: f64,
 }
 
 impl Foundation {
-    /// The free surface after a separation with this displacement and these stresses.
+    /// The free surface after a separation at a displacement, with the stresses of the branches.
     pub(crate) fn release(&self, displacement: f64, stresses: &[f64]) -> FreeSurface {
         let amplitude = |mode: &Mode| self.amplitude(mode, displacement, stresses);
         FreeSurface {
@@ -23,16 +23,16 @@ impl Foundation {
         }
     }
 
-    /// A free surface that recovers to the undeformed state, with the amplitudes that are left in the modes.
-    pub(crate) fn recovering_surface(&self, left: &[f64]) -> FreeSurface {
+    /// A free surface that recovers to the undeformed state, from the present `amplitudes` of the modes.
+    pub(crate) fn recovering_surface(&self, amplitudes: &[f64]) -> FreeSurface {
         FreeSurface {
-            displacement: -left.iter().sum::<f64>(),
-            amplitudes: left.to_vec(),
+            displacement: -amplitudes.iter().sum::<f64>(),
+            amplitudes: amplitudes.to_vec(),
             distance: 0.0,
         }
     }
 
-    /// Amplitudes left in the modes of a free surface, at a distance behind its present position.
+    /// Amplitudes of the modes of a free surface, at a distance behind its present position.
     pub(crate) fn remaining_amplitudes(&self, surface: &FreeSurface, distance: f64) -> Vec<f64> {
         let xi = surface.distance + distance;
         let amplitude = |k: usize| surface.amplitudes.get(k).copied().unwrap_or(0.0);
@@ -62,9 +62,10 @@ impl Foundation {
     pub(crate) fn free_stresses(&self, surface: &FreeSurface, distance: f64) -> Vec<f64> {
         let xi = surface.distance + distance;
         let modes = self.modes.iter().zip(&surface.amplitudes);
-        let left = modes.map(|(mode, beta)| beta * (-xi / mode.length).exp());
-        let left: Vec<f64> = left.collect();
-        let stress = |branch: &Branch| Self::free_stress(branch, &left);
+        let amplitudes: Vec<f64> = modes
+            .map(|(mode, beta)| beta * (-xi / mode.length).exp())
+            .collect();
+        let stress = |branch: &Branch| Self::free_stress(branch, &amplitudes);
         self.branches.iter().map(stress).collect()
     }
 }

@@ -33,15 +33,17 @@ pub(crate) struct TimeStep {
     pub(crate) duration: f64,
     /// Load of an element at the end per compression in the step: G_∞ + η₀/Δt + Σ G φ.
     pub(crate) stiffness: f64,
+    /// Equilibrium modulus G_∞ over the unit.
     spring: f64,
-    /// η₀/Δt.
+    /// Stiffness η₀/Δt of the lone dashpot over the step.
     dashpot: f64,
+    /// Coefficients of the branches.
     branches: Vec<BranchGroup>,
     /// Mean load of all branches per compression, if they are free of stress before.
     mean: f64,
     /// Dissipation of all branches per squared compression, if they are free of stress before.
-    lost: f64,
-    /// e^(−Δt/λ) of the modes of recovery.
+    dissipation: f64,
+    /// Decay e^(−Δt/λ) of the modes of recovery.
     decays: Vec<Lanes>,
 }
 
@@ -50,20 +52,21 @@ pub(crate) struct TimeStep {
 struct BranchGroup {
     /// Stress after the step is `decay` e + `gain` u.
     decay: Lanes,
+    /// Stress after the step per compression.
     gain: Lanes,
-    /// Mean stress per e.
+    /// Mean stress in the step per e.
     mean: Lanes,
     /// Dissipation is e (c e + d u) with these c and d, besides that of u alone.
-    lost: [Lanes; 2],
+    dissipation: [Lanes; 2],
 }
 
 /// Impulse and dissipation of an element in a step, in the units of the foundation.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct StepWork {
-    /// ∫ w dt.
+    /// Impulse ∫ w dt.
     pub(crate) impulse: f64,
-    /// Energy that its dashpots dissipate.
-    pub(crate) lost: f64,
+    /// Energy that the dashpots of the element dissipate.
+    pub(crate) dissipated: f64,
 }
 
 /// Number of history variables of an element, stresses of branches or amplitudes of modes: a multiple of [`LANES`].
@@ -97,17 +100,17 @@ impl TimeStep {
             step.stiffness += step.dashpot;
         }
         for branches in foundation.branches.chunks(LANES) {
-            step.add(branches);
+            step.add_branches(branches);
         }
         step
     }
 
     /// Adds up to [`LANES`] branches.
-    fn add(&mut self, branches: &[Branch]) {
+    fn add_branches(&mut self, branches: &[Branch]) {
         let modulus = lanes(branches, 0.0, |branch| branch.modulus);
         let compliance = lanes(branches, 0.0, |branch| branch.modulus.recip());
         let a = lanes(branches, 1.0, |branch| self.duration / branch.length);
-        // e^(−a) − 1, φ(a), and φ(2a).
+        // e^(−a) − 1, φ(a), φ(2a), and the differences of φ.
         let change = a.map(|a| (-a).exp_m1());
         let once: Lanes = std::array::from_fn(|k| -change[k] / a[k]);
         let twice: Lanes = std::array::from_fn(|k| once[k] * (1.0 + 0.5 * change[k]));
@@ -117,30 +120,31 @@ impl TimeStep {
             differences[1][k] = once[k] - twice[k];
             differences[2][k] = 1.0 - 2.0 * once[k] + twice[k];
         }
-        let [lag, lost, lost_alone] = differences;
+        let [lag, cross_dissipation, dissipation_of_compression] = differences;
+        // Sums over the branches, and coefficients of each.
         let decay = change.map(|change| 1.0 + change);
         let gain = product(modulus, once);
         self.stiffness += total(gain);
         for k in 0..LANES {
             self.mean -= modulus[k] * lag[k] / a[k];
-            self.lost += modulus[k] * lost_alone[k] / a[k];
+            self.dissipation += modulus[k] * dissipation_of_compression[k] / a[k];
         }
         self.branches.push(BranchGroup {
             decay,
             gain,
             mean: once,
-            lost: [
+            dissipation: [
                 std::array::from_fn(|k| compliance[k] * a[k] * twice[k]),
-                lost.map(|lost| 2.0 * lost),
+                cross_dissipation.map(|cross| 2.0 * cross),
             ],
         });
     }
 
-    /// Displacement that is left to recover at the end of the step, Σ β_k e^(−Δt/λ_k).
+    /// Displacement that has not recovered at the end of the step, Σ β_k e^(−Δt/λ_k).
     pub(crate) fn remaining_recovery(&self, history: &[f64]) -> f64 {
         let decays = self.decays.iter().zip(history.as_chunks().0);
         total(decays.fold([0.0; LANES], |sum, (decays, history)| {
-            add(sum, *decays, *history)
+            add_product(sum, *decays, *history)
         }))
     }
 
@@ -154,10 +158,10 @@ impl TimeStep {
     /// Load of an element at the end of a step without compression.
     pub(crate) fn relaxed_load(&self, displacement: f64, stresses: &[f64]) -> f64 {
         let branches = self.branches.iter().zip(stresses.as_chunks().0);
-        let left = branches.fold([0.0; LANES], |sum, (branches, stresses)| {
-            add(sum, branches.decay, *stresses)
+        let relaxed = branches.fold([0.0; LANES], |sum, (branches, stresses)| {
+            add_product(sum, branches.decay, *stresses)
         });
-        self.spring * displacement + total(left)
+        self.spring * displacement + total(relaxed)
     }
 
     /// Compresses an element during the step; the length of `stresses` is a multiple of [`LANES`].
@@ -167,21 +171,24 @@ impl TimeStep {
         compression: f64,
         stresses: &mut [f64],
     ) -> StepWork {
+        // Sum over the branches, and advance their stresses.
         let u = [compression; LANES];
-        let [mut mean, mut lost] = [[0.0; LANES]; 2];
+        let [mut mean, mut dissipated] = [[0.0; LANES]; 2];
         for (branches, stresses) in self.branches.iter().zip(stresses.as_chunks_mut().0) {
             let e = *stresses;
-            let [by_stress, by_compression] = branches.lost;
-            mean = add(mean, branches.mean, e);
-            let per_stress = add(product(by_stress, e), by_compression, u);
-            lost = add(lost, per_stress, e);
-            *stresses = add(product(branches.decay, e), branches.gain, u);
+            let [by_stress, by_compression] = branches.dissipation;
+            mean = add_product(mean, branches.mean, e);
+            let per_stress = add_product(product(by_stress, e), by_compression, u);
+            dissipated = add_product(dissipated, per_stress, e);
+            *stresses = add_product(product(branches.decay, e), branches.gain, u);
         }
+        // Add the spring, the dashpot, and branches that relax within the step.
         let spring = self.spring * (displacement + 0.5 * compression);
-        let mean = total(mean) + spring + (self.dashpot + self.mean) * compression;
+        let mean_load = total(mean) + spring + (self.dashpot + self.mean) * compression;
         StepWork {
-            impulse: mean * self.duration,
-            lost: total(lost) + (self.dashpot + self.lost) * compression * compression,
+            impulse: mean_load * self.duration,
+            dissipated: total(dissipated)
+                + (self.dashpot + self.dissipation) * compression * compression,
         }
     }
 }
@@ -191,15 +198,17 @@ fn lanes<T>(of: &[T], missing: f64, number: impl Fn(&T) -> f64) -> Lanes {
     std::array::from_fn(|lane| of.get(lane).map_or(missing, &number))
 }
 
-/// sum + a b.
-fn add(sum: Lanes, a: Lanes, b: Lanes) -> Lanes {
+/// Lane-wise sum + a b.
+fn add_product(sum: Lanes, a: Lanes, b: Lanes) -> Lanes {
     std::array::from_fn(|lane| sum[lane] + a[lane] * b[lane])
 }
 
+/// Lane-wise product.
 fn product(a: Lanes, b: Lanes) -> Lanes {
     std::array::from_fn(|lane| a[lane] * b[lane])
 }
 
+/// Sum over the lanes.
 fn total(lanes: Lanes) -> f64 {
     lanes.iter().sum()
 }
@@ -217,7 +226,7 @@ const fn coefficients(once: f64, twice: f64) -> [f64; N_PHI_TERMS] {
     coefficients
 }
 
-/// Σ c_k a^k from k = 1 on.
+/// Power series Σ c_k a^k from k = 1 on.
 fn power_series(coefficients: &[f64; N_PHI_TERMS], a: Lanes) -> Lanes {
     let terms = coefficients.iter().rev();
     terms.fold([0.0; LANES], |sum, coefficient| {
@@ -246,12 +255,12 @@ mod tests {
             let done = step.compress(displacement, compression, &mut stresses);
             let after = foundation.stored_energy(displacement + compression, &stresses);
             let work = done.impulse * compression;
-            let error = work - (after - before) - done.lost;
+            let error = work - (after - before) - done.dissipated;
             assert!(
                 error.abs() < 1e-13,
                 "time {time}: {work}, {done:?}, {error:e}"
             );
-            assert!(done.lost > 0.0, "time {time}: {done:?}");
+            assert!(done.dissipated > 0.0, "time {time}: {done:?}");
         }
     }
 }

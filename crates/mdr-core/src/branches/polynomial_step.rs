@@ -18,33 +18,34 @@ pub(crate) const MAX_TERMS: usize = DEGREE + 30;
 
 /// Stress e of a branch over one piece.
 pub(crate) struct BranchStress {
-    /// The smooth part p.
+    /// Legendre coefficients of the smooth part p.
     pub(crate) smooth: [f64; MAX_TERMS],
+    /// Number of its coefficients that may differ from 0.
     pub(crate) n_terms: usize,
     /// Amplitude C of the layer e^(−a (1 + t)).
     pub(crate) layer: f64,
-    /// e(1).
+    /// Stress e(1) at the end of the piece.
     pub(crate) end: f64,
-    /// ∫ e dt over [−1, 1].
+    /// Integral ∫ e dt over [−1, 1].
     pub(crate) integral: f64,
-    /// ∫ e² dt over [−1, 1].
+    /// Integral ∫ e² dt over [−1, 1].
     pub(crate) square_integral: f64,
 }
 
 /// The stress of a branch with `ratio` a and stress `start` = e(−1), driven by the rates G u'(t).
 pub(crate) fn branch_stress(ratio: f64, start: f64, rates: &[f64]) -> BranchStress {
     let solve = if ratio < MIN_LAYER_RATIO {
-        expanded
+        solve_by_expansion
     } else {
-        with_layer
+        solve_with_layer
     };
     solve(ratio, start, rates)
 }
 
 /// The solution as one Legendre expansion, for a wide boundary layer.
-fn expanded(ratio: f64, start: f64, rates: &[f64]) -> BranchStress {
+fn solve_by_expansion(ratio: f64, start: f64, rates: &[f64]) -> BranchStress {
     let n_terms = rates.len() + exponential_terms(ratio);
-    let slopes = slopes(ratio, start, rates, n_terms);
+    let slopes = solve_for_slopes(ratio, start, rates, n_terms);
     let mut smooth = [0.0; MAX_TERMS];
     smooth[0] = start + slopes[0] - slopes[1] / 3.0;
     for k in 1..n_terms {
@@ -60,7 +61,7 @@ fn expanded(ratio: f64, start: f64, rates: &[f64]) -> BranchStress {
     }
 }
 
-/// Terms beyond those of the rates until e^(−a t) is exhausted.
+/// Number of Legendre terms beyond those of the rates from which on the terms of e^(−a t) are negligible.
 fn exponential_terms(ratio: f64) -> usize {
     /// Size of the terms of e^(−a t) that are left out; it is below rounding.
     const NEGLIGIBLE_TERM: f64 = 1e-18;
@@ -73,8 +74,10 @@ fn exponential_terms(ratio: f64) -> usize {
     terms
 }
 
-/// Coefficients f_k of e', from f_k + a (f_(k−1)/(2k − 1) − f_(k+1)/(2k + 3)) = G u'_k.
-fn slopes(ratio: f64, start: f64, rates: &[f64], n_terms: usize) -> [f64; MAX_TERMS + 1] {
+/// Legendre coefficients f_k of e', by elimination in the tridiagonal system
+/// f_k + a (f_(k−1)/(2k − 1) − f_(k+1)/(2k + 3)) = G u'_k.
+fn solve_for_slopes(ratio: f64, start: f64, rates: &[f64], n_terms: usize) -> [f64; MAX_TERMS + 1] {
+    // Forward elimination, then back substitution.
     let mut slopes = [0.0; MAX_TERMS + 1];
     let mut pivots = [0.0; MAX_TERMS];
     for k in 0..n_terms {
@@ -95,7 +98,7 @@ fn slopes(ratio: f64, start: f64, rates: &[f64], n_terms: usize) -> [f64; MAX_TE
 }
 
 /// The solution as a polynomial and a boundary layer.
-fn with_layer(ratio: f64, start: f64, rates: &[f64]) -> BranchStress {
+fn solve_with_layer(ratio: f64, start: f64, rates: &[f64]) -> BranchStress {
     let smooth = particular(ratio, rates);
     let layer = start - start_value(&smooth);
     let decay = (-2.0 * ratio).exp();

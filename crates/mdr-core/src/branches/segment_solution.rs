@@ -18,7 +18,9 @@ pub(crate) struct JumpSensitivity {
 
 /// A boundary layer `amplitude · e^(−ratio (1 + t))`.
 pub(crate) struct Layer {
+    /// Amplitude at t = −1, in the unit of stress.
     pub(crate) amplitude: f64,
+    /// Rate of the decay with t.
     pub(crate) ratio: f64,
 }
 
@@ -26,16 +28,17 @@ pub(crate) struct Layer {
 pub(crate) struct SegmentSolution {
     /// Legendre coefficients of the smooth part of w.
     smooth: [f64; MAX_TERMS],
+    /// Number of these coefficients that may differ from 0.
     n_terms: usize,
     /// Boundary layers of w.
     pub(crate) layers: Vec<Layer>,
-    /// ∫ w dξ, \[m].
+    /// Load ∫ w dξ on the segment, \[m].
     pub(crate) load: f64,
     /// Energy that the dashpots dissipate, ∫ (η₀ v u'² + Σ e_i²/(G_i l_i)) dξ.
     pub(crate) dissipation: f64,
-    /// Bound of its change per change of the displacement.
+    /// Bound of the change of the dissipation per change of the displacement.
     pub(crate) dissipation_change: f64,
-    /// Its error by rounding.
+    /// Error of the dissipation by rounding.
     pub(crate) dissipation_rounding: f64,
     /// Stresses of the branches at the end.
     pub(crate) stresses: Vec<f64>,
@@ -58,7 +61,7 @@ impl Foundation {
         self.spring * length + self.dashpot + relaxing
     }
 
-    /// Bounds of the changes by a jump δ of the displacement that the branches account for: only the lone dashpot is left.
+    /// Bounds of the changes by a jump δ of the displacement that is neglected in the lone dashpot only.
     ///
     /// The displacement changes by `rate` per metre at the jump.
     pub(crate) fn dashpot_sensitivity(&self, rate: f64) -> JumpSensitivity {
@@ -68,15 +71,15 @@ impl Foundation {
         }
     }
 
-    /// Bounds of the changes by a jump δ that is neglected altogether, under a contact of this length \[m].
+    /// Bounds of the changes by a jump δ that is neglected in dashpot, spring and branches, under a contact of a length \[m].
     ///
     /// A fast branch works over its own distance of relaxation, and a slow one returns most of the energy that it takes up.
     pub(crate) fn sensitivity(&self, rate: f64, length: f64) -> JumpSensitivity {
-        let part = |b: &Branch| {
-            let own = b.length * rate.abs();
-            own.min(4.0 * length / b.length).min(1.0)
+        let fraction = |b: &Branch| {
+            let over_relaxation = b.length * rate.abs();
+            over_relaxation.min(4.0 * length / b.length).min(1.0)
         };
-        let moduli: f64 = self.branches.iter().map(|b| b.modulus * part(b)).sum();
+        let moduli: f64 = self.branches.iter().map(|b| b.modulus * fraction(b)).sum();
         JumpSensitivity {
             load: self.stiffness(length),
             work: self.dashpot_sensitivity(rate).work + moduli,
@@ -106,13 +109,13 @@ impl Foundation {
             solution.smooth[k] = self.spring * segment.displacements[k] + dashpot * rate;
         }
 
-        // The branches.
+        // Add the stresses of the branches.
         let n_rates = segment.degree.max(1);
         for (branch, start) in self.branches.iter().zip(stresses) {
             let ratio = 0.5 * segment.length / branch.length;
             let driven = rates.map(|rate| branch.modulus * rate);
             let stress = branch_stress(ratio, *start, &driven[..n_rates]);
-            solution.add(&stress, ratio);
+            solution.add_branch(&stress, ratio);
             solution.load += 0.5 * segment.length * stress.integral;
             solution.dissipation += ratio * (stress.square_integral / branch.modulus);
             solution.dissipation_change +=
@@ -123,7 +126,8 @@ impl Foundation {
 }
 
 impl SegmentSolution {
-    fn add(&mut self, stress: &BranchStress, ratio: f64) {
+    /// Adds the stress of one branch, whose boundary layer has the `ratio` of the segment to its distance of relaxation.
+    fn add_branch(&mut self, stress: &BranchStress, ratio: f64) {
         self.n_terms = self.n_terms.max(stress.n_terms);
         for (sum, term) in self.smooth.iter_mut().zip(&stress.smooth[..stress.n_terms]) {
             *sum += term;

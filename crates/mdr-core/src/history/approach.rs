@@ -5,7 +5,7 @@
 //! q_k(t) = ∫ e^(−(t − s)/τ_k) ḋ ds        P_k(t) = ∫ e^(−(t − s)/τ_k) a(D) ḋ ds        D(s) = max d(s') up to s
 //! ```
 //! The element at the edge came into contact at t₁ and carries w. Where the contact shrinks w = 0, so that ∂F/∂t₁ ∝ w
-//! vanishes there (Ting 1966, J. Appl. Mech. 33, 845).
+//! vanishes (Ting 1966, J. Appl. Mech. 33, 845).
 //!
 //! For each point of the path [`Approach::follow`] integrates q_k, and P_k while the contact grows, and finds t₁ by Halley's
 //! method inside a bracket. The derivatives need the integrals weighted by the time that has passed, too.
@@ -30,74 +30,78 @@ pub(super) struct DepthAt {
 /// The element that came into contact at a depth D.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct EdgePlace {
-    /// Its radius a(D), \[m].
+    /// Radius a(D) of the element, \[m].
     pub(super) radius: f64,
-    /// da/dD.
+    /// Derivative da/dD of the radius.
     pub(super) slope: f64,
-    /// D, \[m].
+    /// Depth D at which it came into contact, \[m].
     pub(super) depth: f64,
 }
 
 /// A step of the search for the edge.
 struct EdgeStep {
-    /// How much deeper the edge is, \[m].
+    /// Depth of the edge less that of the present estimate, \[m].
     shift: f64,
-    /// Half the relative change of the modulus on the way there.
+    /// Half the relative change of the modulus over the shift.
     curvature: f64,
 }
 
 /// The element at the edge, and the decay of the branches since it came into contact.
 #[derive(Debug, Clone, Default)]
 pub(super) struct EdgeElement {
-    /// Index of the ring in which the edge is, and its position θ ∈ [0, 1] in it.
+    /// Index of the ring in which the edge is.
     ring: usize,
+    /// Position θ ∈ [0, 1] of the edge in this ring.
     theta: f64,
-    /// Where the sums are computed, short of `shift`; `None` without contact.
+    /// Element at which the sums are computed, short of `shift`; `None` without contact.
     pub(super) place: Option<EdgePlace>,
-    /// Speed ḋ at which it was found, \[m/s].
+    /// Speed ḋ at which the edge was found, \[m/s].
     speed: f64,
-    /// How much deeper the edge is than `place`, by the last step of the search, \[m].
+    /// Depth of the edge less that of `place`, by the last step of the search, \[m].
     shift: f64,
-    /// What this shift adds to the sum of the loads, \[Pa m²].
+    /// Change of the sum of the loads by the shift, \[Pa m²].
     correction: f64,
     /// Contact radius after the shift, \[m].
     radius: f64,
-    /// t − t₁, \[s].
+    /// Time t − t₁ since the element came into contact, \[s].
     pub(super) lag: f64,
-    /// w, \[Pa m].
+    /// Load w of the element, \[Pa m].
     pub(super) load: f64,
-    /// G(t − t₁), \[Pa].
+    /// Relaxation modulus G(t − t₁), \[Pa].
     pub(super) modulus: f64,
-    /// e^(−(t − t₁)/τ_k).
+    /// Decay e^(−(t − t₁)/τ_k) of each branch.
     pub(super) decays: Vec<f64>,
-    /// q_k(t) − e^(−(t − t₁)/τ_k) q_k(t₁), \[m].
+    /// Strain q_k(t) − e^(−(t − t₁)/τ_k) q_k(t₁) of each branch, \[m].
     pub(super) strains: Vec<f64>,
-    /// ∫ of the strain of branch k over the contact, \[m²]: Φ_k/G_k.
+    /// Integral of the strain of branch k over the contact, \[m²]: Φ_k/G_k.
     pub(super) sums: Vec<f64>,
 }
 
 /// A body that follows a path of the depth, and the integrals over its history.
 pub(super) struct Approach {
+    /// Contact radius over the depth.
     radii: Radii,
     /// Error of the sum of the loads by the polynomials of the radii, \[Pa m²].
     load_error: f64,
     /// Moduli G_k of the branches, the lone spring last, \[Pa].
     pub(super) moduli: Vec<f64>,
-    /// 1/τ_k of the branches, 0 of the lone spring, \[1/s].
+    /// Rates 1/τ_k of the branches, 0 of the lone spring, \[1/s].
     pub(super) rates: Vec<f64>,
     /// Viscosity η₀ of the lone dashpot, \[Pa s].
     pub(super) viscosity: f64,
     /// The integrals now; those of the load only as long as the contact grows.
     pub(super) now: HistoryIntegrals,
+    /// The present point of the path.
     pub(super) point: DepthAt,
     /// Speed ḋ up to the point, \[m/s].
     pub(super) speed: f64,
     /// Time since the point before, \[s].
     step: f64,
+    /// Rings of elements in the order in which they came into contact.
     rings: Vec<Ring>,
     /// Coefficients of the radius over θ, ring by ring.
     coefficients: Vec<f64>,
-    /// q_k and then P_k at the beginning of every ring.
+    /// Integrals q_k and then P_k at the beginning of every ring.
     integrals_at_rings: Vec<f64>,
     /// The time-weighted integrals at the beginning of every ring; empty without derivatives.
     time_weighted_at_rings: Vec<TimeWeightedIntegrals>,
@@ -105,17 +109,19 @@ pub(super) struct Approach {
     at_front: HistoryIntegrals,
     /// The integrals at t₁, when the element at the edge came into contact.
     pub(super) at_contact: HistoryIntegrals,
+    /// Element at the edge of the contact.
     pub(super) edge: EdgeElement,
-    /// Whether the depth has been less than its maximum since the last growth, so that the P_k of now are outdated.
+    /// True if the depth has been less than its maximum since the last growth, so that the present P_k are outdated.
     front_is_behind: bool,
-    /// Whether the edge lies inside the largest contact.
+    /// True if the edge lies inside the largest contact.
     has_receded: bool,
-    /// Whether elements have come into contact again, for which the closed form does not hold.
+    /// True if elements have come into contact again, for which the closed form does not hold.
     pub(super) has_recontact: bool,
     /// Change of the depth of the edge between the last two points, \[m].
     last_edge_shift: f64,
     /// Moments of the last step; steps of one length share them.
     step_integrals: StepIntegrals,
+    /// Moments over the part of a ring up to the edge.
     partial_integrals: StepIntegrals,
 }
 
@@ -129,17 +135,22 @@ const MAX_EDGE_STEPS: usize = 200;
 const EDGE_TOLERANCE: f64 = 1e-8;
 
 impl Approach {
-    /// A body before its first point; with `differentiates` the integrals for derivatives are kept too.
+    /// A body before its first point. `n_points` is the number of points of the path; with `differentiates` the integrals for
+    /// derivatives are kept too.
     pub(super) fn new(
         radii: Radii,
         spectrum: &RelaxationSpectrum,
         n_points: usize,
         differentiates: bool,
     ) -> Self {
+        // Branches, and the spring as one that does not relax.
         let branches = spectrum.branches().iter();
-        let moduli = branches.clone().map(|branch| branch.modulus);
-        let rates = branches.map(|branch| branch.relaxation_time.recip());
-        let rates: Vec<f64> = rates.chain([0.0]).collect();
+        let branch_moduli = branches.clone().map(|branch| branch.modulus);
+        let moduli: Vec<f64> = branch_moduli
+            .chain([spectrum.equilibrium_modulus()])
+            .collect();
+        let branch_rates = branches.map(|branch| branch.relaxation_time.recip());
+        let rates: Vec<f64> = branch_rates.chain([0.0]).collect();
         let n = rates.len();
         let now = HistoryIntegrals {
             depth: vec![0.0; n],
@@ -149,7 +160,6 @@ impl Approach {
                 if differentiates { n } else { 0 }
             ],
         };
-        let moduli: Vec<f64> = moduli.chain([spectrum.equilibrium_modulus()]).collect();
         Self {
             load_error: moduli.iter().sum::<f64>() * radii.area_error,
             radii,
@@ -189,8 +199,8 @@ impl Approach {
         };
     }
 
-    /// Sums over the contact now.
-    pub(super) fn measured(&self) -> ContactSums {
+    /// Sums over the present contact.
+    pub(super) fn contact_sums(&self) -> ContactSums {
         let DepthAt { time, depth } = self.point;
         let Some(EdgePlace { radius, slope, .. }) = self.edge.place else {
             return ContactSums {
@@ -199,12 +209,14 @@ impl Approach {
                 ..ContactSums::default()
             };
         };
+        // Sum the loads of the dashpot, the branches and the spring.
         let viscous = self.viscosity * self.speed * radius;
         let [mut load, mut terms] = [viscous + self.edge.correction, viscous.abs()];
         for (modulus, sum) in self.moduli.iter().zip(&self.edge.sums) {
             load += modulus * sum;
             terms += modulus * sum.abs();
         }
+        // Add the errors by rounding and by the radii.
         let scale = self.load_scale();
         ContactSums {
             time,
@@ -237,7 +249,7 @@ impl Approach {
         })
     }
 
-    /// Size of the terms that cancel in its rate, \[Pa m/s].
+    /// Size of the terms that cancel in the rate of the load of an element, \[Pa m/s].
     fn rate_scale(&self) -> f64 {
         let branches = self.moduli.iter().zip(&self.rates).zip(&self.now.depth);
         branches
@@ -245,7 +257,7 @@ impl Approach {
             .sum()
     }
 
-    /// Follows the body to the next point. Once the body is above the undeformed surface, this counts as recovered.
+    /// Follows the body to the next point. Once the body is above the undeformed surface, the surface counts as recovered.
     pub(super) fn follow(&mut self, time: f64, depth: f64) {
         let start = std::mem::replace(&mut self.point, DepthAt { time, depth });
         let end = self.point;
@@ -255,7 +267,7 @@ impl Approach {
             step => (end.depth - start.depth) / step,
         };
         if end.depth <= 0.0 {
-            self.recover();
+            self.clear_history();
             return;
         }
         let at = |depth: f64| {
@@ -265,17 +277,18 @@ impl Approach {
                 depth,
             }
         };
-        let mut here = if start.depth < 0.0 { at(0.0) } else { start };
-        self.has_recontact |= end.time > start.time && self.reverses();
+        let mut from = if start.depth < 0.0 { at(0.0) } else { start };
+        self.has_recontact |= end.time > start.time && self.edge_turns_outwards();
         let deepest = self.deepest();
 
         // Below the largest depth the contact shrinks or rests: only the edge is sought.
         if end.depth <= deepest {
-            self.hold(here, end);
+            self.hold(from, end);
             let before = self.radius();
             self.find_edge();
-            let wider = self.has_receded && self.radius() > before * (1.0 + EXTENT_ROUNDING);
-            self.has_recontact |= wider || (end.time > start.time && self.reverses());
+            let has_widened = self.has_receded && self.radius() > before * (1.0 + EXTENT_ROUNDING);
+            self.has_recontact |=
+                has_widened || (end.time > start.time && self.edge_turns_outwards());
             let edge = self.edge.place.map(|place| place.depth);
             self.has_receded |= edge.is_none_or(|depth| depth < (1.0 - EXTENT_ROUNDING) * deepest);
             return;
@@ -284,25 +297,25 @@ impl Approach {
         // Beyond it the contact grows over new elements, piece by piece of the radii.
         self.has_recontact |= self.has_receded;
         self.has_receded = false;
-        if here.depth < deepest {
-            let there = at(deepest);
-            self.hold(here, there);
-            here = there;
+        if from.depth < deepest {
+            let to = at(deepest);
+            self.hold(from, to);
+            from = to;
         }
         if self.front_is_behind {
-            self.catch_up_from_front(here.time);
+            self.catch_up_from_front(from.time);
         }
         while self.deepest() < end.depth {
             let limit = self.radii.end_of_piece(self.deepest()).min(end.depth);
-            let there = if limit < end.depth { at(limit) } else { end };
-            self.grow(here, there);
-            here = there;
+            let to = if limit < end.depth { at(limit) } else { end };
+            self.grow(from, to);
+            from = to;
         }
         self.put_edge_at_front();
     }
 
-    /// Forgets the contact: the body is above the surface, which counts as recovered.
-    fn recover(&mut self) {
+    /// Clears contact and history, because the surface under a body above it counts as recovered.
+    fn clear_history(&mut self) {
         self.has_receded |= !self.rings.is_empty();
         self.rings.clear();
         self.coefficients.clear();
@@ -316,8 +329,8 @@ impl Approach {
         self.edge.place = None;
     }
 
-    /// Whether an edge that has moved inwards moves outwards at the present speed.
-    fn reverses(&self) -> bool {
+    /// True if an edge that has moved inwards moves outwards at the present speed.
+    fn edge_turns_outwards(&self) -> bool {
         self.has_receded && self.edge.place.is_some() && self.edge_direction() > 0.0
     }
 
@@ -344,20 +357,21 @@ impl Approach {
         }
         self.front_is_behind = true;
         let step = to.time - from.time;
-        let rounding = rounding(to.time, step);
+        let rounding = duration_rounding(to.time, step);
         self.step_integrals.set(&self.rates, step, 2, rounding);
         self.step_integrals
             .hold(&mut self.now, to.depth - from.depth);
     }
 
-    /// Integrals of now from those at the front, for a contact that is about to grow again.
+    /// Updates the present integrals from those at the front, for a contact that is about to grow again.
     fn catch_up_from_front(&mut self, time: f64) {
         self.front_is_behind = false;
         let Some(ring) = self.rings.last().copied() else {
             return;
         };
+        // Advance the integrals at the front over the time without growth, with the strain of the edge.
         let lag = time - (ring.start_time + ring.duration);
-        let edge = self.place(self.rings.len() - 1, 1.0);
+        let edge = self.element_at(self.rings.len() - 1, 1.0);
         for (k, rate) in self.rates.iter().enumerate() {
             let decay = (-rate * lag).exp();
             let [at_contact, load] = [self.at_front.depth[k], self.at_front.load[k]];
@@ -377,7 +391,7 @@ impl Approach {
     /// Grows over new elements, within a piece of the radii.
     fn grow(&mut self, from: DepthAt, to: DepthAt) {
         let deepest = self.deepest();
-        let radius = self.radii.along([deepest, to.depth]);
+        let radius = self.radii.polynomial_between([deepest, to.depth]);
         let terms = radius.terms();
         let ring = Ring {
             start_time: from.time,
@@ -400,7 +414,7 @@ impl Approach {
         self.time_weighted_at_rings
             .extend_from_slice(&self.now.time_weighted);
         let n_moments = terms.len() + usize::from(!self.now.time_weighted.is_empty());
-        let rounding = rounding(to.time, ring.duration);
+        let rounding = duration_rounding(to.time, ring.duration);
         self.step_integrals
             .set(&self.rates, ring.duration, n_moments, rounding);
         self.step_integrals.grow(&mut self.now, &ring, terms);
@@ -408,7 +422,7 @@ impl Approach {
     }
 
     /// The element at θ of a ring.
-    fn place(&self, ring: usize, theta: f64) -> EdgePlace {
+    fn element_at(&self, ring: usize, theta: f64) -> EdgePlace {
         let ring = &self.rings[ring];
         let terms = &self.coefficients
             [ring.first_coefficient..ring.first_coefficient + ring.n_coefficients];
@@ -422,10 +436,10 @@ impl Approach {
         }
     }
 
-    /// Puts the edge at the end of the last ring: a growing contact.
+    /// Moves the edge to the end of the last ring, as in a growing contact.
     fn put_edge_at_front(&mut self) {
         let ring = self.rings.len() - 1;
-        let place = self.place(ring, 1.0);
+        let place = self.element_at(ring, 1.0);
         (self.edge.place, self.edge.radius) = (Some(place), place.radius);
         (self.edge.ring, self.edge.theta, self.edge.lag) = (ring, 1.0, 0.0);
         (self.edge.speed, self.edge.load) = (self.speed, self.viscosity * self.speed);
@@ -438,7 +452,7 @@ impl Approach {
         (self.edge.shift, self.edge.correction) = (0.0, 0.0);
     }
 
-    /// Computes the load of the element that came into contact at a depth in a ring, and the step from there to the edge.
+    /// Computes the load of the element that came into contact at a depth in a ring, and the step from that depth to the edge.
     ///
     /// The step is that of Halley's method for w = 0; where the modulus changes much on the way, of Newton's.
     fn step_to_edge(&mut self, index: usize, depth: f64) -> EdgeStep {
@@ -475,7 +489,7 @@ impl Approach {
             };
         }
 
-        // The step to w = 0.
+        // Step along the line to the position at which the load potential w vanishes.
         let shift = edge.load / modulus;
         let curvature = 0.5 * shift * slope / modulus * (ring.duration / ring.rise);
         let is_moderate = curvature.abs() < 0.25;
@@ -498,6 +512,7 @@ impl Approach {
             return;
         };
         let deepest = self.deepest();
+        // Start from the previous edge, shifted as in the step before.
         let (mut ring, before) = match self.edge.place {
             Some(place) => (self.edge.ring, place.depth + self.edge.shift),
             None => (0, 0.0),
@@ -536,6 +551,7 @@ impl Approach {
                 self.integrate_to_edge(next - depth);
                 return;
             }
+            // Halley steps, or every other step a bisection.
             depth = match step {
                 _ if step < UNGUARDED_EDGE_STEPS => next,
                 UNGUARDED_EDGE_STEPS => 0.0,
@@ -549,7 +565,7 @@ impl Approach {
     /// Computes Φ_k/G_k from the edge, up to a last shift of its depth.
     fn integrate_to_edge(&mut self, shift: f64) {
         let EdgeElement { ring, theta, .. } = self.edge;
-        let place = self.place(ring, theta);
+        let place = self.element_at(ring, theta);
         if ring + 1 == self.rings.len() && theta >= 1.0 {
             self.at_contact.copy_from(&self.at_front);
         } else {
@@ -584,19 +600,17 @@ impl Approach {
 
     /// Computes the integrals at t₁, when the element at the edge came into contact.
     fn find_integrals_at_edge(&mut self) {
+        // Start from the integrals at the inner boundary of the ring.
         let (n, index) = (self.rates.len(), self.edge.ring);
         let (ring, terms) = self.ring_up_to(index, self.edge.theta);
-        let integrals_at_rings = &self.integrals_at_rings[2 * index * n..2 * (index + 1) * n];
+        let at_ring = &self.integrals_at_rings[2 * index * n..2 * (index + 1) * n];
         let n_time_weighted = self.now.time_weighted.len();
-        self.at_contact
-            .depth
-            .copy_from_slice(&integrals_at_rings[..n]);
-        self.at_contact
-            .load
-            .copy_from_slice(&integrals_at_rings[n..]);
+        self.at_contact.depth.copy_from_slice(&at_ring[..n]);
+        self.at_contact.load.copy_from_slice(&at_ring[n..]);
         let time_weighted =
             &self.time_weighted_at_rings[index * n_time_weighted..(index + 1) * n_time_weighted];
         self.at_contact.time_weighted.copy_from_slice(time_weighted);
+        // Add the part of the ring inside the edge.
         let n_moments = ring.n_coefficients + usize::from(n_time_weighted > 0);
         self.partial_integrals
             .set(&self.rates, ring.duration, n_moments, 0.0);
@@ -605,7 +619,7 @@ impl Approach {
     }
 }
 
-/// Difference of two steps that end at a time which is within its rounding, \[s].
-fn rounding(time: f64, step: f64) -> f64 {
+/// Largest difference of the durations of two steps up to a time that may be rounding, \[s].
+fn duration_rounding(time: f64, step: f64) -> f64 {
     4.0 * f64::EPSILON * time.abs().min(1e3 * step)
 }

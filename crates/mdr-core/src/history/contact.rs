@@ -31,19 +31,23 @@ use edge::Edge;
 /// A body that follows a path, from one point to the next.
 #[derive(Clone)]
 pub(super) struct Contact<'a> {
+    /// Equivalent line of the body.
     pub(super) body: &'a dyn EquivalentProfile,
+    /// Depth over time, and the response of the material to it.
     pub(super) path: Path,
+    /// Contact radius over the depth.
     pub(super) radii: Radii,
     /// Rings in contact, from the centre outwards.
     pub(super) rings: Vec<EdgeMove>,
-    /// Φ_k inside each ring when it began, ring by ring, \[Pa m²].
+    /// Integrals Φ_k over the contact inside each ring when it began, ring by ring, \[Pa m²].
     pub(super) inner_sums: Vec<f64>,
     /// All moves of the edge so far.
     pub(super) edge_moves: Vec<EdgeMove>,
-    /// Φ_k of the whole contact now, \[Pa m²].
+    /// Integrals Φ_k over the present contact, \[Pa m²].
     pub(super) sums: Vec<f64>,
-    /// σ_k of the element at the edge now, \[Pa m].
+    /// Stresses σ_k of the element at the edge, \[Pa m].
     edge_stresses: Vec<f64>,
+    /// The largest contact so far.
     largest: LargestContact,
     /// Quadrature rule of a panel of a ring.
     pub(super) rule: LobattoRule,
@@ -80,7 +84,7 @@ const LIFT_OFF_DEPTH: f64 = 1e-12;
 impl<'a> Contact<'a> {
     /// A body at the first point of a path; `radii` must reach to its largest depth.
     pub(super) fn new(body: &'a dyn EquivalentProfile, path: Path, radii: Radii) -> Self {
-        let nothing = vec![0.0; path.n_branches()];
+        let zeros = vec![0.0; path.n_branches()];
         Self {
             body,
             path,
@@ -88,8 +92,8 @@ impl<'a> Contact<'a> {
             rings: Vec::new(),
             inner_sums: Vec::new(),
             edge_moves: Vec::new(),
-            sums: nothing.clone(),
-            edge_stresses: nothing,
+            sums: zeros.clone(),
+            edge_stresses: zeros,
             largest: LargestContact::default(),
             rule: lobatto_rule(N_PANEL_NODES),
             tolerance: EXACT_QUADRATURE_TOLERANCE,
@@ -117,14 +121,17 @@ impl<'a> Contact<'a> {
         [sum, viscous.abs() + inner + shared]
     }
 
-    pub(super) fn measured(&self) -> ContactSums {
+    /// Sums over the present contact.
+    pub(super) fn contact_sums(&self) -> ContactSums {
         let [load, terms] = self.load();
+        // Find by how much an error of the load moves the edge.
         let at_edge = self.rings.last().zip(self.edge_modulus);
         let edge_change = at_edge.map(|(ring, modulus)| {
             let depths = [ring.from, ring.to].map(|at| self.path.depth(at).max(0.0));
             let slope = self.radii.radius_and_slope(depths)[1];
             change_of_edge(slope, modulus, self.path.scale(self.path.end()))
         });
+        // Collect the sums with their errors.
         let [time, depth] = self.path.last();
         ContactSums {
             time,
@@ -138,6 +145,7 @@ impl<'a> Contact<'a> {
         }
     }
 
+    /// The elements of the line under the path so far.
     pub(super) fn elements(&self) -> LineElements<'_> {
         LineElements {
             body: self.body,
@@ -154,23 +162,23 @@ impl<'a> Contact<'a> {
             at = if self.rings.is_empty() {
                 self.begin_contact(at, end)?
             } else {
-                // Which way the edge moves: after a turn it is known, and rounding must not decide it again.
+                // Direction of the edge. After a turn it is known, and rounding must not decide it again.
                 let turned = self.direction_after_turn.take();
-                let tendency = match turned {
+                let direction = match turned {
                     Some(EdgeDirection::Separation) => -1.0,
                     Some(_) => 1.0,
-                    None => self.path.tendency(&self.edge_stresses, at),
+                    None => self.path.edge_direction(&self.edge_stresses, at),
                 };
                 let stays = |edge: Edge| {
                     self.path.load(&edge.stresses, end) >= -SUM_ROUNDING * self.path.scale(end)
                 };
                 // At a flat end all elements come into contact together, and none is free but by rounding.
                 let has_free = self.radius() < (1.0 - EXTENT_ROUNDING) * self.largest.radius;
-                if tendency > 0.0 && has_free {
+                if direction > 0.0 && has_free {
                     self.grow_over_free(at, end, turned.is_some())?
-                } else if tendency > 0.0 && self.path.depth(end) > self.largest.depth {
+                } else if direction > 0.0 && self.path.depth(end) > self.largest.depth {
                     self.grow_over_new(at, end)
-                } else if tendency >= 0.0 && self.outermost(end).is_some_and(stays) {
+                } else if direction >= 0.0 && self.outermost(end).is_some_and(stays) {
                     self.hold(end);
                     end
                 } else {
@@ -261,13 +269,13 @@ impl<'a> Contact<'a> {
         if reaches_new {
             to = self.path.time_of_depth(at.segment, deepest);
         } else {
-            let tendency = |part: f64| {
+            let direction = |part: f64| {
                 let at = SegmentTime { part, ..at };
                 let stresses = self.stresses_on_contact(self.edge_outwards(at), at);
-                self.path.tendency(&stresses, at)
+                self.path.edge_direction(&stresses, at)
             };
-            if tendency(1.0) < 0.0
-                && let Some(turn) = turn(tendency, at, has_turned)
+            if direction(1.0) < 0.0
+                && let Some(turn) = turn(direction, at, has_turned)
             {
                 to = turn;
                 self.direction_after_turn = Some(EdgeDirection::Separation);
@@ -292,17 +300,17 @@ impl<'a> Contact<'a> {
 
     /// Height of the body over an element that is not in contact, \[m].
     pub(super) fn gap(&self, radius: f64, at: SegmentTime) -> f64 {
-        let radius = radius.max(self.radius().next_up());
-        match self.elements().follow(radius, &self.edge_moves) {
+        let outside = radius.max(self.radius().next_up());
+        match self.elements().follow(outside, &self.edge_moves) {
             ElementState::Free(free) => self.elements().gap(&free, at),
-            _ => self.body.height_at(radius) - self.path.depth(at),
+            _ => self.body.height_at(outside) - self.path.depth(at),
         }
     }
 
-    /// σ_k of an element that comes into contact at that time, \[Pa m].
+    /// Stresses σ_k of an element that comes into contact at a time, \[Pa m].
     fn stresses_on_contact(&self, radius: f64, at: SegmentTime) -> Vec<f64> {
-        let radius = radius.max(self.radius().next_up());
-        match self.elements().follow(radius, &self.edge_moves) {
+        let outside = radius.max(self.radius().next_up());
+        match self.elements().follow(outside, &self.edge_moves) {
             ElementState::Free(free) => self.elements().free_stresses(&free, at),
             _ => vec![0.0; self.path.n_branches()],
         }
@@ -374,15 +382,15 @@ impl<'a> Contact<'a> {
     ) -> Result<SegmentTime, MdrError> {
         // The stretch ends where the edge turns.
         let instant = |part: f64| SegmentTime { part, ..at };
-        let tendency = |edge: &Option<Edge>, part: f64| match edge {
-            Some(edge) => self.path.tendency(&edge.stresses, instant(part)),
+        let direction = |edge: &Option<Edge>, part: f64| match edge {
+            Some(edge) => self.path.edge_direction(&edge.stresses, instant(part)),
             None => -1.0,
         };
         let mut to = end;
         let mut edge = self.edge_inwards(to);
-        let later = |part: f64| tendency(&self.edge_inwards(instant(part)), part);
+        let later = |part: f64| direction(&self.edge_inwards(instant(part)), part);
         if self.path.step(at.segment) > 0.0
-            && tendency(&edge, 1.0) > 0.0
+            && direction(&edge, 1.0) > 0.0
             && let Some(turn) = turn(later, at, has_turned)
         {
             to = turn;
@@ -424,7 +432,7 @@ impl<'a> Contact<'a> {
 }
 
 /// The time after `at` in its segment at which the edge turns; `None` if it does not, or if it has just turned at `at`.
-fn turn(tendency: impl Fn(f64) -> f64, at: SegmentTime, has_turned: bool) -> Option<SegmentTime> {
-    let part = bracketed_root(tendency, [at.part, 1.0])?;
+fn turn(direction: impl Fn(f64) -> f64, at: SegmentTime, has_turned: bool) -> Option<SegmentTime> {
+    let part = bracketed_root(direction, [at.part, 1.0])?;
     (part > at.part || !has_turned).then_some(SegmentTime { part, ..at })
 }

@@ -19,17 +19,17 @@ pub struct ForceDerivatives {
     pub normal_force: Vec<f64>,
     /// Contact radius a, \[m].
     pub contact_radius: Vec<f64>,
-    /// ∂F/∂G_∞, \[m²].
+    /// Derivative ∂F/∂G_∞ by the equilibrium modulus, \[m²].
     pub equilibrium_modulus: Vec<f64>,
-    /// ∂F/∂η₀ of the lone dashpot, [m²/s].
+    /// Derivative ∂F/∂η₀ by the viscosity of the lone dashpot, [m²/s].
     pub viscosity: Vec<f64>,
-    /// ∂F/∂G_k, \[m²], branch by branch in the order of the relaxation spectrum.
+    /// Derivatives ∂F/∂G_k by the moduli, \[m²], branch by branch in the order of the relaxation spectrum.
     pub moduli: Vec<Vec<f64>>,
-    /// ∂F/∂τ_k, [N/s], branch by branch.
+    /// Derivatives ∂F/∂τ_k by the relaxation times, [N/s], branch by branch.
     pub relaxation_times: Vec<Vec<f64>>,
     /// Derivative by a shift of all depths, [N/m]: minus the derivative by the position of first contact.
     pub depth: Vec<f64>,
-    /// ∂F/∂ln c, \[N], of a body whose heights are all multiplied by c: the slope of a cone, the inverse radius of a
+    /// Derivative ∂F/∂ln c, \[N], of a body whose heights are all multiplied by c: the slope of a cone, the inverse radius of a
     /// paraboloid; for the radius R of a sphere ∂F/∂R is the sum of F and this over R.
     pub stretch: Vec<f64>,
     /// Number of points up to which all derivatives are exact; afterwards elements come into contact again.
@@ -54,29 +54,31 @@ pub fn force_derivatives(
         let allowed = "a depth, whose force is differentiated";
         in_range("control", force, false, allowed)?;
     }
+    // A result without contact so far, and a body at the first point.
     let deepest = points.iter().map(|[_, depth]| *depth).fold(0.0, f64::max);
     let spectrum = material.relaxation();
-    let of_branches = vec![Vec::new(); spectrum.branches().len()];
+    let branch_lists = vec![Vec::new(); spectrum.branches().len()];
     let mut result = ForceDerivatives {
-        moduli: of_branches.clone(),
-        relaxation_times: of_branches,
+        moduli: branch_lists.clone(),
+        relaxation_times: branch_lists,
         ..ForceDerivatives::default()
     };
     if deepest == 0.0 {
         result.exact_until = points.len();
-        points.iter().for_each(|_| result.push(None, 0.0));
+        points.iter().for_each(|_| result.push_point(None, 0.0));
         return Ok(result);
     }
     let mut approach = Approach::new(Radii::new(body, deepest)?, &spectrum, points.len(), true);
     approach.start(points[0][0], points[0][1]);
     let factor = 8.0 / material.half_space_factor();
+    // Follow the path, and append force and derivatives at each point.
     for (index, point) in points.iter().enumerate() {
         if approach.viscosity > 0.0 && index > 0 {
             positive("time between two depths", point[0] - points[index - 1][0])?;
         }
         approach.follow(point[0], point[1]);
         let place = approach.edge.place;
-        result.push(place.map(|place| (&approach, place)), factor);
+        result.push_point(place.map(|place| (&approach, place)), factor);
         error::finite("normal force", result.normal_force[index], point[0])?;
         if !approach.has_recontact {
             result.exact_until = index + 1;
@@ -87,7 +89,7 @@ pub fn force_derivatives(
 
 impl ForceDerivatives {
     /// Appends a point; `None` without contact. `factor` is 8/(2 (1 − ν)).
-    fn push(&mut self, contact: Option<(&Approach, EdgePlace)>, factor: f64) {
+    fn push_point(&mut self, contact: Option<(&Approach, EdgePlace)>, factor: f64) {
         let n_branches = self.moduli.len();
         let [mut force, mut by_depth, mut by_stretch] = [0.0; 3];
         let [mut by_viscosity, mut contact_radius] = [0.0; 2];
@@ -100,7 +102,7 @@ impl ForceDerivatives {
             } = place;
             contact_radius = approach.radius();
 
-            // ∂/∂η₀, and what the load of the element at the edge adds by its shift.
+            // ∂/∂η₀, and the derivatives by the shift of the edge under the load of its element.
             let (edge, at_contact, rates) = (&approach.edge, &approach.at_contact, &approach.rates);
             by_viscosity = approach.speed * radius;
             force = approach.viscosity * by_viscosity;

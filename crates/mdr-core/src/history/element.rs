@@ -27,8 +27,11 @@ pub(super) enum EdgeDirection {
 /// A ring over which the edge moves in one direction, within one segment of the path.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct EdgeMove {
+    /// Direction of the edge.
     pub(super) direction: EdgeDirection,
+    /// Time at the beginning.
     pub(super) from: SegmentTime,
+    /// Time at the end.
     pub(super) to: SegmentTime,
     /// Inner radius of the ring, \[m].
     pub(super) inner: f64,
@@ -40,30 +43,37 @@ pub(super) struct EdgeMove {
 
 /// An element in contact.
 pub(super) struct Loaded {
+    /// Time of contact s.
     since: SegmentTime,
-    /// σ_k at that time, \[Pa m].
+    /// Stresses σ_k at the time of contact, \[Pa m].
     stresses: Vec<f64>,
 }
 
 /// A free element, which has separated from the body.
 pub(super) struct Free {
+    /// Time of separation s.
     since: SegmentTime,
     /// Height h̃ of the body over the element, \[m].
     height: f64,
-    /// y_j at that time, \[m].
+    /// Amplitudes y_j at the time of separation, \[m].
     amplitudes: Vec<f64>,
 }
 
 /// State of an element after the last event of its history.
 pub(super) enum ElementState {
+    /// Never in contact.
     Untouched,
+    /// Element in contact with the body.
     Loaded(Loaded),
+    /// Separated from the body.
     Free(Free),
 }
 
 /// Elements of one line under one path.
 pub(super) struct LineElements<'a> {
+    /// Equivalent line of the body.
     pub(super) body: &'a dyn EquivalentProfile,
+    /// Depth over time, and the response of the material to it.
     pub(super) path: &'a Path,
 }
 
@@ -104,16 +114,16 @@ impl LineElements<'_> {
         state
     }
 
-    /// σ_k of an element in contact, \[Pa m].
+    /// Stresses σ_k of an element in contact, \[Pa m].
     pub(super) fn stresses(&self, loaded: &Loaded, at: SegmentTime) -> Vec<f64> {
-        let lag = self.path.lag(loaded.since, at);
+        let lag = self.path.decayed_history(loaded.since, at);
         let terms = loaded.stresses.iter().zip(&lag.decays).zip(lag.stresses);
         terms
             .map(|((stress, decay), gained)| stress * decay + gained)
             .collect()
     }
 
-    /// Separates an element of these stresses from the body.
+    /// Separates an element with the given stresses from the body.
     fn release(&self, height: f64, stresses: &[f64], since: SegmentTime) -> Free {
         let path = self.path;
         let displacement = path.depth(since) - height;
@@ -122,8 +132,8 @@ impl LineElements<'_> {
             .map(|(modulus, stress)| modulus * displacement - stress)
             .collect();
         let amplitude = |(mode, row): (&RecoveryMode, &[f64])| {
-            let held: f64 = row.iter().zip(&viscous).map(|(c, held)| c * held).sum();
-            mode.fluidity * (path.viscosity * displacement + held)
+            let excess: f64 = row.iter().zip(&viscous).map(|(c, excess)| c * excess).sum();
+            mode.fluidity * (path.viscosity * displacement + excess)
         };
         Free {
             since,
@@ -134,21 +144,21 @@ impl LineElements<'_> {
 
     /// Height of the body over a free element, \[m].
     pub(super) fn gap(&self, free: &Free, at: SegmentTime) -> f64 {
-        free.height + self.recovering(free, at).sum::<f64>() - self.path.depth(at)
+        free.height + self.mode_displacements(free, at).sum::<f64>() - self.path.depth(at)
     }
 
-    /// y_j e^(−(t − s)/λ_j), \[m].
-    fn recovering(&self, free: &Free, at: SegmentTime) -> impl Iterator<Item = f64> {
+    /// Displacements y_j e^(−(t − s)/λ_j) of a free element, mode by mode, \[m].
+    fn mode_displacements(&self, free: &Free, at: SegmentTime) -> impl Iterator<Item = f64> {
         let lag = self.path.time(at) - self.path.time(free.since);
         let modes = self.path.modes().zip(&free.amplitudes);
         modes.map(move |((mode, _), amplitude)| amplitude * decay(mode.rate * lag))
     }
 
-    /// σ_k = G_k (u − z_k) of a free element; in one mode z is y/(1 − τ_k/λ_j).
+    /// Stresses σ_k = G_k (u − z_k) of a free element, \[Pa m]; in one mode z is y/(1 − τ_k/λ_j).
     pub(super) fn free_stresses(&self, free: &Free, at: SegmentTime) -> Vec<f64> {
         let path = self.path;
         let (mut strains, mut height) = (vec![0.0; path.n_branches()], 0.0);
-        for (y, (mode, row)) in self.recovering(free, at).zip(path.modes()) {
+        for (y, (mode, row)) in self.mode_displacements(free, at).zip(path.modes()) {
             height += y;
             let rate = y * mode.rate;
             for (strain, coupling) in strains.iter_mut().zip(row) {

@@ -29,10 +29,13 @@ const QUADRATURE_SHARE: f64 = 1e-3;
 
 /// A body under a history of the force.
 pub(super) struct ForceHistory<'a> {
+    /// Equivalent line of the body.
     pub(super) body: &'a dyn EquivalentProfile,
+    /// Material of the foundation.
     pub(super) material: &'a dyn Material,
+    /// Requested error, and error of the modulus.
     pub(super) options: HistoryOptions,
-    /// Times and forces; the last force of a time holds from there on.
+    /// Times \[s] and forces \[N]; the last force of a time holds from there on.
     pub(super) points: Vec<[f64; 2]>,
 }
 
@@ -80,7 +83,7 @@ impl ForceHistory<'_> {
             }
             let rounding = ROOT_ROUNDING + QUADRATURE_SHARE * asked;
             let depth_error = change + rounding * deepest;
-            let mut reached = self.with_bars(better, &radii, depth_error, radius_change);
+            let mut reached = self.with_errors(better, &radii, depth_error, radius_change);
             reached[..grown.len()].copy_from_slice(&grown);
             let missed = NotReached {
                 quantity: 0,
@@ -99,7 +102,7 @@ impl ForceHistory<'_> {
     }
 
     /// A curve with the errors of its depths and radii, \[m].
-    fn with_bars(
+    fn with_errors(
         &self,
         curve: &[CurvePoint],
         radii: &Radii,
@@ -110,12 +113,12 @@ impl ForceHistory<'_> {
             let depth = point.indentation_depth.value;
             let radius = point.contact_radius.value.max(0.0);
             let error = depth_error + 2.0 * self.options.modulus_error * depth.abs();
-            let of_depth = radii.radius_and_slope([depth.max(0.0); 2])[1].abs() * depth_error;
+            let by_depth = radii.radius_and_slope([depth.max(0.0); 2])[1].abs() * depth_error;
             CurvePoint {
                 indentation_depth: Estimate::new(depth, error),
                 contact_radius: Estimate::new(
                     radius,
-                    radius_error + of_depth + ROOT_ROUNDING * radius,
+                    radius_error + by_depth + ROOT_ROUNDING * radius,
                 ),
                 ..*point
             }
@@ -139,15 +142,15 @@ impl ForceHistory<'_> {
         let area = normal_force * compliance;
         // A length of the problem, in any unit.
         let mut deepest = positive("area", finite("area", area)?)?.sqrt();
-        let mut radii = known_up_to(self.body, &mut deepest)?;
+        let mut radii = radii_up_to(self.body, &mut deepest)?;
         while radii.area() > 16.0 * area {
             deepest *= 0.25;
-            radii = known_up_to(self.body, &mut deepest)?;
+            radii = radii_up_to(self.body, &mut deepest)?;
         }
         while radii.area() < 2.0 * area {
             let wanted = 2.0 * deepest;
             deepest = wanted;
-            radii = known_up_to(self.body, &mut deepest)?;
+            radii = radii_up_to(self.body, &mut deepest)?;
             if deepest < wanted && radii.area() < area {
                 return Err(MdrError::ForceBeyondEdge {
                     position: radii.radius_and_slope([deepest; 2])[0],
@@ -166,8 +169,8 @@ impl ForceHistory<'_> {
     /// The curve before the contact shrinks for the first time; it does not shrink as long as ∫ J dF grows.
     fn before_shrinking(&self, points: &[[f64; 2]], radii: &Radii, factor: f64) -> Vec<CurvePoint> {
         let creep = self.material.creep();
-        let mut delayed = vec![0.0; creep.elements().len()];
-        let mut flown = 0.0;
+        let mut retarded = vec![0.0; creep.elements().len()];
+        let mut flowed = 0.0;
         let mut before = [points[0][0], 0.0];
         let mut curve = Vec::new();
         let mut has_fallen = false;
@@ -176,21 +179,21 @@ impl ForceHistory<'_> {
 
             // A force that has never fallen cannot make the contact shrink.
             has_fallen |= rise < 0.0;
-            if has_fallen && shrinks(&creep, &delayed, before[1], step, rise) {
+            if has_fallen && shrinks(&creep, &retarded, before[1], step, rise) {
                 break;
             }
 
             // ∫ J dF at the end of the step.
-            for (value, element) in delayed.iter_mut().zip(creep.elements()) {
+            for (value, element) in retarded.iter_mut().zip(creep.elements()) {
                 let x = step / element.retardation_time;
                 let [decay, mean] = decay_and_mean(x);
                 let held = before[1] * x * mean + rise * (1.0 - mean);
                 *value = decay * *value + element.compliance * held;
             }
-            flown += creep.fluidity() * step * (before[1] + 0.5 * rise);
+            flowed += creep.fluidity() * step * (before[1] + 0.5 * rise);
             let recoverable =
-                creep.instantaneous_compliance() * force + delayed.iter().sum::<f64>();
-            let depth = radii.depth_of_area((recoverable + flown) / factor);
+                creep.instantaneous_compliance() * force + retarded.iter().sum::<f64>();
+            let depth = radii.depth_of_area((recoverable + flowed) / factor);
 
             // Only a flat end is in contact before it is below the surface.
             let is_flat = self.body.apex_exponent() == f64::INFINITY;
@@ -208,12 +211,13 @@ impl ForceHistory<'_> {
                 0.0
             };
             let relative = ROOT_ROUNDING + 2.0 * self.options.modulus_error;
-            let bar = |value: f64, error: f64| Estimate::new(value, relative * value + error);
+            let with_error =
+                |value: f64, error: f64| Estimate::new(value, relative * value + error);
             curve.push(CurvePoint {
                 time,
-                indentation_depth: bar(depth, depth_error),
+                indentation_depth: with_error(depth, depth_error),
                 normal_force: Estimate::exact(force),
-                contact_radius: bar(
+                contact_radius: with_error(
                     radius,
                     radii.radius_and_slope([depth; 2])[1].abs() * depth_error,
                 ),
@@ -236,7 +240,7 @@ impl ForceHistory<'_> {
                 let uniform = part as f64 / n as f64;
                 let share = uniform * uniform * (3.0 - 2.0 * uniform);
                 let between = [0, 1].map(|k| before[k] + share * step[k]);
-                // The points of the history without rounding.
+                // Given points are taken as they are, without the rounding of the interpolation.
                 points.push(if part == n {
                     (*point, true)
                 } else {
@@ -257,13 +261,13 @@ impl ForceHistory<'_> {
         contact.tolerance = QUADRATURE_SHARE * self.options.relative_error;
         let mut curve = Vec::with_capacity(self.points.len());
         // A flat end keeps its disc.
-        let lifts = self.body.apex_exponent().is_finite();
-        let mut pressed = true;
+        let can_lift_off = self.body.apex_exponent().is_finite();
+        let mut is_loaded = true;
         for (index, ([time, force], is_asked)) in points.into_iter().enumerate() {
-            let was_pressed = std::mem::replace(&mut pressed, force > 0.0 || !lifts);
+            let was_loaded = std::mem::replace(&mut is_loaded, force > 0.0 || !can_lift_off);
             if let Some(point) = grown.get(index) {
                 contact.follow(time, point.indentation_depth.value)?;
-            } else if !pressed && !was_pressed {
+            } else if !is_loaded && !was_loaded {
                 contact.rise_freely(time)?;
             } else if time > contact.path.last()[0] || contact.path.viscosity == 0.0 {
                 let (needed, largest) = (force / factor, largest / factor);
@@ -290,41 +294,41 @@ fn follow_to_load(
     largest: f64,
     deepest: f64,
 ) -> Result<(), MdrError> {
-    let excess = |depth: f64| {
+    let load_difference = |depth: f64| {
         let mut trial = contact.clone();
         trial.follow(time, depth)?;
         if trial.radius() > 0.0 {
             return Ok(trial.load()[0] - needed);
         }
-        // The clearance makes the excess continuous, so that the root is not only bisected; the rounding keeps a body without
+        // The gap makes the function continuous, so that the root is not only bisected; the rounding keeps a body without
         // load in contact.
-        let clearance = trial.gap(f64::MIN_POSITIVE, trial.path.end()).max(0.0);
-        Ok::<f64, MdrError>(-needed - largest * (clearance / deepest + ROOT_ROUNDING))
+        let gap = trial.gap(f64::MIN_POSITIVE, trial.path.end()).max(0.0);
+        Ok::<f64, MdrError>(-needed - largest * (gap / deepest + ROOT_ROUNDING))
     };
-    let depth = try_bracketed_root(excess, [-deepest, deepest])?.unwrap_or(deepest);
+    let depth = try_bracketed_root(load_difference, [-deepest, deepest])?.unwrap_or(deepest);
     contact.follow(time, depth)
 }
 
-/// Whether ∫ J dF falls anywhere while the force changes linearly by `rise` within a step.
+/// True if ∫ J dF falls anywhere while the force changes linearly by `rise` within a step.
 ///
 /// ```text
 /// d/dt ∫ J dF = J₀ Ḟ + φ F + Σ g_k      g_k = J_k Ḟ + (g_k(0) − J_k Ḟ) e^(−t/λ_k)      g_k(0) = (J_k F − D_k)/λ_k
 /// ```
-fn shrinks(creep: &CreepSpectrum, delayed: &[f64], force: f64, step: f64, rise: f64) -> bool {
+fn shrinks(creep: &CreepSpectrum, retarded: &[f64], force: f64, step: f64, rise: f64) -> bool {
     let instantaneous = creep.instantaneous_compliance();
     if step <= 0.0 {
         return instantaneous * rise < 0.0;
     }
     let rate = |part: f64| {
         let mut rate = instantaneous * (rise / step) + creep.fluidity() * (force + part * rise);
-        for (delayed, element) in delayed.iter().zip(creep.elements()) {
+        for (retarded, element) in retarded.iter().zip(creep.elements()) {
             let ramp = element.compliance * (rise / step);
-            let start = (element.compliance * force - delayed) / element.retardation_time;
+            let start = (element.compliance * force - retarded) / element.retardation_time;
             rate += ramp + (start - ramp) * (-part * step / element.retardation_time).exp();
         }
         rate
     };
-    // Evenly, and ever closer to the beginning, where the fast elements decide.
+    // Divide evenly, and ever closer to the beginning, where the fast elements decide.
     let evenly =
         (0..=N_SHRINKING_CHECKS).map(|place| f64::from(place) / f64::from(N_SHRINKING_CHECKS));
     let closer = (1..=2 * N_SHRINKING_CHECKS).map(|halvings| 0.5_f64.powi(halvings));
@@ -336,7 +340,7 @@ fn shrinks(creep: &CreepSpectrum, delayed: &[f64], force: f64, step: f64, rise: 
 const N_SHRINKING_CHECKS: i32 = 24;
 
 /// The radii up to a depth, or as far as the line of the body rises; `deepest` is then reduced to that.
-fn known_up_to(body: &dyn EquivalentProfile, deepest: &mut f64) -> Result<Radii, MdrError> {
+fn radii_up_to(body: &dyn EquivalentProfile, deepest: &mut f64) -> Result<Radii, MdrError> {
     let available = match Radii::new(body, *deepest) {
         Err(MdrError::Indenter(IndenterError::NotHighEnough { available, .. })) => available,
         Err(MdrError::Indenter(IndenterError::NonMonotoneLine { limiting_depth, .. })) => {

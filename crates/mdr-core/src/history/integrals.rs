@@ -21,15 +21,16 @@ pub(super) struct Ring {
     pub(super) rise: f64,
     /// Index of its first coefficient in the list of those of all rings.
     pub(super) first_coefficient: usize,
+    /// Number of its coefficients.
     pub(super) n_coefficients: usize,
 }
 
-/// ∫ e^(−(t − s)/τ) f(s) ds up to now, branch by branch.
+/// History integrals ∫ e^(−(t − s)/τ) f(s) ds up to now, branch by branch.
 #[derive(Debug, Clone, Default)]
 pub(super) struct HistoryIntegrals {
-    /// q_k with f = ḋ, \[m].
+    /// Integrals q_k with f = ḋ, \[m].
     pub(super) depth: Vec<f64>,
-    /// P_k with f = a ḋ, \[m²].
+    /// Integrals P_k with f = a ḋ, \[m²].
     pub(super) load: Vec<f64>,
     /// The integrals for derivatives; empty where none are wanted.
     pub(super) time_weighted: Vec<TimeWeightedIntegrals>,
@@ -44,16 +45,16 @@ impl HistoryIntegrals {
     }
 }
 
-/// ∫ e^(−(t − s)/τ) f(s) ds for the derivatives of the force, of one branch.
+/// History integrals ∫ e^(−(t − s)/τ) f(s) ds for the derivatives of the force, of one branch.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct TimeWeightedIntegrals {
-    /// f = (t − s) ḋ, for the derivative by the relaxation time, \[m s].
+    /// Integral with f = (t − s) ḋ, for the derivative by the relaxation time, \[m s].
     pub(super) depth: f64,
-    /// f = (t − s) a ḋ, for the derivative by the relaxation time, \[m² s].
+    /// Integral with f = (t − s) a ḋ, for the derivative by the relaxation time, \[m² s].
     pub(super) load: f64,
-    /// f = a' ḋ, for the derivative by a shift of all depths, \[m].
+    /// Integral with f = a' ḋ, for the derivative by a shift of all depths, \[m].
     pub(super) edge: f64,
-    /// f = −D a' ḋ, for the derivative by the heights of the body, \[m²].
+    /// Integral with f = −D a' ḋ, for the derivative by the heights of the body, \[m²].
     pub(super) stretch: f64,
 }
 
@@ -62,11 +63,11 @@ pub(super) struct TimeWeightedIntegrals {
 pub(super) struct StepIntegrals {
     /// Length Δt of the step, \[s].
     length: f64,
-    /// e^(−Δt/τ).
+    /// Decay e^(−Δt/τ) of each branch.
     pub(super) decays: Vec<f64>,
-    /// ∫₀¹ e^(−(1 − θ) Δt/τ) θ^j dθ, order by order.
+    /// Moments ∫₀¹ e^(−(1 − θ) Δt/τ) θ^j dθ, order by order, branch by branch within an order.
     moments: Vec<f64>,
-    /// Scratch of one number per branch.
+    /// Work space of one number per branch.
     sums: Vec<f64>,
 }
 
@@ -75,7 +76,8 @@ pub(super) struct StepIntegrals {
 const EXTRA_MOMENT_ORDERS: usize = 16;
 
 impl StepIntegrals {
-    /// Computes the moments of the orders below `n_moments`, unless they are those of the last length, up to `rounding`.
+    /// Computes the moments of the orders below `n_moments` over a step of a length \[s], unless it equals the last length within
+    /// `rounding`.
     pub(super) fn set(&mut self, rates: &[f64], length: f64, n_moments: usize, rounding: f64) {
         let n = rates.len();
         if self.moments.len() >= n_moments * n && (length - self.length).abs() <= rounding {
@@ -96,6 +98,7 @@ impl StepIntegrals {
                 self.moments[(order - 1) * n..order * n].copy_from_slice(&self.sums);
             }
         }
+        // For steps longer than τ the start may matter: these branches are computed one by one.
         for (k, decay) in self.decays.iter_mut().enumerate() {
             if *decay > 1.0 {
                 let mut row = [0.0; N_COEFFICIENTS + 1];
@@ -108,34 +111,36 @@ impl StepIntegrals {
         }
     }
 
-    /// ∫₀¹ e^(−(1 − θ) Δt/τ) θ^j dθ of a branch.
+    /// Moment ∫₀¹ e^(−(1 − θ) Δt/τ) θ^j dθ of the order j of a branch.
     fn moment(&self, order: usize, branch: usize) -> f64 {
         self.moments[order * self.decays.len() + branch]
     }
 
     /// Advances the integrals of ḋ over a step in which the contact does not grow.
-    pub(super) fn hold(&self, memory: &mut HistoryIntegrals, rise: f64) {
-        for (k, time_weighted) in memory.time_weighted.iter_mut().enumerate() {
+    pub(super) fn hold(&self, state: &mut HistoryIntegrals, rise: f64) {
+        for (k, time_weighted) in state.time_weighted.iter_mut().enumerate() {
             let gained = rise * self.length * (self.moment(0, k) - self.moment(1, k));
             time_weighted.depth =
-                self.decays[k] * (time_weighted.depth + self.length * memory.depth[k]) + gained;
+                self.decays[k] * (time_weighted.depth + self.length * state.depth[k]) + gained;
         }
-        for ((depth, decay), mean) in memory.depth.iter_mut().zip(&self.decays).zip(&self.moments) {
+        for ((depth, decay), mean) in state.depth.iter_mut().zip(&self.decays).zip(&self.moments) {
             *depth = decay * *depth + rise * mean;
         }
     }
 
     /// Advances all integrals over a ring of new elements, with the coefficients of its radius.
-    pub(super) fn grow(&mut self, memory: &mut HistoryIntegrals, ring: &Ring, terms: &[f64]) {
-        for (k, time_weighted) in memory.time_weighted.iter_mut().enumerate() {
+    pub(super) fn grow(&mut self, state: &mut HistoryIntegrals, ring: &Ring, terms: &[f64]) {
+        // Advance the time-weighted integrals first, which use the others at the start of the step.
+        for (k, time_weighted) in state.time_weighted.iter_mut().enumerate() {
             let gained = self.time_weighted(k, ring, terms);
             let (decay, step) = (self.decays[k], self.length);
             time_weighted.depth =
-                decay * (time_weighted.depth + step * memory.depth[k]) + gained.depth;
-            time_weighted.load = decay * (time_weighted.load + step * memory.load[k]) + gained.load;
+                decay * (time_weighted.depth + step * state.depth[k]) + gained.depth;
+            time_weighted.load = decay * (time_weighted.load + step * state.load[k]) + gained.load;
             time_weighted.edge = decay * time_weighted.edge + gained.edge;
             time_weighted.stretch = decay * time_weighted.stretch + gained.stretch;
         }
+        // Sum the terms of the radius with their moments.
         let n = self.decays.len();
         self.sums.clear();
         self.sums.resize(n, 0.0);
@@ -144,10 +149,11 @@ impl StepIntegrals {
                 *sum += term * moment;
             }
         }
-        for ((load, decay), sum) in memory.load.iter_mut().zip(&self.decays).zip(&self.sums) {
+        // Advance the integrals of load and depth.
+        for ((load, decay), sum) in state.load.iter_mut().zip(&self.decays).zip(&self.sums) {
             *load = decay * *load + ring.rise * sum;
         }
-        for ((depth, decay), mean) in memory.depth.iter_mut().zip(&self.decays).zip(&self.moments) {
+        for ((depth, decay), mean) in state.depth.iter_mut().zip(&self.decays).zip(&self.moments) {
             *depth = decay * *depth + ring.rise * mean;
         }
     }
@@ -155,13 +161,13 @@ impl StepIntegrals {
     /// Contribution of a ring to the time-weighted integrals of a branch.
     fn time_weighted(&self, k: usize, ring: &Ring, terms: &[f64]) -> TimeWeightedIntegrals {
         let [mut load, mut edge, mut stretch] = [0.0; 3];
-        let mut before = 0.0;
+        let mut previous_moment = 0.0;
         for (j, term) in terms.iter().enumerate() {
-            let (here, slope) = (self.moment(j, k), j as f64 * term);
-            load += term * (here - self.moment(j + 1, k));
-            edge += slope * before;
-            stretch += slope * (ring.start_depth * before + ring.rise * here);
-            before = here;
+            let (moment, slope) = (self.moment(j, k), j as f64 * term);
+            load += term * (moment - self.moment(j + 1, k));
+            edge += slope * previous_moment;
+            stretch += slope * (ring.start_depth * previous_moment + ring.rise * moment);
+            previous_moment = moment;
         }
         let scale = ring.rise * self.length;
         TimeWeightedIntegrals {

@@ -119,7 +119,7 @@ pub fn indent_along(
         let unloaded = |point: [f64; 2]| unloaded_point(point[0], point[1]);
         return Ok(points.into_iter().map(unloaded).collect());
     }
-    // As a pointer to it, a material of any size is one that can be an object.
+    // A reference, because only a sized type can become a trait object.
     let material: &dyn Material = &material;
     check_spectra(material)?;
     let curve = match history[0].control {
@@ -157,6 +157,7 @@ fn validated_points(history: &[HistoryPoint]) -> Result<Vec<[f64; 2]>, MdrError>
     let first = history.first().ok_or(MdrError::Empty { list: "history" })?;
     let mut before = first.time;
     let mut points = Vec::with_capacity(history.len());
+    // Check times, values, and that all points have the same kind of control.
     for point in history {
         let time = finite("time", point.time)?;
         not_negative("time between two points", time - before)?;
@@ -166,12 +167,8 @@ fn validated_points(history: &[HistoryPoint]) -> Result<Vec<[f64; 2]>, MdrError>
             Control::NormalForce(force) => not_negative("normal_force", force)?,
         };
         let allowed = "a force at all points of a history, or a depth at all";
-        in_range(
-            "control",
-            value,
-            is_force(point) == is_force(first),
-            allowed,
-        )?;
+        let is_same_kind = is_force(point) == is_force(first);
+        in_range("control", value, is_same_kind, allowed)?;
         points.push([time, value]);
     }
     Ok(points)
@@ -185,10 +182,10 @@ fn follow_depths(
     options: &HistoryOptions,
 ) -> Result<Vec<CurvePoint>, MdrError> {
     let deepest = points.iter().map(|[_, depth]| *depth).fold(0.0, f64::max);
-    let mut bars = ErrorBars {
+    let mut errors = CurveErrors {
         factor: 8.0 / material.half_space_factor(),
         modulus_error: options.modulus_error,
-        largest: 0.0,
+        largest_force: 0.0,
     };
     let radii = Radii::new(body, deepest)?;
     let spectrum = material.relaxation();
@@ -208,10 +205,10 @@ fn follow_depths(
             if !body.is_exact_where_touched_again() {
                 return Err(MdrError::TouchedAgain { time: point[0] });
             }
-            bars.largest = 0.0;
-            return follow_recontact(body, material, points, radii, bars);
+            errors.largest_force = 0.0;
+            return follow_recontact(body, material, points, radii, errors);
         }
-        curve.push(bars.point(&approach.measured()));
+        curve.push(errors.point(&approach.contact_sums()));
     }
     Ok(curve)
 }
@@ -224,22 +221,19 @@ fn refuse_inexact_recontact(
     let mut widest = 0.0;
     let mut has_shrunk = false;
     let mut before = Estimate::exact(0.0);
-    for CurvePoint {
-        time,
-        contact_radius,
-        ..
-    } in &curve
-    {
+    // Find a point at which a contact that has shrunk grows again.
+    for point in &curve {
+        let contact_radius = point.contact_radius;
         let differs = |radius: f64| radius > contact_radius.error + before.error;
         if has_shrunk
             && differs(contact_radius.value - before.value)
             && !body.is_exact_where_touched_again()
         {
-            return Err(MdrError::TouchedAgain { time: *time });
+            return Err(MdrError::TouchedAgain { time: point.time });
         }
         has_shrunk |= differs(widest - contact_radius.value);
         widest = contact_radius.value.max(widest);
-        before = *contact_radius;
+        before = contact_radius;
     }
     Ok(curve)
 }
@@ -250,7 +244,7 @@ fn follow_recontact(
     material: &dyn Material,
     points: &[[f64; 2]],
     radii: Radii,
-    mut bars: ErrorBars,
+    mut errors: CurveErrors,
 ) -> Result<Vec<CurvePoint>, MdrError> {
     let mut path = Path::new(material);
     // The path begins at or above the surface; a body below it jumps there from the surface.
@@ -261,19 +255,19 @@ fn follow_recontact(
     let mut contact = Contact::new(body, path, radii);
     for [time, depth] in &points[curve.len()..] {
         contact.follow(*time, *depth)?;
-        curve.push(bars.point(&contact.measured()));
+        curve.push(errors.point(&contact.contact_sums()));
     }
     Ok(curve)
 }
 
-/// Error bars of the points of a curve.
-struct ErrorBars {
-    /// 8/(2 (1 − ν)).
+/// Error model of the points of a curve.
+struct CurveErrors {
+    /// Factor 8/(2 (1 − ν)) from the sum of the loads to the force.
     factor: f64,
-    /// [`HistoryOptions::modulus_error`].
+    /// Relative error of the moduli, as [`HistoryOptions::modulus_error`].
     modulus_error: f64,
     /// Largest force so far, \[N].
-    largest: f64,
+    largest_force: f64,
 }
 
 /// Rounding of a sum of loads or of their rates, relative to the sum of the sizes of its terms: 64 units in the last place.
@@ -295,19 +289,19 @@ struct ContactSums {
     load_error: f64,
     /// Contact radius, \[m].
     radius: f64,
-    /// Change of the radius by all of the terms that cancel in the load at the edge, \[m].
+    /// Change of the radius by a load at the edge as large as the terms that cancel in it, \[m].
     edge_change: f64,
 }
 
-impl ErrorBars {
+impl CurveErrors {
     /// The next point of a curve.
     fn point(&mut self, contact: &ContactSums) -> CurvePoint {
         let ContactSums { time, depth, .. } = *contact;
         let force = self.factor * contact.load;
-        self.largest = self.largest.max(force);
+        self.largest_force = self.largest_force.max(force);
         let rounding = SUM_ROUNDING * contact.terms + contact.load_error;
         // A shift of the edge changes the force in second order only, because its elements carry nothing.
-        let expansion = 2.0 * self.modulus_error * self.largest;
+        let expansion = 2.0 * self.modulus_error * self.largest_force;
         let edge_error = (SUM_ROUNDING + 2.0 * self.modulus_error) * contact.edge_change;
         let radius_error = radius::TAIL_TOLERANCE * contact.radius + edge_error;
         CurvePoint {

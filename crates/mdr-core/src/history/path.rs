@@ -17,16 +17,18 @@ use crate::branches::{decay, decay_and_mean};
 /// A time in a segment of the path, `part` ∈ [0, 1] of its duration after its beginning.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct SegmentTime {
+    /// Index of the segment.
     pub(super) segment: usize,
+    /// Part of the duration of the segment.
     pub(super) part: f64,
 }
 
 /// A mode in which a free element recovers exponentially; free flow has the rate 0.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct RecoveryMode {
-    /// 1/λ, \[1/s].
+    /// Rate 1/λ, \[1/s].
     pub(super) rate: f64,
-    /// J/λ, [1/(Pa s)].
+    /// Fluidity J/λ, [1/(Pa s)].
     pub(super) fluidity: f64,
 }
 
@@ -35,16 +37,17 @@ pub(super) struct RecoveryMode {
 pub(super) struct Path {
     /// Moduli G_k of the branches, \[Pa].
     pub(super) moduli: Vec<f64>,
-    /// 1/τ_k, \[1/s].
+    /// Rates 1/τ_k of the branches, \[1/s].
     pub(super) rates: Vec<f64>,
     /// Viscosity η₀ of the lone dashpot, \[Pa s].
     pub(super) viscosity: f64,
+    /// Modes of recovery.
     modes: Vec<RecoveryMode>,
     /// 1/(1/τ_k − 1/λ_j), mode by mode, \[s]; 0 of a lone spring.
     couplings: Arc<[f64]>,
-    /// Times \[s] and depths \[m].
+    /// Points [time \[s], depth \[m]].
     points: Vec<[f64; 2]>,
-    /// q_k at the points, branch by branch within a point, \[m].
+    /// Integrals q_k at the points, branch by branch within a point, \[m].
     point_integrals: Vec<f64>,
 }
 
@@ -121,6 +124,7 @@ impl Path {
         }
     }
 
+    /// Number of branches, the lone spring included.
     pub(super) fn n_branches(&self) -> usize {
         self.moduli.len()
     }
@@ -158,16 +162,18 @@ impl Path {
         }
     }
 
-    /// Difference of the speeds in a segment and in the one before that is within their rounding, \[m/s].
+    /// Largest difference of the speeds in a segment and in the one before that may be rounding, \[m/s].
     fn speed_rounding(&self, segment: usize) -> f64 {
         let [time, depth] = self.points[segment + 1];
         speed_rounding(self.speed(segment), self.step(segment), time, depth)
     }
 
+    /// Time, \[s].
     pub(super) fn time(&self, at: SegmentTime) -> f64 {
         self.points[at.segment][0] + at.part * self.step(at.segment)
     }
 
+    /// Indentation depth, \[m].
     pub(super) fn depth(&self, at: SegmentTime) -> f64 {
         self.points[at.segment][1] + at.part * self.rise(at.segment)
     }
@@ -181,20 +187,20 @@ impl Path {
         }
     }
 
-    /// q_k of all branches at a time, \[m].
+    /// Strain integrals q_k of all branches at a time, \[m].
     pub(super) fn strain_integrals(&self, at: SegmentTime) -> Cow<'_, [f64]> {
         let n = self.n_branches();
-        let here = &self.point_integrals[at.segment * n..];
+        let from_start = &self.point_integrals[at.segment * n..];
         if at.part == 0.0 {
-            return Cow::Borrowed(&here[..n]);
+            return Cow::Borrowed(&from_start[..n]);
         }
         // The end of a segment has its own values, without rounding of the interpolation.
         if at.part >= 1.0 {
-            return Cow::Borrowed(&here[n..2 * n]);
+            return Cow::Borrowed(&from_start[n..2 * n]);
         }
         let step = at.part * self.step(at.segment);
         let rise = at.part * self.rise(at.segment);
-        let later = self.rates.iter().zip(here).map(|(rate, before)| {
+        let later = self.rates.iter().zip(from_start).map(|(rate, before)| {
             let [decay, mean] = decay_and_mean(rate * step);
             decay * before + rise * mean
         });
@@ -202,7 +208,7 @@ impl Path {
     }
 
     /// Decay of the branches from one time to another, and the stresses gained in between.
-    pub(super) fn lag(&self, since: SegmentTime, at: SegmentTime) -> DecayedHistory {
+    pub(super) fn decayed_history(&self, since: SegmentTime, at: SegmentTime) -> DecayedHistory {
         let time = self.time(at) - self.time(since);
         let decays: Vec<f64> = self.rates.iter().map(|rate| decay(rate * time)).collect();
         let (then, now) = (self.strain_integrals(since), self.strain_integrals(at));
@@ -249,17 +255,19 @@ impl Path {
     ///
     /// Its sign is that of a jump of the depth, of the load that a lone dashpot gives at this speed, or of the rate of the load;
     /// 0 if these are rounding.
-    pub(super) fn tendency(&self, stresses: &[f64], at: SegmentTime) -> f64 {
+    pub(super) fn edge_direction(&self, stresses: &[f64], at: SegmentTime) -> f64 {
         let speed = self.speed(at.segment);
         if self.step(at.segment) == 0.0 {
             return speed;
         }
+        // Rate of the load per length at the edge, with the terms that cancel in it.
         let (mut rate, mut rate_scale) = (self.instantaneous_modulus() * speed, 0.0);
         let strain_integrals = self.strain_integrals(at);
         for (k, stress) in stresses.iter().enumerate() {
             rate -= self.rates[k] * stress;
             rate_scale += self.rates[k] * self.moduli[k] * strain_integrals[k].abs();
         }
+        // With a dashpot the load itself counts; otherwise its rate. Neither counts within rounding.
         let load = self.load(stresses, at);
         let load_rounding =
             SUM_ROUNDING * self.scale(at) + self.viscosity * self.speed_rounding(at.segment);
@@ -278,13 +286,13 @@ pub(super) const EXTENT_ROUNDING: f64 = 1e-10;
 
 /// Decay of the branches between two times, and the stresses gained in between.
 pub(super) struct DecayedHistory {
-    /// e^(−(t − s)/τ_k).
+    /// Decay e^(−(t − s)/τ_k) of each branch.
     pub(super) decays: Vec<f64>,
-    /// σ_k of an element that came into contact for the first time at the earlier time, \[Pa m].
+    /// Stresses σ_k of an element that came into contact for the first time at the earlier time, \[Pa m].
     pub(super) stresses: Vec<f64>,
 }
 
-/// Difference of two speeds up to a time \[s] and depth \[m] that is within their rounding, \[m/s], for steps of one length.
+/// Largest difference of two speeds that may be rounding, \[m/s], for steps of one length up to a time \[s] and depth \[m].
 ///
 /// Each of the times and depths is rounded by half a unit in the last place, their differences by one, and two speeds are
 /// compared: 2 ε (d + v t)/Δt.
@@ -292,7 +300,8 @@ pub(super) fn speed_rounding(speed: f64, step: f64, time: f64, depth: f64) -> f6
     2.0 * f64::EPSILON * (depth.abs() + (speed * time).abs()) / step
 }
 
-/// Change of the edge by all of the terms that cancel in its load, \[m]; 0 if all branches have relaxed since contact.
+/// Change of the radius by a load at the edge as large as the terms that cancel in it, \[m]; 0 if all branches have relaxed since
+/// contact. `slope` is da/dD, `modulus` the relaxation modulus of the element, and `scale` the size of the terms.
 pub(super) fn change_of_edge(slope: f64, modulus: f64, scale: f64) -> f64 {
     if modulus > f64::MIN_POSITIVE {
         slope.abs() / modulus * scale

@@ -31,8 +31,8 @@ pub(super) struct Radii {
     pub(super) area_error: f64,
 }
 
-#[derive(Debug, Clone, Copy)]
 /// A polynomial of ξ ∈ [−1, 1] between two depths.
+#[derive(Debug, Clone, Copy)]
 struct Piece {
     /// Depths at ξ = −1 and ξ = 1, \[m].
     depths: [f64; 2],
@@ -60,24 +60,25 @@ impl Radii {
         let negligible = NEGLIGIBLE_AREA * deepest * largest;
         let exponent = body.apex_exponent();
         // cos(order · angle) at the angles π (2 node + 1)/(2 n).
-        let cosine = |n: usize| (0.5 * PI * n as f64 / N_COEFFICIENTS as f64).cos();
-        let table: [f64; 4 * N_COEFFICIENTS] = std::array::from_fn(cosine);
+        let table: [f64; 4 * N_COEFFICIENTS] =
+            std::array::from_fn(|n| (0.5 * PI * n as f64 / N_COEFFICIENTS as f64).cos());
         let cosine = |node, order| table[order * (2 * node + 1) % (4 * N_COEFFICIENTS)];
         let cosines = std::array::from_fn(|node| std::array::from_fn(|order| cosine(node, order)));
 
         // Halve the range of depths until each piece is resolved; the halves are pushed so that the lower one comes first.
         let mut open = vec![([0.0, deepest], [0.0, largest])];
-        while let Some((depths, radii_there)) = open.pop() {
-            let [[low, high], [inner, outer]] = [depths, radii_there];
+        while let Some((depths, radii_at_depths)) = open.pop() {
+            let [[low, high], [inner, outer]] = [depths, radii_at_depths];
             let middle = 0.5 * (low + high);
-            let tiny = outer * (high - low) <= negligible || middle <= low || middle >= high;
+            let is_tiny = outer * (high - low) <= negligible || middle <= low || middle >= high;
             // At the apex d^(1/p) is a polynomial only of a cone and of a flat end.
-            let root = low == 0.0 && exponent.is_finite() && (exponent - 1.0).abs() > f64::EPSILON;
-            if tiny || !root {
-                let (piece, tail) = Piece::fitted(body, depths, radii_there, &cosines);
-                if tiny || tail <= TAIL_TOLERANCE * outer {
+            let is_root =
+                low == 0.0 && exponent.is_finite() && (exponent - 1.0).abs() > f64::EPSILON;
+            if is_tiny || !is_root {
+                let (piece, tail) = Piece::fitted(body, depths, radii_at_depths, &cosines);
+                if is_tiny || tail <= TAIL_TOLERANCE * outer {
                     // At the apex the radius itself is the bound.
-                    let tail = if root { outer } else { tail };
+                    let tail = if is_root { outer } else { tail };
                     radii.area_error += 0.01 * tail * (high - low);
                     radii.pieces.push(piece);
                     continue;
@@ -90,10 +91,10 @@ impl Radii {
         Ok(radii)
     }
 
-    /// The piece that begins at a depth, or holds it inside.
+    /// The piece that begins at a depth or contains it.
     fn piece_at(&self, depth: f64) -> &Piece {
-        let inside = &self.pieces[..self.pieces.len() - 1];
-        &self.pieces[inside.partition_point(|piece| piece.depths[1] <= depth)]
+        let all_but_last = &self.pieces[..self.pieces.len() - 1];
+        &self.pieces[all_but_last.partition_point(|piece| piece.depths[1] <= depth)]
     }
 
     /// The largest depth, \[m].
@@ -101,7 +102,7 @@ impl Radii {
         self.pieces[self.pieces.len() - 1].depths[1]
     }
 
-    /// ∫ a dd up to the largest depth, \[m²].
+    /// Integral ∫ a dd up to the largest depth, \[m²].
     pub(super) fn area(&self) -> f64 {
         self.pieces.iter().map(|piece| piece.area(1.0)).sum()
     }
@@ -128,7 +129,7 @@ impl Radii {
     }
 
     /// The radius over θ ∈ [0, 1] while the depth increases linearly within a piece.
-    pub(super) fn along(&self, [from, to]: [f64; 2]) -> Polynomial {
+    pub(super) fn polynomial_between(&self, [from, to]: [f64; 2]) -> Polynomial {
         // By its middle, because rounding may put the ends into the pieces next to it.
         let piece = self.piece_at(0.5 * (from + to));
         let start = piece.position(from);
@@ -139,9 +140,9 @@ impl Radii {
         let quarters = (2..4).find(enough).map_or(4, i32::unsigned_abs);
         let n_terms = 4 * quarters as usize;
         let mut coefficients = match quarters {
-            2 => piece.about::<8>(start),
-            3 => piece.about::<12>(start),
-            _ => piece.about::<N_COEFFICIENTS>(start),
+            2 => piece.taylor_coefficients::<8>(start),
+            3 => piece.taylor_coefficients::<12>(start),
+            _ => piece.taylor_coefficients::<N_COEFFICIENTS>(start),
         };
         let mut scale = 1.0;
         for coefficient in &mut coefficients[..n_terms] {
@@ -154,7 +155,7 @@ impl Radii {
         }
     }
 
-    /// The radius and its derivative at the second of two depths, on the piece that holds both.
+    /// Radius \[m] and its derivative by the depth, at the second of two depths in one piece.
     pub(super) fn radius_and_slope(&self, depths: [f64; 2]) -> [f64; 2] {
         let [from, depth] = depths;
         let piece = self.piece_at(0.5 * (from + depth));
@@ -169,19 +170,22 @@ impl Radii {
 
 /// A radius as a polynomial of θ ∈ [0, 1].
 pub(super) struct Polynomial {
+    /// Coefficients of the powers of θ, \[m].
     coefficients: [f64; N_COEFFICIENTS],
+    /// Number of coefficients that matter.
     n_terms: usize,
 }
 
 impl Polynomial {
+    /// Coefficients of the powers of θ, \[m].
     pub(super) fn terms(&self) -> &[f64] {
         &self.coefficients[..self.n_terms]
     }
 }
 
 impl Piece {
-    /// The first coefficients over the powers of ξ − `start`.
-    fn about<const N_TERMS: usize>(&self, start: f64) -> [f64; N_COEFFICIENTS] {
+    /// Taylor coefficients at ξ = `start`; only the first `N_TERMS` are exact.
+    fn taylor_coefficients<const N_TERMS: usize>(&self, start: f64) -> [f64; N_COEFFICIENTS] {
         let mut coefficients = self.coefficients;
         for first in 0..N_TERMS {
             for order in (first..N_COEFFICIENTS - 1).rev() {
@@ -191,7 +195,7 @@ impl Piece {
         coefficients
     }
 
-    /// ∫ a dd from the beginning of the piece up to ξ, \[m²].
+    /// Integral ∫ a dd from the beginning of the piece up to ξ, \[m²].
     fn area(&self, position: f64) -> f64 {
         let antiderivative = |position: f64| {
             let terms = self.coefficients.iter().enumerate().rev();
@@ -200,7 +204,7 @@ impl Piece {
         0.5 * (self.depths[1] - self.depths[0]) * (antiderivative(position) - antiderivative(-1.0))
     }
 
-    /// ξ at a depth.
+    /// Position ξ of a depth.
     fn position(&self, depth: f64) -> f64 {
         let [low, high] = self.depths;
         (depth - low) / (0.5 * (high - low)) - 1.0
@@ -215,26 +219,24 @@ impl Piece {
         cosines: &[[f64; N_COEFFICIENTS]; N_COEFFICIENTS],
     ) -> (Self, f64) {
         let [low, high] = depths;
-        let mut above = outer;
+        // Radii at the nodes, from the outermost inwards.
+        let mut previous_radius = outer;
         let values: [f64; N_COEFFICIENTS] = std::array::from_fn(|node| {
             let depth = low + 0.5 * (high - low) * (1.0 + cosines[node][1]);
-            above = radius(body, depth, [inner, above]);
-            above
+            previous_radius = radius(body, depth, [inner, previous_radius]);
+            previous_radius
         });
-        let mut series = sum_of_rows(
-            &values.map(|value| 2.0 / N_COEFFICIENTS as f64 * value),
-            cosines,
-        );
+        // Chebyshev series through them, and the coefficients of the powers.
+        let scaled = values.map(|value| 2.0 / N_COEFFICIENTS as f64 * value);
+        let mut series = sum_of_rows(&scaled, cosines);
         series[0] *= 0.5;
         let coefficients = sum_of_rows(&series, &CHEBYSHEV);
         let piece = Self {
             depths,
             coefficients,
         };
-        (
-            piece,
-            series[N_COEFFICIENTS - 2].abs() + series[N_COEFFICIENTS - 1].abs(),
-        )
+        let tail = series[N_COEFFICIENTS - 2].abs() + series[N_COEFFICIENTS - 1].abs();
+        (piece, tail)
     }
 }
 
@@ -255,7 +257,7 @@ const CHEBYSHEV: [[f64; N_COEFFICIENTS]; N_COEFFICIENTS] = {
     rows
 };
 
-/// Σ_k factor_k row_k, row by row, so that the compiler sums all columns together.
+/// Sum Σ_k factor_k row_k, row by row, so that the compiler sums all columns together.
 fn sum_of_rows(
     factors: &[f64; N_COEFFICIENTS],
     rows: &[[f64; N_COEFFICIENTS]; N_COEFFICIENTS],
@@ -269,7 +271,7 @@ fn sum_of_rows(
     sums
 }
 
-/// The radius between two others at which the line has a height; the outer one if the line is lower up to there, as the
+/// The radius between two others at which the line reaches a height; the outer one if the line is lower up to there, as the
 /// flat end of a punch.
 fn radius(body: &dyn EquivalentProfile, height: f64, [inner, outer]: [f64; 2]) -> f64 {
     let closed = body.closed_position(height);

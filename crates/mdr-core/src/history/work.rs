@@ -34,9 +34,10 @@ pub fn work_along(
     options: &HistoryOptions,
 ) -> Result<Vec<Estimate>, MdrError> {
     let work_on = |parts: usize| {
-        let curve = indent_along(body, material, &divided(history, parts), options)?;
-        Ok::<_, MdrError>((summed(&curve, parts), work_error(&curve)))
+        let curve = indent_along(body, material, &with_subpoints(history, parts), options)?;
+        Ok::<_, MdrError>((cumulative_work(&curve, parts), work_error(&curve)))
     };
+    // Halve the parts until the work converges.
     let mut parts = 1;
     let (mut before, _) = work_on(parts)?;
     loop {
@@ -66,20 +67,20 @@ pub fn work_along(
 }
 
 /// The history with the nodes of the rule on `parts` parts of each segment.
-fn divided(history: &[HistoryPoint], parts: usize) -> Vec<HistoryPoint> {
+fn with_subpoints(history: &[HistoryPoint], parts: usize) -> Vec<HistoryPoint> {
     let mut points: Vec<HistoryPoint> = history.iter().take(1).copied().collect();
     for pair in history.windows(2) {
         let [start, end] = [pair[0], pair[1]];
         for part in 0..parts {
-            let places = GAUSS_RULE.map(|[place, _]| (part as f64 + place) / parts as f64);
-            points.extend(places.map(|place| between(start, end, place)));
+            let nodes = GAUSS_RULE.map(|[node, _]| (part as f64 + node) / parts as f64);
+            points.extend(nodes.map(|node| between(start, end, node)));
         }
         points.push(end);
     }
     points
 }
 
-/// The point at a part of the way from one point to the next.
+/// The point at a fraction `part` of the segment between two points.
 fn between(start: HistoryPoint, end: HistoryPoint, part: f64) -> HistoryPoint {
     let mean = |from: f64, to: f64| from + part * (to - from);
     HistoryPoint {
@@ -97,29 +98,31 @@ fn between(start: HistoryPoint, end: HistoryPoint, part: f64) -> HistoryPoint {
     }
 }
 
-/// ∫ F dd = F d − ∫ d dF up to each point of the history.
-fn summed(curve: &[CurvePoint], parts: usize) -> Vec<f64> {
-    let is_force = given_force(curve);
+/// Work ∫ F dd = F d − ∫ d dF up to each point of the history.
+fn cumulative_work(curve: &[CurvePoint], parts: usize) -> Vec<f64> {
+    let is_force = is_force_given(curve);
     let mut work = 0.0;
-    let mut all = vec![work];
+    let mut work_at_points = vec![work];
     let length = GAUSS_RULE.len() * parts + 1;
     for segment in curve.windows(length + 1).step_by(length) {
+        // Means of force and depth over the segment, by Gauss quadrature.
         let [start, end] = [segment[0], segment[length]].map(values);
-        let inside = segment[1..length].iter().zip(GAUSS_RULE.iter().cycle());
-        let weighted =
-            inside.map(|(point, [_, weight])| values(*point).map(|value| weight * value));
+        let quadrature_points = segment[1..length].iter().zip(GAUSS_RULE.iter().cycle());
+        let weighted = quadrature_points
+            .map(|(point, [_, weight])| values(*point).map(|value| weight * value));
         let sums = weighted.fold([0.0; 2], |[force, depth], [more, deeper]| {
             [force + more, depth + deeper]
         });
         let [force, depth] = sums.map(|sum| sum / parts as f64);
+        // Work is ∫ F dd; where the force is given, integrate by parts.
         work += if is_force {
             end[0] * end[1] - start[0] * start[1] - depth * (end[0] - start[0])
         } else {
             force * (end[1] - start[1])
         };
-        all.push(work);
+        work_at_points.push(work);
     }
-    all
+    work_at_points
 }
 
 /// Force and depth of a point.
@@ -127,23 +130,24 @@ fn values(point: CurvePoint) -> [f64; 2] {
     [point.normal_force, point.indentation_depth].map(|known| known.value)
 }
 
-/// Whether the force is prescribed, which has no error then.
-fn given_force(curve: &[CurvePoint]) -> bool {
+/// True if the force is prescribed, so that it has no error.
+fn is_force_given(curve: &[CurvePoint]) -> bool {
     curve.iter().all(|point| point.normal_force.error == 0.0)
 }
 
 /// Bound of the error of the work by the error of the depth, or of the force, \[J].
 fn work_error(curve: &[CurvePoint]) -> f64 {
     let largest = |of: fn(&CurvePoint) -> f64| curve.iter().map(of).fold(0.0, f64::max);
-    let way = |of: fn(&CurvePoint) -> f64| {
+    let total_variation = |of: fn(&CurvePoint) -> f64| {
         let step = |pair: &[CurvePoint]| (of(&pair[1]) - of(&pair[0])).abs();
         curve.windows(2).map(step).sum::<f64>()
     };
-    if given_force(curve) {
+    if is_force_given(curve) {
         let force = |point: &CurvePoint| point.normal_force.value;
-        largest(|point| point.indentation_depth.error) * (2.0 * largest(force) + way(force))
+        largest(|point| point.indentation_depth.error)
+            * (2.0 * largest(force) + total_variation(force))
     } else {
         let force = largest(|point| point.normal_force.error);
-        force * way(|point| point.indentation_depth.value)
+        force * total_variation(|point| point.indentation_depth.value)
     }
 }

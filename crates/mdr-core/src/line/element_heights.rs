@@ -11,12 +11,12 @@ use crate::MdrError;
 /// Elements of a foundation at most.
 pub(crate) const MAX_ELEMENTS: usize = 1 << 22;
 /// On an infinite domain the line is sampled up to this multiple of the distance at which it was last below the
-/// ceiling.
+/// largest needed height.
 const LOOKOUT_DISTANCE_RATIO: usize = 1024;
 /// Number of elements up to which every one is sampled; beyond it the stride is the distance divided by this number.
 const LOOKOUT_STRIDE: usize = 64;
 /// Relative margin above the height asked for, so that rounding cannot lift the contact over the last element.
-const CEILING_MARGIN: f64 = 1e-9;
+const MAX_HEIGHT_MARGIN: f64 = 1e-9;
 
 /// The elements under the part of a line that can come into contact.
 pub(crate) struct ElementHeights {
@@ -25,7 +25,7 @@ pub(crate) struct ElementHeights {
     /// Height of the lowest element on the line, \[m].
     pub(crate) lowest_height: f64,
     /// Height above the lowest element up to which no element is missing, \[m]; infinite with the whole line.
-    pub(crate) ceiling: f64,
+    pub(crate) max_height: f64,
     /// Position of the lowest point, or of the foremost of several, \[m].
     anchor: f64,
     /// Index of the element at the lowest point.
@@ -77,7 +77,7 @@ impl ElementHeights {
             line,
             anchor,
             step,
-            ceiling: anchor_height + height * (1.0 + CEILING_MARGIN),
+            max_height: anchor_height + height * (1.0 + MAX_HEIGHT_MARGIN),
         };
         let too_many = || MdrError::TooManyElements {
             allowed: MAX_ELEMENTS,
@@ -98,11 +98,11 @@ impl ElementHeights {
         for height in &mut heights {
             *height -= lowest_height;
         }
-        let raised = anchor_height - lowest_height;
+        let anchor_rise = anchor_height - lowest_height;
         Ok(Self {
             heights,
             lowest_height,
-            ceiling: (height + raised) * (1.0 + CEILING_MARGIN),
+            max_height: (height + anchor_rise) * (1.0 + MAX_HEIGHT_MARGIN),
             anchor,
             anchor_index,
             spacing,
@@ -112,19 +112,20 @@ impl ElementHeights {
 
 /// The elements on one side of the anchor, numbered from 1.
 struct Ray<'a> {
+    /// The line above the elements.
     line: &'a dyn RigidLine,
     /// Position of the anchor, \[m].
     anchor: f64,
     /// Distance from element to element with its sign, \[m].
     step: f64,
     /// Height of the line up to which elements are needed, \[m].
-    ceiling: f64,
+    max_height: f64,
 }
 
 impl Ray<'_> {
-    /// The heights up to one element beyond the last one below the ceiling; `None` if there are too many.
+    /// The heights up to one element beyond the last one below the largest needed height; `None` if there are too many.
     fn heights(&self) -> Result<Option<Vec<f64>>, MdrError> {
-        let Some(n_needed) = self.look_out()? else {
+        let Some(n_needed) = self.count_needed()? else {
             return Ok(None);
         };
         let mut heights = Vec::with_capacity(n_needed);
@@ -138,7 +139,7 @@ impl Ray<'_> {
             if height == f64::INFINITY {
                 break;
             }
-            if height <= self.ceiling {
+            if height <= self.max_height {
                 last_below = element;
             }
             heights.push(height);
@@ -147,20 +148,22 @@ impl Ray<'_> {
         Ok(Some(heights))
     }
 
-    /// Number of elements beyond which no sample lies below the ceiling; `None` if it is too large.
-    fn look_out(&self) -> Result<Option<usize>, MdrError> {
-        let bounded = self.end().is_finite();
+    /// Number of elements beyond which no sample of the line lies below the largest needed height; `None` if it exceeds [`MAX_ELEMENTS`].
+    fn count_needed(&self) -> Result<Option<usize>, MdrError> {
+        let is_bounded = self.end().is_finite();
         let mut element = 1;
         let (mut last_below, mut n_needed) = (0, 1);
+        // Look ahead with growing strides for the last element below the largest needed height.
         while let Some(position) = self.position(element) {
             let next = element.saturating_add(1 + element / LOOKOUT_STRIDE);
-            if checked_height(self.line, position)? <= self.ceiling {
+            if checked_height(self.line, position)? <= self.max_height {
                 (last_below, n_needed) = (element, next);
             }
             if n_needed > MAX_ELEMENTS {
                 return Ok(None);
             }
-            if next == usize::MAX || !bounded && element > LOOKOUT_DISTANCE_RATIO * (last_below + 1)
+            if next == usize::MAX
+                || !is_bounded && element > LOOKOUT_DISTANCE_RATIO * (last_below + 1)
             {
                 break;
             }

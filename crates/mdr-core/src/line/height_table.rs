@@ -17,15 +17,18 @@ const POSITION_ROUNDING: f64 = 1e-9;
 
 /// Table of the heights above the lowest point, \[m].
 pub(crate) struct HeightTable<'a> {
+    /// The line itself.
     line: &'a dyn RigidLine,
+    /// Height of the lowest point of the line, \[m].
     lowest: f64,
     /// Position of the lowest point, \[m].
     anchor: f64,
     start: f64,
+    /// Number of cells per length, \[1/m].
     cells_per_metre: f64,
     /// Heights at the nodes, one list per position of a node in its element: the elements of a row all have the same one.
     nodes: [Vec<f64>; CELLS_PER_ELEMENT],
-    /// Whether the cubic holds in the cell that begins at a node, in the same order.
+    /// True if the cubic holds in the cell that begins at a node, in the same order.
     is_smooth: [Vec<bool>; CELLS_PER_ELEMENT],
 }
 
@@ -36,23 +39,25 @@ impl<'a> HeightTable<'a> {
         let [start, end] = [0, sampled.heights.len() - 1].map(|end| sampled.position(end));
         let n_cells = ((end - start) / spacing).ceil().max(1.0);
         let (lowest, cells_per_metre) = (sampled.lowest_height, spacing.recip());
-        let at = |cell: f64| checked_height(line, start + cell * spacing).map(|h| h - lowest);
-        let places = (0_u32..).map(f64::from).take_while(|cell| *cell <= n_cells);
-        let nodes: Vec<f64> = places.map(at).collect::<Result<_, _>>()?;
+        let height_of_cell =
+            |cell: f64| checked_height(line, start + cell * spacing).map(|h| h - lowest);
+        let cells = (0_u32..).map(f64::from).take_while(|cell| *cell <= n_cells);
+        let nodes: Vec<f64> = cells.map(height_of_cell).collect::<Result<_, _>>()?;
+        // A cell is smooth if the cubic through its nodes agrees with the line.
         let finite = nodes.iter().copied().filter(|height| height.is_finite());
         let allowed = CUBIC_TOLERANCE * finite.fold(0.0, f64::max);
         let is_smooth = |cell: usize| {
-            let around = cell
+            let nodes_around = cell
                 .checked_sub(1)
                 .and_then(|first| nodes.get(first..first + 4));
             // Not only in the middle, where odd terms of the error vanish.
             let is_close = |part: f64| {
-                let exact = at(cell as f64 + part);
-                let terms = around.into_iter().flatten().zip(weights(part));
+                let exact = height_of_cell(cell as f64 + part);
+                let terms = nodes_around.into_iter().flatten().zip(weights(part));
                 let cubic: f64 = terms.map(|(node, weight)| node * weight).sum();
                 exact.is_ok_and(|exact| (cubic - exact).abs() <= allowed)
             };
-            around.is_some() && [0.25, 0.5, 0.75].into_iter().all(is_close)
+            nodes_around.is_some() && [0.25, 0.5, 0.75].into_iter().all(is_close)
         };
         let is_smooth: Vec<bool> = (0..nodes.len()).map(is_smooth).collect();
         Ok(Self {
@@ -76,21 +81,21 @@ impl<'a> HeightTable<'a> {
         Ok(checked_height(self.line, point.unwrap_or(x))? - self.lowest)
     }
 
-    /// Heights over a row of elements, of which the first is at a position on the line, \[m].
+    /// Writes the heights over a row of elements, whose first one is at the position `x` on the line, \[m].
     pub(crate) fn fill_row(
         &self,
         x: f64,
         n_elements: usize,
         row: &mut Vec<f64>,
     ) -> Result<(), MdrError> {
-        let place = (x - self.start) * self.cells_per_metre;
+        let position_in_cells = (x - self.start) * self.cells_per_metre;
         let spacing = CELLS_PER_ELEMENT as f64 / self.cells_per_metre;
-        let cell = place.floor();
-        let weights = weights(place - cell);
+        let first_cell = position_in_cells.floor();
+        let weights = weights(position_in_cells - first_cell);
         // Elements in front of the first one whose four nodes are in the table.
-        let before = (1.0 - cell).max(0.0) / CELLS_PER_ELEMENT as f64;
+        let before = (1.0 - first_cell).max(0.0) / CELLS_PER_ELEMENT as f64;
         let skipped = whole_part(before.ceil()).min(n_elements);
-        let cell = whole_part((cell + (skipped * CELLS_PER_ELEMENT) as f64).max(1.0));
+        let cell = whole_part((first_cell + (skipped * CELLS_PER_ELEMENT) as f64).max(1.0));
         let from = |number: usize| &self.nodes[number % CELLS_PER_ELEMENT][..];
 
         // Cubics for all elements, each with the same weights of its four nodes.
@@ -108,7 +113,7 @@ impl<'a> HeightTable<'a> {
         row.extend(cubics.take(n_elements - skipped));
         row.resize(n_elements, f64::NAN);
 
-        // Heights of the line itself where a cubic does not hold.
+        // Use the heights of the line itself where the cubic is not accurate.
         let smooth = &self.is_smooth[cell % CELLS_PER_ELEMENT];
         for (element, height) in row.iter_mut().enumerate() {
             let index = element
@@ -127,6 +132,7 @@ impl<'a> HeightTable<'a> {
 pub(crate) struct HeightRow {
     /// Index of the first element.
     pub(crate) first: usize,
+    /// Heights of the line, \[m].
     pub(crate) heights: Vec<f64>,
 }
 
@@ -164,10 +170,10 @@ impl HeightRow {
 
 /// Splits a list of cells by their position in an element.
 fn split_by_subcell<T: Copy>(cells: &[T]) -> [Vec<T>; CELLS_PER_ELEMENT] {
-    std::array::from_fn(|place| {
+    std::array::from_fn(|subcell| {
         cells
             .iter()
-            .skip(place)
+            .skip(subcell)
             .step_by(CELLS_PER_ELEMENT)
             .copied()
             .collect()

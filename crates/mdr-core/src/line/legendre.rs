@@ -10,12 +10,14 @@ pub(crate) type Polynomial = [f64; DEGREE + 1];
 
 /// Interpolation at the Gauss–Lobatto nodes: −1, 1 and the zeros of P'_n.
 pub(crate) struct Interpolation {
+    /// Gauss–Lobatto nodes on [−1, 1].
     nodes: Polynomial,
     /// Row k gives the coefficient c_k from the values at the nodes.
     rows: [Polynomial; DEGREE + 1],
 }
 
 impl Interpolation {
+    /// Nodes and coefficients of the interpolation of degree [`DEGREE`].
     pub(crate) fn new() -> Self {
         let rule = lobatto_rule(DEGREE + 1);
         let mut nodes = [0.0; DEGREE + 1];
@@ -44,14 +46,14 @@ impl Interpolation {
     }
 }
 
-/// p(t), by Clenshaw's recurrence.
+/// Value p(t), by Clenshaw's recurrence.
 pub(crate) fn value(coefficients: &[f64], t: f64) -> f64 {
-    let (mut next, mut after) = (0.0, 0.0);
+    let (mut next, mut second_next) = (0.0, 0.0);
     for (k, coefficient) in coefficients.iter().enumerate().rev() {
         let degree = k as f64;
         let factor = (2.0 * degree + 1.0) / (degree + 1.0) * t;
-        let this = coefficient + factor * next - (degree + 1.0) / (degree + 2.0) * after;
-        (next, after) = (this, next);
+        let this = coefficient + factor * next - (degree + 1.0) / (degree + 2.0) * second_next;
+        (next, second_next) = (this, next);
     }
     next
 }
@@ -68,20 +70,20 @@ pub(crate) fn derivative<const N: usize>(coefficients: &[f64; N]) -> [f64; N] {
     slopes
 }
 
-/// ∫ p(t)² dt over [−1, 1].
+/// Integral ∫ p(t)² dt over [−1, 1].
 pub(crate) fn square_integral(coefficients: &[f64]) -> f64 {
     let terms = coefficients.iter().enumerate();
     terms.map(|(k, c)| c * c / (k as f64 + 0.5)).sum()
 }
 
-/// p(−1).
+/// Value p(−1).
 pub(crate) fn start_value(coefficients: &[f64]) -> f64 {
     let terms = coefficients.iter().enumerate();
     let signed = terms.map(|(k, c)| if k % 2 == 0 { *c } else { -c });
     signed.sum()
 }
 
-/// p(1).
+/// Value p(1).
 pub(crate) fn end_value(coefficients: &[f64]) -> f64 {
     coefficients.iter().sum()
 }

@@ -24,7 +24,7 @@ const N_SLOPE_SAMPLES: usize = 24;
 /// ends alone.
 const SHORT_PIECE_RATIO: f64 = 0.125;
 
-/// Polynomials of one line at most; more take seconds for every depth that is tried.
+/// Maximum number of polynomials of a line; more take seconds for each trial depth.
 const MAX_PIECES: usize = 1 << 18;
 /// Effect of the rounding of heights and positions on the last terms of a polynomial, as a multiple of both. Measured
 /// by `evidence tuning`.
@@ -46,26 +46,29 @@ pub(crate) struct Resolution {
 
 /// The part of a line that can come into contact, from the front to the rear.
 pub(crate) struct Profile {
+    /// Polynomials from the front to the rear.
     pub(crate) pieces: Vec<Piece>,
     /// Distance from its front to its rear, \[m].
     pub(crate) length: f64,
     /// Height of the lowest point relative to the anchor, in depths.
     pub(crate) lowest: f64,
+    /// Interpolation by which parts of the pieces become polynomials.
     pub(crate) interpolation: Interpolation,
 }
 
 /// A stretch over which the line only rises or only falls.
 pub(crate) struct Piece {
-    /// Compression that it imposes when the lowest point of the line is one depth deep. While the pieces are made, it is
+    /// Compression that the piece imposes when the lowest point of the line is one depth deep. While the pieces are made, it is
     /// relative to that of the anchor.
     pub(crate) segment: Segment,
     /// Size of the first terms that are left out, in depths.
     pub(crate) tail: f64,
-    /// Whether it is as short as a piece can be, and still not resolved.
+    /// True if the piece is as short as possible, and still not resolved.
     pub(crate) singular: bool,
 }
 
 impl Profile {
+    /// Divides the line within a range into polynomials.
     pub(crate) fn new(
         line: &dyn RigidLine,
         range: &Range,
@@ -77,6 +80,7 @@ impl Profile {
             length: range.ends[1] - range.ends[0],
             resolution,
         };
+        // Pieces between the kinks, from the front to the rear.
         let [rear, front] = range.ends;
         let mut breaks = vec![front];
         let inside = |x: &f64| *x > rear && *x < front;
@@ -86,6 +90,7 @@ impl Profile {
         for ends in breaks.windows(2) {
             builder.resolve([ends[0], ends[1]], &mut pieces)?;
         }
+        // Compressions relative to the lowest point of the line, at a depth of one.
         let ends = |piece: &Piece| start_value(piece.terms()).max(end_value(piece.terms()));
         let lowest = -pieces.iter().map(ends).fold(0.0, f64::max);
         for piece in &mut pieces {
@@ -101,10 +106,12 @@ impl Profile {
 }
 
 impl Piece {
+    /// Legendre coefficients of the compression, in depths.
     fn terms(&self) -> &Polynomial {
         &self.segment.displacements
     }
 
+    /// Position on the line, within the ends of the piece, \[m].
     fn position(&self, t: f64) -> f64 {
         let [front, rear] = self.segment.ends;
         self.segment.position(t).clamp(rear, front)
@@ -115,7 +122,7 @@ impl Piece {
         self.terms()[1..].iter().map(|c| c.abs()).sum()
     }
 
-    /// Whether the tail is the rounding of heights and, where the line is steep, of positions.
+    /// True if the tail is the rounding of heights and, where the line is steep, of positions.
     ///
     /// Halving such a piece does not reduce its tail: next to a flat end pieces would be halved as long as numbers allow.
     fn is_rounding(&self) -> bool {
@@ -156,8 +163,8 @@ impl Piece {
     fn trim(&mut self) {
         let segment = &mut self.segment;
         let sizes = segment.displacements.iter().map(|c| c.abs());
-        let noise = 2.0 * f64::EPSILON * sizes.fold(0.0, f64::max);
-        while segment.degree > 0 && segment.displacements[segment.degree].abs() <= noise {
+        let rounding = 2.0 * f64::EPSILON * sizes.fold(0.0, f64::max);
+        while segment.degree > 0 && segment.displacements[segment.degree].abs() <= rounding {
             segment.displacements[segment.degree] = 0.0;
             segment.degree -= 1;
         }
@@ -166,10 +173,13 @@ impl Piece {
 
 /// Division of a line into pieces.
 struct Builder<D> {
-    /// How far the line lies below the anchor, in depths.
+    /// Depth of the line below the anchor at a position, in depths.
     drop: D,
+    /// Interpolation on a piece.
     interpolation: Interpolation,
+    /// Length of the range, \[m].
     length: f64,
+    /// Criterion for a resolved piece.
     resolution: Resolution,
 }
 
@@ -204,6 +214,7 @@ impl<D: Fn(f64) -> Result<f64, MdrError>> Builder<D> {
         Ok(())
     }
 
+    /// Adds a piece, in two parts if the line turns inside it.
     fn split_at_turning_point(
         &self,
         piece: Piece,
@@ -233,12 +244,14 @@ impl<D: Fn(f64) -> Result<f64, MdrError>> Builder<D> {
             tail: 0.0,
             singular: false,
         };
+        // Interpolate the heights.
         let drop = |t: f64| (self.drop)(piece.position(t)).unwrap_or(f64::NAN);
         piece.segment.displacements = self.interpolation.interpolate(drop);
         if !piece.terms().iter().all(|c| c.is_finite()) {
             return Err(self.bad_height(&piece));
         }
-        piece.tail = remainder(piece.terms());
+        // Estimate the error, and leave out negligible terms.
+        piece.tail = estimate_tail(piece.terms());
         piece.trim();
         Ok(piece)
     }
@@ -256,19 +269,19 @@ impl<D: Fn(f64) -> Result<f64, MdrError>> Builder<D> {
         invalid_height(piece.position(0.0), f64::INFINITY)
     }
 
-    /// Whether the tail is negligible, and the line agrees with the polynomial between the nodes.
+    /// True if the tail is negligible, and the line agrees with the polynomial between the nodes.
     fn is_resolved(&self, piece: &Piece) -> Result<bool, MdrError> {
         let tolerance = self.resolution.tolerance;
         let (rise, length) = (piece.rise(), piece.segment.length);
-        // The second matters for the dissipation of what relaxes within the piece, ∫ u'² dx.
+        // A tail relative to the rise matters for the dissipation ∫ u'² dx of branches that relax within the piece.
         let steep = length > SHORT_PIECE_RATIO * self.resolution.shortest_length
             && piece.tail > tolerance * rise
             && piece.tail * rise * (self.length / length) > tolerance;
-        Ok(piece.tail <= tolerance && !steep && self.agrees(piece)?)
+        Ok(piece.tail <= tolerance && !steep && self.agrees_with_line(piece)?)
     }
 
-    /// Whether the line agrees with the polynomial at stations between the nodes.
-    fn agrees(&self, piece: &Piece) -> Result<bool, MdrError> {
+    /// True if the line agrees with the polynomial at stations between the nodes.
+    fn agrees_with_line(&self, piece: &Piece) -> Result<bool, MdrError> {
         let share = N_STATIONS * piece.segment.length / self.length;
         /// Stride of the stations, the golden ratio minus 1: an irrational number does not fall into step with a
         /// periodic line.
@@ -290,7 +303,7 @@ impl<D: Fn(f64) -> Result<f64, MdrError>> Builder<D> {
 /// Size of the terms that are left out, by a geometric series through the last two pairs of terms.
 ///
 /// Pairs, because an even line has no odd terms. Towards a cusp the terms decay like a power, and all of the tail matters.
-fn remainder(coefficients: &Polynomial) -> f64 {
+fn estimate_tail(coefficients: &Polynomial) -> f64 {
     let pair = |k: usize| coefficients[k].abs() + coefficients[k - 1].abs();
     let (last, before) = (pair(DEGREE), pair(DEGREE - 2));
     match last / before {

@@ -12,16 +12,16 @@ use crate::error::non_finite;
 /// kinks may be overlooked.
 const STATIONS_PER_OCTAVE: f64 = 16.0;
 /// On an endless line the search begins at this multiple of the distance at which the line first rises above the
-/// ceiling.
+/// height limit.
 const SEARCH_DISTANCE_RATIO: f64 = 1024.0;
-/// Factor by which the search for a first height above the ceiling goes outwards on an endless line.
+/// Factor by which the search for a first height above the height limit goes outwards on an endless line.
 const OUTWARD_STRIDE: f64 = 8.0;
 
 /// Distance from a vertical edge, such as the equator of a sphere, up to which a body is followed, as a part of its
 /// length from the lowest point. Closer to the edge the nodes of a piece are at the rounding of positions.
 const EDGE_INSET: f64 = MIN_PIECE_LENGTH;
 
-/// Positions between which all heights below the ceiling lie.
+/// Positions between which all heights below the height limit lie.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Range {
     /// Rear and front, \[m].
@@ -30,11 +30,12 @@ pub(crate) struct Range {
     pub(crate) anchor_height: f64,
     /// Height of the front end above the anchor, \[m].
     front_height: f64,
+    /// True if the front of the range is the front end of the line.
     ends_in_front: bool,
 }
 
 impl Range {
-    /// Everything at most `depth` above the lowest of the kinks, the ends, and x = 0.
+    /// The range of all points at most `depth` above the lowest of the kinks, the ends, and x = 0.
     ///
     /// Refuses a depth that is negative or not a number, as a search that overflows may give it.
     pub(crate) fn below(line: &dyn RigidLine, depth: f64) -> Result<Self, MdrError> {
@@ -63,7 +64,7 @@ impl Range {
         })
     }
 
-    /// Refuses a line that ends in front before it reaches the ceiling.
+    /// Refuses a line that ends in front before it reaches the height limit.
     ///
     /// `lowest` is relative to the anchor.
     pub(crate) fn check_front(&self, lowest: f64, depth: f64) -> Result<(), MdrError> {
@@ -82,8 +83,9 @@ impl Range {
 /// Where a body ends with a vertical edge in front.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct VerticalEdge {
+    /// Position of the edge on the line, \[m].
     pub(crate) position: f64,
-    /// Above the lowest point, next to the edge, \[m].
+    /// Height of the line next to the edge, above its lowest point, \[m].
     pub(crate) height: f64,
 }
 
@@ -99,9 +101,9 @@ pub(crate) fn vertical_edge(line: &dyn RigidLine) -> Result<Option<VerticalEdge>
     Ok(Some(VerticalEdge { position, height }))
 }
 
-/// The outermost position between the anchor and the end at which the line lies below the ceiling.
+/// The outermost position between the anchor and the end at which the line lies below the height limit.
 ///
-/// `pieces` are the intervals between kinks, of which the outermost comes first; a piece beyond a gap is found by its inner
+/// `pieces` are the intervals between kinks, the outermost first; a piece beyond a gap is found by its inner
 /// end.
 fn outermost_of(
     excess: impl Fn(f64) -> Result<f64, MdrError> + Copy,
@@ -116,7 +118,7 @@ fn outermost_of(
     piece.map_or(Ok(found), |[inner, outer]| outermost(excess, inner, outer))
 }
 
-/// The outermost position between `anchor` and `end` at which the line lies below the ceiling, by samples from outside.
+/// The outermost position between `anchor` and `end` at which the line lies below the height limit, by samples from outside.
 fn outermost(
     excess: impl Fn(f64) -> Result<f64, MdrError>,
     anchor: f64,
@@ -125,6 +127,7 @@ fn outermost(
     if end.is_finite() && excess(end)? <= 0.0 {
         return Ok(end);
     }
+    // Distance of a point above the height limit, from which samples go inwards.
     let mut outside = if end.is_finite() {
         end - anchor
     } else {
@@ -132,7 +135,7 @@ fn outermost(
     };
     // The sum of two positions may be rounded beyond the end.
     let within = |x: f64| if end > anchor { x.min(end) } else { x.max(end) };
-    // The anchor itself lies below the ceiling, so that this ends.
+    // The anchor itself lies below the height limit, so that this ends.
     loop {
         let inside = outside * (-1.0 / STATIONS_PER_OCTAVE).exp2();
         // The smallest numbers are rounded up to themselves.
@@ -148,7 +151,7 @@ fn outermost(
     }
 }
 
-/// A distance, with its sign, at which an endless line lies above the ceiling.
+/// A distance, with its sign, at which an endless line lies above the height limit.
 fn first_above(
     excess: impl Fn(f64) -> Result<f64, MdrError>,
     anchor: f64,

@@ -14,6 +14,7 @@ pub(crate) struct Segment {
     pub(crate) degree: usize,
     /// Positions of the front and the rear end, \[m].
     pub(crate) ends: [f64; 2],
+    /// Length, \[m].
     pub(crate) length: f64,
     /// Rounding of the displacements, in depths; 0 for a whole piece, whose heights are relative to the lowest point.
     pub(crate) rounding: f64,

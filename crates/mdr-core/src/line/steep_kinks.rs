@@ -17,12 +17,13 @@ const SLOPE_ROUNDING: f64 = 1e-9;
 
 /// A side of a kink on which the slope is unbounded.
 pub(crate) struct SteepKink {
+    /// Position of the kink, \[m].
     pub(crate) position: f64,
     /// The part of the line that is steep, \[m].
     side: [f64; 2],
 }
 
-/// Whether a line has kinks at which its slope is unbounded.
+/// True if a line has kinks at which its slope is unbounded.
 pub(crate) fn has_steep_kinks(line: &dyn RigidLine) -> bool {
     !SteepKink::all_of(line).is_empty()
 }
@@ -41,7 +42,7 @@ impl SteepKink {
         steep.map(kink).collect()
     }
 
-    /// Whether the steep side is in one of the contacts `[rear, front]`, or begins at its end.
+    /// True if the steep side is in one of the contacts `[rear, front]`, or begins at its end.
     ///
     /// A contact that reaches beyond a kink by less than the rounding of its position counts as reaching beyond it.
     pub(crate) fn is_in(&self, contacts: &[[f64; 2]]) -> bool {
@@ -52,7 +53,7 @@ impl SteepKink {
     }
 }
 
-/// Whether the slope grows towards the kink at least like the inverse root of the distance.
+/// True if the slope grows towards the kink at least like the inverse root of the distance.
 fn is_steep(line: &dyn RigidLine, position: f64, side: f64) -> bool {
     let parts = [
         1.0,

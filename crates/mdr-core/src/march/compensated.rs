@@ -5,11 +5,14 @@
 /// Running sum, and the sum of its rounding errors.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct CompensatedSum {
+    /// Rounded sum.
     sum: f64,
+    /// Sum of the rounding errors.
     remainder: f64,
 }
 
 impl CompensatedSum {
+    /// Adds a term, and its rounding error to the remainder.
     pub(crate) fn add(&mut self, term: f64) {
         let sum = self.sum + term;
         let added = sum - self.sum;
@@ -17,6 +20,7 @@ impl CompensatedSum {
         self.sum = sum;
     }
 
+    /// The sum, corrected by the rounding errors.
     pub(crate) fn value(self) -> f64 {
         self.sum + self.remainder
     }

@@ -28,6 +28,7 @@ pub(super) struct ContactHistory {
     steps: Vec<(f64, usize)>,
     /// First loaded element of each run of neighbours, and the one after the last.
     runs: Vec<[usize; 2]>,
+    /// Impulse and contacts of each element.
     elements: Vec<Element>,
     /// Duration of all steps, \[s].
     period: f64,
@@ -38,9 +39,9 @@ pub(super) struct ContactHistory {
 struct Element {
     /// Number of its contacts.
     n_contacts: f64,
-    /// ∫ w dt.
+    /// Impulse ∫ w dt of the load over the cycle.
     impulse: f64,
-    /// ∫ w t dt.
+    /// First moment ∫ w t dt of the load, with the time from the beginning of the cycle.
     moment: f64,
 }
 
@@ -70,8 +71,8 @@ impl ContactHistory {
         if !step.was_loaded {
             element.n_contacts += 1.0;
         }
-        let before = self.steps.last().map_or(0, |(_, end)| *end);
-        match self.runs[before..].last_mut() {
+        let first_run = self.steps.last().map_or(0, |(_, end)| *end);
+        match self.runs[first_run..].last_mut() {
             Some([_, end]) if *end == index => *end += 1,
             _ => self.runs.push([index, index + 1]),
         }
@@ -96,8 +97,8 @@ impl ContactHistory {
                 let periods = self.period / mode.length;
                 let lost = mode.recovered(self.period);
                 row[k] = if periods < Self::MAX_PERIODS_FROM_IMPULSE {
-                    let since = self.period * element.impulse - element.moment;
-                    let weighted = element.impulse - since / mode.length;
+                    let until_end = self.period * element.impulse - element.moment;
+                    let weighted = element.impulse - until_end / mode.length;
                     // Amplitudes of recovery are positive upwards, loads downwards.
                     -mode.compliance * weighted / mode.length / lost - state[k]
                 } else {
@@ -118,8 +119,9 @@ impl ContactHistory {
 
 /// Approximate Jacobian of the residual: the response of the loads to the free displacements.
 pub(super) struct CycleJacobian<'a> {
+    /// Contacts in the cycle.
     contact_history: &'a ContactHistory,
-    /// Whether the force is prescribed, and not the depth.
+    /// True if the force is prescribed, false if the depth.
     is_force: bool,
     /// Mean modulus k of each element; 0 if it is never in contact.
     moduli: Vec<f64>,
@@ -128,16 +130,17 @@ pub(super) struct CycleJacobian<'a> {
 }
 
 /// Factors of one mode in a step.
-struct ModeWeights {
-    /// On F and β, for a step that covers a finite number of cycles.
+struct ModeFactors {
+    /// Factor on F and β, for a step that covers a finite number of cycles.
     step_factor: f64,
-    /// θ: mean over a cycle of the displacement per amplitude.
+    /// Factor θ: mean over a cycle of the displacement per amplitude.
     mean_factor: f64,
-    /// θ β with the factor of the step: amplitude per mean load.
+    /// Product of θ, β and the factor of the step: amplitude per mean load.
     load_compliance: f64,
 }
 
 impl<'a> CycleJacobian<'a> {
+    /// The Jacobian at the contacts of a cycle.
     pub(super) fn new(
         contact_history: &'a ContactHistory,
         foundation: &Foundation,
@@ -153,10 +156,7 @@ impl<'a> CycleJacobian<'a> {
             .elements
             .iter()
             .zip(&times)
-            .map(|(element, time)| {
-                let time = time / element.n_contacts.max(1.0);
-                foundation.mean_modulus(time)
-            });
+            .map(|(element, time)| foundation.mean_modulus(time / element.n_contacts.max(1.0)));
         Self {
             contact_history,
             is_force,
@@ -171,30 +171,30 @@ impl<'a> CycleJacobian<'a> {
     /// Step δ that covers n cycles instead of all: with κ = e^(−T/λ), F and β are multiplied by (1 − κ)/(1 − κ + κ/n).
     pub(super) fn step(&self, modes: &[Mode], cycles: f64, residual: &[f64]) -> Vec<f64> {
         let n_history = residual.len() / self.contact_history.elements.len();
-        let weights = modes.iter().map(|mode| {
+        let factors = modes.iter().map(|mode| {
             let period = self.contact_history.period;
             let lost = mode.recovered(period);
             let step_factor = lost / (lost + (1.0 - lost) / cycles);
             let mean_factor = lost * mode.length / period;
-            ModeWeights {
+            ModeFactors {
                 step_factor,
                 mean_factor,
                 load_compliance: mean_factor * mode.compliance * step_factor,
             }
         });
-        let weights: Vec<ModeWeights> = weights.collect();
+        let factors: Vec<ModeFactors> = factors.collect();
 
         // The step without the response of the loads, and its mean displacement over a cycle.
         let mut step = residual.to_vec();
         let rows = step.chunks_mut(n_history).map(|row| {
-            let history = row.iter_mut().zip(&weights);
+            let history = row.iter_mut().zip(&factors);
             history.fold(0.0, |sum, (amplitude, mode)| {
                 *amplitude *= mode.step_factor;
                 sum + mode.mean_factor * *amplitude
             })
         });
         let free: Vec<f64> = rows.collect();
-        let compliance = weights
+        let compliance = factors
             .iter()
             .map(|mode| mode.mean_factor * mode.load_compliance)
             .sum();
@@ -202,7 +202,7 @@ impl<'a> CycleJacobian<'a> {
         // Subtract the response of the loads.
         let load_response = self.load_response(&free, compliance);
         for (row, load_response) in step.chunks_mut(n_history).zip(&load_response) {
-            for (amplitude, mode) in row.iter_mut().zip(&weights) {
+            for (amplitude, mode) in row.iter_mut().zip(&factors) {
                 *amplitude -= mode.load_compliance * load_response;
             }
         }
@@ -216,6 +216,7 @@ impl<'a> CycleJacobian<'a> {
         if !self.is_force {
             return product;
         }
+        // Cumulative sums, from which the sums over the loaded runs of each step are differences.
         let [mut loads, mut moduli, mut means] = [(); 3].map(|()| vec![0.0; v.len() + 1]);
         for (index, (k, v)) in self.moduli.iter().zip(v).enumerate() {
             loads[index + 1] = k * v;
@@ -223,6 +224,7 @@ impl<'a> CycleJacobian<'a> {
         }
         accumulate(&mut loads);
         accumulate(&mut moduli);
+        // Subtract the depth that keeps the force, averaged over the steps in which an element is loaded.
         for (duration, runs) in self.contact_history.steps_with_runs() {
             let mean = sum_over_runs(&loads, runs) / sum_over_runs(&moduli, runs);
             if mean.is_finite() {
@@ -240,7 +242,7 @@ impl<'a> CycleJacobian<'a> {
         product
     }
 
-    /// M v for the v that solves v = free − compliance · M v, by conjugate gradients, preconditioned by the M of a prescribed
+    /// Load response M v for the v that solves v = free − compliance · M v, by conjugate gradients, preconditioned by the M of a prescribed
     /// depth, which is diagonal.
     fn load_response(&self, free: &[f64], compliance: f64) -> Vec<f64> {
         let precondition = |r: &[f64]| -> Vec<f64> {
@@ -264,9 +266,9 @@ impl<'a> CycleJacobian<'a> {
         let mut z = precondition(&r);
         let mut p = z.clone();
         let mut size = dot(&r, &z);
-        let enough = CG_TOLERANCE * CG_TOLERANCE * dot(free, &v);
+        let allowed = CG_TOLERANCE * CG_TOLERANCE * dot(free, &v);
         for _ in 0..MAX_CG_ITERATIONS {
-            if size <= enough {
+            if size <= allowed {
                 break;
             }
             let a = applied(&p);
@@ -305,10 +307,12 @@ fn accumulate(values: &mut [f64]) {
     });
 }
 
+/// Inner product.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
+/// Adds `factor` times b to a.
 fn add_scaled(a: &mut [f64], factor: f64, b: &[f64]) {
     a.iter_mut().zip(b).for_each(|(a, b)| *a += factor * b);
 }

@@ -41,7 +41,7 @@ pub(super) fn find_limit_cycle(
     }
     let mut search = CycleSearch::new(problem, winkler.recovery_amplitudes().to_vec());
     let mut before: Option<MotionRecord> = None;
-    let mut rest = f64::INFINITY;
+    let mut remaining_change = f64::INFINITY;
     for n_cycles in 1..=MAX_CYCLES {
         // Compute one cycle from the present amplitudes; its energy balance includes what the loaded elements store.
         winkler.recovery_amplitudes().copy_from_slice(&search.state);
@@ -62,9 +62,10 @@ pub(super) fn find_limit_cycle(
         // Stop when the change that may remain is below the tolerance.
         let deviation = search.update_residual(&contact_history, winkler.recovery_amplitudes());
         if let Some(before) = before {
-            rest = record.rest_after(&before, search.remaining_change_factor(deviation));
-            report((rest.ln() / tolerance.ln()).clamp(0.0, 1.0));
-            if rest <= tolerance {
+            remaining_change =
+                record.update_remaining_changes(&before, search.remaining_change_factor(deviation));
+            report((remaining_change.ln() / tolerance.ln()).clamp(0.0, 1.0));
+            if remaining_change <= tolerance {
                 return Ok(Some(MotionRecord { n_cycles, ..record }));
             }
 
@@ -77,19 +78,20 @@ pub(super) fn find_limit_cycle(
     }
     Err(MdrError::NotPeriodic {
         cycles: MAX_CYCLES,
-        change: rest,
+        change: remaining_change,
         tolerance,
     })
 }
 
 /// State of the search for the limit cycle.
 struct CycleSearch<'a> {
+    /// Line, motion and foundation.
     problem: &'a MotionProblem<'a>,
     /// Amplitudes of recovery at the beginning of the cycle, element by element, \[m].
     state: Vec<f64>,
     /// Residual F at the state, \[m].
     residual: Vec<f64>,
-    /// Residual that the last step should have left, \[m].
+    /// Residual after the last step according to its linear model, \[m].
     expected_residual: Vec<f64>,
     /// Norm of the residual before the last step, \[m].
     residual_before: f64,
@@ -98,6 +100,7 @@ struct CycleSearch<'a> {
 }
 
 impl<'a> CycleSearch<'a> {
+    /// A search that starts from the amplitudes `state`.
     fn new(problem: &'a MotionProblem<'a>, state: Vec<f64>) -> Self {
         Self {
             problem,
@@ -109,6 +112,7 @@ impl<'a> CycleSearch<'a> {
         }
     }
 
+    /// Modes of recovery of the foundation.
     fn modes(&self) -> &'a [Mode] {
         &self.problem.foundation.modes
     }
@@ -124,9 +128,9 @@ impl<'a> CycleSearch<'a> {
         self.residual = contact_history.residual(self.modes(), &self.state, end);
         let pairs = self.residual.iter().zip(&self.expected_residual);
         let deviation = norm(pairs.map(|(found, expected_residual)| found - expected_residual));
-        let noise = self.rounding();
-        if deviation > noise {
-            (deviation - noise) / self.residual_before
+        let rounding = self.rounding();
+        if deviation > rounding {
+            (deviation - rounding) / self.residual_before
         } else {
             0.0
         }
@@ -146,7 +150,7 @@ impl<'a> CycleSearch<'a> {
             })
             .collect();
         let rows = self.state.chunks(n_history);
-        norm(rows.flat_map(|row| row.iter().zip(&weights).map(|(slot, weight)| slot * weight)))
+        norm(rows.flat_map(|row| row.iter().zip(&weights).map(|(term, weight)| term * weight)))
     }
 
     /// Bound of the remaining change over the change by the last step.
@@ -158,25 +162,26 @@ impl<'a> CycleSearch<'a> {
             .modes()
             .iter()
             .map(|mode| self.recovered_fraction(mode).recip() - 1.0);
-        let uncovered = settling_cycles.fold(0.0, f64::max) / self.cycles_per_step;
+        let from_uncovered_cycles = settling_cycles.fold(0.0, f64::max) / self.cycles_per_step;
         if deviation >= 1.0 {
             return f64::INFINITY;
         }
-        REMAINDER_SAFETY_FACTOR * (deviation / (1.0 - deviation)).max(1.0) + uncovered
+        REMAINDER_SAFETY_FACTOR * (deviation / (1.0 - deviation)).max(1.0) + from_uncovered_cycles
     }
 
-    /// Takes the approximate Newton step from the state, and computes the residual that it should leave.
+    /// Takes the approximate Newton step from the state, and predicts the residual after it.
     fn newton_step(&mut self, contact_history: &ContactHistory) {
         let foundation = &self.problem.foundation;
         let is_force = matches!(self.problem.load.largest_control(), Control::NormalForce(_));
-        let response = CycleJacobian::new(contact_history, foundation, is_force);
-        let step = response.step(self.modes(), self.cycles_per_step, &self.residual);
-        let left: Vec<f64> = self
+        let jacobian = CycleJacobian::new(contact_history, foundation, is_force);
+        let step = jacobian.step(self.modes(), self.cycles_per_step, &self.residual);
+        // Predicted residual: the part of the cycles that the step does not cover.
+        let remaining: Vec<f64> = self
             .modes()
             .iter()
             .map(|mode| {
-                let lost = self.recovered_fraction(mode);
-                (1.0 - lost) / lost / self.cycles_per_step
+                let recovered = self.recovered_fraction(mode);
+                (1.0 - recovered) / recovered / self.cycles_per_step
             })
             .collect();
         self.residual_before = norm(self.residual.iter().copied());
@@ -185,10 +190,10 @@ impl<'a> CycleSearch<'a> {
             .chunks_mut(n_history(foundation))
             .zip(step.chunks(n_history(foundation)));
         for (expected_residual, step) in rows {
-            for ((expected_residual, step), left) in
-                expected_residual.iter_mut().zip(step).zip(&left)
+            for ((expected_residual, step), factor) in
+                expected_residual.iter_mut().zip(step).zip(&remaining)
             {
-                *expected_residual = left * step;
+                *expected_residual = factor * step;
             }
         }
         self.state
@@ -198,6 +203,7 @@ impl<'a> CycleSearch<'a> {
     }
 }
 
+/// Euclidean norm.
 fn norm(values: impl Iterator<Item = f64>) -> f64 {
     values.map(|value| value * value).sum::<f64>().sqrt()
 }

@@ -12,11 +12,13 @@ pub(super) fn average_tangential_forces(record: &mut MotionRecord, step_lengths:
     let stages = record.steps.chunk_by_mut(|a, b| a.stage == b.stage);
     let mut first = 0;
     for steps in stages {
+        // Integrate the force over the distance of the stage.
         let step_lengths = &step_lengths[first..first + steps.len()];
         first += steps.len();
         let work =
             CumulativeWork::new(step_lengths, steps.iter().map(|step| step.tangential_force));
         let total = work.distance[steps.len()];
+        // Average it over an element around the middle of each step.
         let window = spacing.min(total);
         if window > 0.0 {
             for (step, ends) in steps.iter_mut().zip(work.distance.windows(2)) {
@@ -32,11 +34,12 @@ pub(super) fn average_tangential_forces(record: &mut MotionRecord, step_lengths:
 struct CumulativeWork {
     /// Distance up to the beginning of each step, and to the end of the last, \[m].
     distance: Vec<f64>,
-    /// Work up to there, \[J].
+    /// Work up to each of these distances, \[J].
     work: Vec<f64>,
 }
 
 impl CumulativeWork {
+    /// Sums over the steps from the first one on.
     fn new(step_lengths: &[f64], forces: impl Iterator<Item = f64>) -> Self {
         let (mut distance, mut work) = (vec![0.0], vec![0.0]);
         let mut sums = [0.0, 0.0];
@@ -51,17 +54,17 @@ impl CumulativeWork {
     /// Work up to a distance, \[J].
     fn up_to(&self, length: f64) -> f64 {
         let last = self.distance.len() - 1;
-        let after = self
+        let index = self
             .distance
             .partition_point(|end| *end < length)
             .clamp(1, last);
-        let [from, to] = [self.distance[after - 1], self.distance[after]];
+        let [from, to] = [self.distance[index - 1], self.distance[index]];
         let part = if to > from {
             (length - from) / (to - from)
         } else {
             1.0
         };
-        self.work[after - 1] + part.min(1.0) * (self.work[after] - self.work[after - 1])
+        self.work[index - 1] + part.min(1.0) * (self.work[index] - self.work[index - 1])
     }
 }
 

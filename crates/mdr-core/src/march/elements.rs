@@ -19,7 +19,7 @@ pub(crate) enum ElementState {
         /// Time to which its amplitudes belong, \[s].
         since: f64,
     },
-    /// In contact.
+    /// Element in contact with the line.
     Loaded {
         /// Displacement u, \[m].
         displacement: f64,
@@ -28,19 +28,23 @@ pub(crate) enum ElementState {
 
 /// The elements of a foundation, with their history variables.
 pub(crate) struct Elements<'a> {
+    /// Law of an element.
     foundation: &'a Foundation,
+    /// Contact state of each element.
     pub(super) states: Vec<ElementState>,
     /// History variables, element by element: stresses e_i of a loaded one, amplitudes β_k of a free one.
     pub(super) history: Vec<f64>,
+    /// Number of history variables of an element.
     pub(super) n_history: usize,
 }
 
 /// One step of an element that is loaded for a part of it at least.
 pub(crate) struct ElementStep {
+    /// Impulse and dissipation in the step.
     pub(crate) work: StepWork,
-    /// Whether it was loaded at the beginning.
+    /// True if it was loaded at the beginning.
     pub(crate) was_loaded: bool,
-    /// Whether it is loaded at the end.
+    /// True if it is loaded at the end.
     pub(crate) is_loaded: bool,
 }
 
@@ -56,10 +60,12 @@ impl<'a> Elements<'a> {
         }
     }
 
+    /// History variables of an element.
     pub(super) fn history_of(&mut self, element: usize) -> &mut [f64] {
         &mut self.history[element * self.n_history..(element + 1) * self.n_history]
     }
 
+    /// Contact or separation of an element within a step of a `duration` \[s].
     fn event(&mut self, element: usize, duration: f64) -> ContactEvent<'_> {
         ContactEvent {
             foundation: self.foundation,
@@ -94,10 +100,10 @@ impl<'a> Elements<'a> {
         let ElementState::Free { limit, since } = self.states[element] else {
             return;
         };
-        let waited = time - since;
-        if waited > 0.0 {
-            for (slot, mode) in self.history_of(element).iter_mut().zip(&foundation.modes) {
-                *slot *= (-waited / mode.length).exp();
+        let elapsed = time - since;
+        if elapsed > 0.0 {
+            for (amplitude, mode) in self.history_of(element).iter_mut().zip(&foundation.modes) {
+                *amplitude *= (-elapsed / mode.length).exp();
             }
             self.states[element] = ElementState::Free { limit, since: time };
         }
@@ -105,11 +111,11 @@ impl<'a> Elements<'a> {
 
     /// Advances an element to the end of a step, over which the line above it moves linearly from one displacement to another.
     ///
-    /// `unloaded` is its [unloaded displacement](Self::unloaded_displacement). `None` if it is never loaded in the step.
+    /// `imposed` are the displacements that the line imposes at both ends of the step, `unloaded` is its [unloaded displacement](Self::unloaded_displacement). `None` if it is never loaded in the step.
     pub(crate) fn advance(
         &mut self,
         element: usize,
-        under: [f64; 2],
+        imposed: [f64; 2],
         unloaded: f64,
         step: &TimeStep,
         end_time: f64,
@@ -117,9 +123,9 @@ impl<'a> Elements<'a> {
         let state = self.states[element];
         let mut event = self.event(element, step.duration);
         // An element is loaded at the end if the line is below its unloaded displacement.
-        let is_loaded = under[1] > unloaded;
+        let is_loaded = imposed[1] > unloaded;
         let loaded = ElementState::Loaded {
-            displacement: under[1],
+            displacement: imposed[1],
         };
         let free = |limit| ElementState::Free {
             limit,
@@ -127,27 +133,30 @@ impl<'a> Elements<'a> {
         };
         let (end_state, work) = match state {
             ElementState::Loaded { displacement } if is_loaded => {
-                let compression = under[1] - displacement;
+                let compression = imposed[1] - displacement;
                 let work = step.compress(displacement, compression, event.history);
                 (loaded, work)
             }
             // The edge of the body has passed the element.
-            ElementState::Loaded { .. } if under[1] == f64::NEG_INFINITY => {
-                let lost = self.separate_instantly(element, end_time - step.duration);
+            ElementState::Loaded { .. } if imposed[1] == f64::NEG_INFINITY => {
+                let dissipated = self.separate_instantly(element, end_time - step.duration);
                 return Some(ElementStep {
-                    work: StepWork { impulse: 0.0, lost },
+                    work: StepWork {
+                        impulse: 0.0,
+                        dissipated,
+                    },
                     was_loaded: true,
                     is_loaded: false,
                 });
             }
             ElementState::Loaded { displacement } => {
-                let (limit, work) = event.separate([displacement, under[1]]);
+                let (limit, work) = event.separate([displacement, imposed[1]]);
                 (free(limit), work)
             }
             ElementState::Free { limit, .. } if is_loaded => {
-                (loaded, event.make_contact(limit, under))
+                (loaded, event.make_contact(limit, imposed))
             }
-            ElementState::Untouched if is_loaded => (loaded, event.make_contact(0.0, under)),
+            ElementState::Untouched if is_loaded => (loaded, event.make_contact(0.0, imposed)),
             ElementState::Free { limit, .. } => {
                 step.recover(event.history);
                 self.states[element] = free(limit);
@@ -183,10 +192,15 @@ impl<'a> Elements<'a> {
     }
 
     /// Brings an element that recovers to `limit` into contact instantly; returns the energy stored in it.
-    pub(crate) fn make_contact_instantly(&mut self, element: usize, limit: f64, under: f64) -> f64 {
+    pub(crate) fn make_contact_instantly(
+        &mut self,
+        element: usize,
+        limit: f64,
+        imposed: f64,
+    ) -> f64 {
         let (displacement, stored) = self
             .event(element, 0.0)
-            .make_contact_instantly(limit, under);
+            .make_contact_instantly(limit, imposed);
         self.states[element] = ElementState::Loaded { displacement };
         stored
     }

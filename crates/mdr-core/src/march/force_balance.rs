@@ -39,30 +39,30 @@ impl ForceBalance<'_> {
     /// step, so that f g falls by a factor of four or more: the number of steps is logarithmic, with a good guess two or
     /// three.
     pub(crate) fn solve(&self, needed: f64, guess: f64) -> TrialDepth {
-        let guessed = self.at_depth(guess);
-        let mut level = self.at_depth(match guessed.n_below {
+        let first_trial = self.at_depth(guess);
+        let mut trial = self.at_depth(match first_trial.n_below {
             0 => self.first_contact_depth() + needed,
-            _ => guessed.newton_depth(needed),
+            _ => first_trial.newton_depth(needed),
         });
-        while level.n_below > 0 {
-            let before = level;
-            level = self.at_depth(before.newton_depth(needed));
-            // A step from far above carries the rounding of the larger depth; it is then repeated from here.
-            if level.n_below >= before.n_below && before.depth.abs() <= 2.0 * level.depth.abs() {
+        while trial.n_below > 0 {
+            let before = trial;
+            trial = self.at_depth(before.newton_depth(needed));
+            // A step from far above carries the rounding of the larger depth; it is then repeated.
+            if trial.n_below >= before.n_below && before.depth.abs() <= 2.0 * trial.depth.abs() {
                 break;
             }
         }
-        level
+        trial
     }
 
     /// The compressed elements at a depth.
     pub(crate) fn at_depth(&self, depth: f64) -> TrialDepth {
         let mut n_below = 0;
         let mut compression = CompensatedSum::default();
-        for touch in self.contact_depths() {
-            if touch < depth {
+        for contact_depth in self.contact_depths() {
+            if contact_depth < depth {
                 n_below += 1;
-                compression.add(depth - touch);
+                compression.add(depth - contact_depth);
             }
         }
         TrialDepth {

@@ -99,19 +99,19 @@ pub fn move_along<'w>(
     load: &MovingLoad,
     request: impl Into<Request<'w>>,
 ) -> Result<Moved, MdrError> {
-    // Refuse what has no limit on refinement, and prepare the motion.
-    let request = request.into();
+    // Refuse a line whose friction has no limit on refinement, and prepare the motion.
+    let accuracy_request = request.into();
     LineProblem::new(line, material, load.fastest())?.check_kinks(load.largest_control())?;
     let length = contact_length(line, material, load)?;
-    let tolerance = match request.accuracy {
-        Accuracy::RelativeError(asked) => ITERATION_SHARE * asked,
+    let tolerance = match accuracy_request.accuracy {
+        Accuracy::RelativeError(error) => ITERATION_SHARE * error,
         Accuracy::Elements(_) => CYCLE_TOLERANCE_ON_ELEMENTS,
     };
     let problem = MotionProblem::new(line, material, load, length, tolerance)?;
 
     // Refine until the errors are as asked for, or the work is too much.
     let limited = WorkLimit {
-        watch: request.watch,
+        watch: accuracy_request.watch,
         load,
         length,
         is_elastic: material.creep().is_elastic(),
@@ -120,7 +120,7 @@ pub fn move_along<'w>(
     let goal = Goal {
         request: Request {
             watch: &limited,
-            ..request
+            ..accuracy_request
         },
         initial_elements: first_elements(load, length),
         max_elements: MAX_ELEMENTS_ALONG_CONTACT,
@@ -142,7 +142,7 @@ pub fn move_along<'w>(
             Ok(record)
         },
         |record| view.quantities(record),
-        |record, _: &dyn Fn(f64)| Ok::<_, MdrError>(view.rests(record)),
+        |record, _: &dyn Fn(f64)| Ok::<_, MdrError>(view.truncation_errors(record)),
     )?;
     let missed = refined.missed;
     let found = view.moved(refined);
@@ -161,27 +161,32 @@ pub fn move_along<'w>(
 /// The next resolution is assumed to take as many cycles as the last one.
 #[derive(Debug)]
 struct WorkLimit<'a> {
+    /// Receiver of the progress, which may also stop the refinement.
     watch: &'a dyn Progress,
+    /// Motion of the line.
     load: &'a MovingLoad,
     /// Length of the contact, \[m].
     length: f64,
+    /// True for an elastic material, whose friction of 0 counts as resolved.
     is_elastic: bool,
     /// Friction coefficient and number of cycles, by the number of elements.
     solved: Mutex<BTreeMap<usize, (f64, usize)>>,
 }
 
 impl WorkLimit<'_> {
+    /// Stores the friction and the number of cycles on a number of elements.
     fn record(&self, elements: usize, record: &MotionRecord) {
         let mut solved = self.solved.lock().unwrap_or_else(PoisonError::into_inner);
         solved.insert(elements, (record.friction(), record.n_cycles.max(1)));
     }
 
+    /// Friction and number of cycles on a number of elements; `None` if they were not solved.
     fn solved(&self, elements: usize) -> Option<(f64, usize)> {
         let solved = self.solved.lock().unwrap_or_else(PoisonError::into_inner);
         solved.get(&elements).copied()
     }
 
-    /// Whether the friction on a number of elements is smaller than its change from half of them.
+    /// True if the friction on a number of elements is smaller than its change from half of them.
     fn is_unresolved(&self, elements: usize) -> bool {
         let pair = self.solved(elements).zip(self.solved(elements / 2));
         let is_smaller =

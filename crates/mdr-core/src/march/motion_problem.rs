@@ -36,8 +36,11 @@ const N_STORED_STATES: f64 = 8.0;
 
 /// A line, its motion and the foundation under it.
 pub(super) struct MotionProblem<'a> {
+    /// Rigid line that moves.
     pub(super) line: &'a dyn RigidLine,
+    /// Law of an element.
     pub(super) foundation: Foundation,
+    /// Motion of the line.
     pub(super) load: &'a MovingLoad,
     /// Length of the contact that is divided into elements, \[m].
     pub(super) length: f64,
@@ -50,6 +53,7 @@ pub(super) struct MotionProblem<'a> {
 }
 
 impl<'a> MotionProblem<'a> {
+    /// A motion whose contact is `length` \[m] long, with a relative `tolerance` of the limit cycle.
     pub(super) fn new(
         line: &'a dyn RigidLine,
         material: &dyn Material,
@@ -78,12 +82,14 @@ impl<'a> MotionProblem<'a> {
         elements: usize,
         report: &dyn Fn(f64),
     ) -> Result<MotionRecord, MdrError> {
+        // Steps, and a first guess of the height.
         let spacing = self.length / elements as f64;
         let steps = self.load.steps(elements, spacing, MAX_STEPS)?;
         let mut height = match self.load.largest_control() {
             Control::IndentationDepth(depth) => depth,
             Control::NormalForce(_) => self.rise().max(self.height.get()),
         };
+        // Run on ever higher foundations until the contact stays on the elements.
         loop {
             let sampled = ElementHeights::below(self.line, spacing, height)?;
             let range = self.load.range();
@@ -106,17 +112,17 @@ impl<'a> MotionProblem<'a> {
                 }
                 return Ok(record);
             }
-            height = 2.0 * sampled.ceiling;
+            height = 2.0 * sampled.max_height;
         }
     }
 
     /// Lengths of the steps, \[m].
     fn step_lengths(&self, steps: &[MovingStep]) -> Vec<f64> {
         let mut position = self.load.stages()[0].start.position;
-        let way = |step: &MovingStep| {
+        let distance = |step: &MovingStep| {
             (step.end.position - std::mem::replace(&mut position, step.end.position)).abs()
         };
-        steps.iter().map(way).collect()
+        steps.iter().map(distance).collect()
     }
 
     /// Memory of all resolutions up to a number of elements along the contact, \[bytes].
@@ -160,6 +166,7 @@ impl<'a> MotionProblem<'a> {
         steps: &[MovingStep],
         report: &dyn Fn(f64),
     ) -> Result<Option<MotionRecord>, MdrError> {
+        // Press the line first, within a negligible time.
         let start = self.load.stages()[0].start;
         let pressing = FIRST_PRESSING_DURATION * steps[0].duration;
         let mut winkler = WinklerFoundation::new(
@@ -174,6 +181,7 @@ impl<'a> MotionProblem<'a> {
         let Some(pressed) = winkler.advance(pressing, start.position, first)? else {
             return Ok(None);
         };
+        // Then follow the cycle or the path.
         if self.load.is_cycle() {
             return find_limit_cycle(self, winkler, steps, report);
         }
@@ -211,6 +219,7 @@ impl<'a> MotionProblem<'a> {
             spacing,
             ..MotionRecord::default()
         };
+        // State at the beginning, and factor that corrects the prescribed force.
         let (mut dissipated, mut force_factor) = (0.0, 1.0);
         let first = self.load.stages()[0].start;
         let mut before = StepEnd {
@@ -219,24 +228,25 @@ impl<'a> MotionProblem<'a> {
             depth,
         };
         for (index, scheduled) in steps.iter().enumerate() {
+            // Advance the foundation, and append the step to the record.
             let prescribed = match self.prescribed(scheduled.end.control, spacing) {
                 Prescribed::Load(load) => Prescribed::Load(force_factor * load),
                 depth @ Prescribed::Depth(_) => depth,
             };
-            let Some(stepped) =
+            let Some(result) =
                 winkler.advance(scheduled.duration, scheduled.end.position, prescribed)?
             else {
                 return Ok(None);
             };
-            dissipated += force_unit * stepped.sums.lost;
-            let step = step_of(scheduled, &stepped, &before, force_unit);
-            let mean = force_unit * stepped.sums.normal_load;
+            dissipated += force_unit * result.sums.dissipated;
+            let step = motion_step(scheduled, &result, &before, force_unit);
+            let mean = force_unit * result.sums.normal_load;
             force_factor += force_correction(1.0 - mean / step.normal_force);
             record.push(step, scheduled.end.position - before.position);
             before = StepEnd {
                 position: scheduled.end.position,
                 control: scheduled.end.control,
-                depth: stepped.depth,
+                depth: result.depth,
             };
             report((index + 1) as f64 / steps.len() as f64);
         }
@@ -261,31 +271,34 @@ pub(super) fn force_correction(missing: f64) -> f64 {
 
 /// State of the line at the end of a step.
 struct StepEnd {
+    /// Position of the lowest point along the surface, \[m].
     position: f64,
+    /// Prescribed force \[N] or depth \[m].
     control: Control,
+    /// Indentation depth, \[m].
     depth: f64,
 }
 
-/// The result of a step that began at `start`.
-fn step_of(
+/// Forces, depth and contact of a step that began at `start`, in SI units.
+fn motion_step(
     step: &MovingStep,
-    stepped: &FoundationStep,
+    result: &FoundationStep,
     start: &StepEnd,
     force_unit: f64,
 ) -> MotionStep {
     let normal_force = match start.control {
         Control::NormalForce(force) => force.midpoint(step.end.control.value()),
-        Control::IndentationDepth(_) => force_unit * stepped.sums.normal_load,
+        Control::IndentationDepth(_) => force_unit * result.sums.normal_load,
     };
     MotionStep {
         stage: step.stage,
         time: step.end.time - 0.5 * step.duration,
         position: start.position.midpoint(step.end.position),
-        tangential_force: force_unit * stepped.sums.tangential_load,
+        tangential_force: force_unit * result.sums.tangential_load,
         normal_force,
-        indentation_depth: start.depth.midpoint(stepped.depth),
-        contact: stepped.contact,
-        n_contact: stepped.sums.n_loaded,
+        indentation_depth: start.depth.midpoint(result.depth),
+        contact: result.contact,
+        n_contact: result.sums.n_loaded,
     }
 }
 

@@ -277,11 +277,11 @@ impl<'a> SlidingProblem<'a> {
         let mut height = (1.0 + DEPTH_MARGIN) * self.contact.depth;
         loop {
             let sampled = ElementHeights::below(self.line, schedule.spacing, height)?;
-            let ceiling = sampled.ceiling;
+            let max_height = sampled.max_height;
             if let Some(record) = self.run(sampled, schedule.n_steps, report)? {
                 return Ok(record);
             }
-            height = 2.0 * ceiling;
+            height = 2.0 * max_height;
         }
     }
 
@@ -325,14 +325,14 @@ impl<'a> SlidingProblem<'a> {
                 winkler.follow(start);
             }
             let prescribed = Prescribed::Load(load_factor * load);
-            let Some(stepped) = winkler.advance(time_step, start + spacing, prescribed)? else {
+            let Some(result) = winkler.advance(time_step, start + spacing, prescribed)? else {
                 return Ok(None);
             };
-            force_error = 1.0 - stepped.sums.normal_load / load;
+            force_error = 1.0 - result.sums.normal_load / load;
             load_factor += force_correction(force_error);
             let number = (steps.len() + 1) as f64;
             let time = number * time_step;
-            let Some(contact) = stepped.contact else {
+            let Some(contact) = result.contact else {
                 return enough_elements(0, spacing).map(|()| None);
             };
             // On springs the sum of the slopes vanishes if the contact ends inside the line.
@@ -340,22 +340,22 @@ impl<'a> SlidingProblem<'a> {
             let friction = if self.foundation.is_elastic() && ends_inside {
                 0.0
             } else {
-                stepped.sums.tangential_load / stepped.sums.normal_load
+                result.sums.tangential_load / result.sums.normal_load
             };
             steps.push(SlidingStep {
                 sliding_distance: number * spacing,
                 time,
-                indentation_depth: stepped.depth,
+                indentation_depth: result.depth,
                 friction_coefficient: finite("friction coefficient", friction, time)?,
                 contact,
-                n_contact: stepped.sums.n_loaded,
+                n_contact: result.sums.n_loaded,
             });
             drift = relative_change(&steps, spacing);
             // Towards the stationary state the changes fall exponentially.
             let settled = drift.ln() / DRIFT_TOLERANCE.ln();
             report((number / n_steps).max(settled).clamp(0.0, 1.0));
             if drift <= DRIFT_TOLERANCE {
-                enough_elements(stepped.sums.n_loaded, spacing)?;
+                enough_elements(result.sums.n_loaded, spacing)?;
                 break;
             }
         }

@@ -38,7 +38,7 @@ const WINDOW_HEIGHT_FACTOR: f64 = 1.25;
 /// The quantity prescribed at the end of a step.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Prescribed {
-    /// Σ w over the elements, in the units of the foundation.
+    /// Sum Σ w of the load potentials over the elements, in the units of the foundation.
     Load(f64),
     /// Indentation depth, \[m].
     Depth(f64),
@@ -57,20 +57,25 @@ struct BodyState {
 
 /// The elements that can come into contact in a motion, with their history variables.
 pub(super) struct WinklerFoundation<'a> {
+    /// Heights of the line at any position.
     line: HeightTable<'a>,
     /// Law of an element.
     foundation: &'a Foundation,
+    /// Heights of the line over elements, and their spacing.
     sampled: &'a ElementHeights,
     /// Position of the first element over the spacing.
     first: f64,
+    /// States and history variables of the elements.
     elements: Elements<'a>,
+    /// Coefficients of a step of the present duration.
     step: TimeStep,
+    /// Time, position and depth at the end of the last step.
     body: BodyState,
     /// First and last element of the window in which elements can be loaded in the step.
     window: [usize; 2],
     /// Heights of the line over the window at the end of the step, \[m].
     heights: Vec<f64>,
-    /// Heights of the line where it is before the step.
+    /// Heights of the line over the window at the beginning of the step, \[m].
     heights_before: HeightRow,
     /// Displacements at which the elements of the window carry nothing at the end of the step, \[m].
     unloaded_displacements: Vec<f64>,
@@ -86,7 +91,7 @@ pub(super) struct StepSums {
     /// Mean of Σ w h̃' over the step.
     pub(super) tangential_load: f64,
     /// Energy that the dashpots dissipate, also after the separation of an element.
-    pub(super) lost: f64,
+    pub(super) dissipated: f64,
     /// The rearmost and the foremost loaded element at the end.
     ends: Option<[usize; 2]>,
     /// Number of elements that are loaded at the end.
@@ -96,7 +101,9 @@ pub(super) struct StepSums {
 /// The state at the end of a step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FoundationStep {
+    /// Indentation depth, \[m].
     pub(super) depth: f64,
+    /// Sums over the elements.
     pub(super) sums: StepSums,
     /// Rearmost and foremost loaded element relative to the lowest point, \[m].
     pub(super) contact: Option<[f64; 2]>,
@@ -115,6 +122,7 @@ impl<'a> WinklerFoundation<'a> {
         position: f64,
     ) -> Result<Self, MdrError> {
         let spacing = sampled.spacing;
+        // Cover all positions of the line in the range, with a margin.
         let [rear, front] = [0, sampled.heights.len() - 1].map(|end| sampled.position(end));
         let first = ((range[0] + rear) / spacing).floor() - FOUNDATION_MARGIN;
         let last = ((range[1] + front) / spacing).ceil() + FOUNDATION_MARGIN;
@@ -154,7 +162,7 @@ impl<'a> WinklerFoundation<'a> {
         // Find the depth; if it exceeds the height of the window, enlarge the window.
         let mut limit = self
             .sampled
-            .ceiling
+            .max_height
             .min(WINDOW_HEIGHT_FACTOR * self.body.depth);
         let depth = loop {
             self.update_window(position, limit)?;
@@ -163,10 +171,10 @@ impl<'a> WinklerFoundation<'a> {
             if depth <= limit {
                 break depth;
             }
-            if limit >= self.sampled.ceiling {
+            if limit >= self.sampled.max_height {
                 return Ok(None);
             }
-            limit = self.sampled.ceiling;
+            limit = self.sampled.max_height;
         };
 
         // Advance the elements of the window.
@@ -190,7 +198,7 @@ impl<'a> WinklerFoundation<'a> {
             sums,
             contact: sums
                 .ends
-                .map(|ends| ends.map(|element| self.along(element))),
+                .map(|ends| ends.map(|element| self.relative_position(element))),
         }))
     }
 
@@ -199,13 +207,13 @@ impl<'a> WinklerFoundation<'a> {
         self.sampled.spacing
     }
 
-    /// Indentation depth now, \[m].
+    /// Present indentation depth, \[m].
     pub(super) const fn depth(&self) -> f64 {
         self.body.depth
     }
 
     /// Position of an element relative to the lowest point, \[m].
-    fn along(&self, element: usize) -> f64 {
+    fn relative_position(&self, element: usize) -> f64 {
         (self.first + element as f64) * self.sampled.spacing - self.body.position
     }
 
@@ -216,6 +224,7 @@ impl<'a> WinklerFoundation<'a> {
         let Some([rear, front]) = sums.ends else {
             return Ok(());
         };
+        // Height of an element at the beginning of the step.
         let height = |element: usize| {
             let index = element.checked_sub(self.heights_before.first)?;
             self.heights_before.heights.get(index).copied()
@@ -227,7 +236,7 @@ impl<'a> WinklerFoundation<'a> {
         ] {
             if !is_trailing && height(beyond) == Some(f64::INFINITY) {
                 return Err(MdrError::ContactReachesEdge {
-                    position: self.along(end),
+                    position: self.relative_position(end),
                     indentation_depth: self.body.depth,
                     time: self.body.time,
                 });
@@ -241,7 +250,7 @@ impl<'a> WinklerFoundation<'a> {
         let spacing = self.sampled.spacing;
         let heights = &self.sampled.heights;
 
-        // The elements below the limit, with one more on each side, where the line is before and after the step.
+        // The elements below the limit, with one more on each side, at the positions before and after the step.
         let is_low = |height: &f64| *height <= limit;
         let anchor = self.sampled.anchor_index;
         let rear = heights
@@ -302,11 +311,11 @@ impl<'a> WinklerFoundation<'a> {
     fn advance_element(&mut self, index: usize, to: BodyState, sums: &mut StepSums) {
         let element = self.window[0] + index;
         let heights = [self.heights_before.over(element), self.heights[index]];
-        let under = [self.body.depth - heights[0], to.depth - heights[1]];
+        let imposed = [self.body.depth - heights[0], to.depth - heights[1]];
         let unloaded = self.unloaded_displacements[index];
         let Some(step) = self
             .elements
-            .advance(element, under, unloaded, &self.step, to.time)
+            .advance(element, imposed, unloaded, &self.step, to.time)
         else {
             return;
         };
@@ -317,7 +326,7 @@ impl<'a> WinklerFoundation<'a> {
         let load = step.work.impulse / self.step.duration;
         sums.normal_load += load;
         sums.tangential_load += load * self.slope(element, heights, to.position);
-        sums.lost += step.work.lost;
+        sums.dissipated += step.work.dissipated;
         if step.is_loaded {
             sums.n_loaded += 1;
             sums.ends = Some([sums.ends.map_or(element, |[rear, _]| rear), element]);
@@ -333,7 +342,7 @@ impl<'a> WinklerFoundation<'a> {
             // An element that passes the edge of the body carries nothing afterwards.
             return if rise.is_finite() { rise / moved } else { 0.0 };
         }
-        let x = self.along(element);
+        let x = self.relative_position(element);
         let height = |x: f64| self.line.height_at(x).unwrap_or(f64::NAN);
         (height(x + 0.5 * spacing) - height(x - 0.5 * spacing)) / spacing
     }
@@ -344,41 +353,44 @@ impl<'a> WinklerFoundation<'a> {
     ///
     /// Where the instantaneous modulus is finite, [`reload`](Self::reload) at the same place takes up that energy again.
     pub(super) fn unload_all(&mut self, time: f64) -> f64 {
-        let mut lost = 0.0;
+        let mut released = 0.0;
         let elapsed = self.body.time - time;
         for element in 0..self.elements.states.len() {
             if let ElementState::Free { since, .. } = &mut self.elements.states[element] {
                 *since -= elapsed;
             }
-            lost += self.elements.separate_instantly(element, time);
+            released += self.elements.separate_instantly(element, time);
         }
         self.body.time = time;
-        lost
+        released
     }
 
     /// Brings the elements into contact again that [`unload_all`](Self::unload_all) separated; returns the energy stored in
     /// them.
     pub(super) fn reload(&mut self) -> Result<f64, MdrError> {
+        // Find the elements near the line.
+        let height_limit = WINDOW_HEIGHT_FACTOR * self.body.depth;
         self.update_window(
             self.body.position,
-            self.sampled
-                .ceiling
-                .min(WINDOW_HEIGHT_FACTOR * self.body.depth),
+            self.sampled.max_height.min(height_limit),
         )?;
         let tolerance = if self.foundation.has_dashpot() {
             DASHPOT_CONTACT_TOLERANCE * self.body.depth
         } else {
             0.0
         };
+        // Bring each element that the line penetrates into contact at once.
         let mut stored = 0.0;
         for (element, height) in (self.window[0]..=self.window[1]).zip(&self.heights) {
             let ElementState::Free { limit, .. } = self.elements.states[element] else {
                 continue;
             };
-            let under = self.body.depth - height;
+            let imposed = self.body.depth - height;
             let recovering: f64 = self.elements.history_of(element).iter().sum();
-            if under + tolerance > limit - recovering {
-                stored += self.elements.make_contact_instantly(element, limit, under);
+            if imposed + tolerance > limit - recovering {
+                stored += self
+                    .elements
+                    .make_contact_instantly(element, limit, imposed);
             }
         }
         Ok(stored)
@@ -403,7 +415,10 @@ impl<'a> WinklerFoundation<'a> {
         let loads: Vec<[f64; 2]> = rows
             .map(|(index, (height, unloaded))| {
                 let compression = self.body.depth - height - unloaded;
-                [self.along(first + index), unit * compression.max(0.0)]
+                [
+                    self.relative_position(first + index),
+                    unit * compression.max(0.0),
+                ]
             })
             .collect();
         let is_loaded = |[_, load]: &[f64; 2]| *load > 0.0;

@@ -15,7 +15,7 @@ const MAX_SECANT_STEPS: usize = 12;
 /// Relative margin of the bracket that proportion gives: proportion may be exact, and the force then rounded to the
 /// wrong side.
 const BRACKET_MARGIN: f64 = 1e-6;
-/// Factor by which a bracket is widened that does not hold the depth.
+/// Factor by which a bracket is widened if it does not contain the depth.
 const BRACKET_STRIDE: f64 = 8.0;
 /// How often a bracket is widened at most.
 const MAX_BRACKET_STRIDES: usize = 200;
@@ -28,39 +28,39 @@ pub(super) fn depth_of_load(
     let bracket = bracket(&load, target)?;
     // The ends of the bracket are depths that the line has; one more digit may be too much.
     let depth = |logarithm: f64| logarithm.exp().clamp(bracket[0], bracket[1]);
-    let excess = |logarithm: f64| load(depth(logarithm)).map(|load| (load / target).ln());
-    let root = try_bracketed_root(excess, bracket.map(f64::ln))?;
+    let log_ratio = |logarithm: f64| load(depth(logarithm)).map(|load| (load / target).ln());
+    let root = try_bracketed_root(log_ratio, bracket.map(f64::ln))?;
     root.map(depth)
         .ok_or(non_finite("normal force", load(bracket[0])?, 0.0))
 }
 
 /// The depth \[m] at which `load` is as large as `target`, by the secant method in logarithms from a depth near it.
-pub(super) fn polished_depth(
+pub(super) fn refined_depth(
     load: impl Fn(f64) -> Result<f64, MdrError>,
     target: f64,
     start: f64,
 ) -> Result<f64, MdrError> {
     // Secant method in the logarithms of force and depth.
     let (mut depth, at_depth) = within_reach(&load, start, target)?;
-    let mut excess = (at_depth / target).ln();
+    let mut log_ratio = (at_depth / target).ln();
     // Force and depth are nearly a power law, whose exponent the steps find. The first one assumes an exponent between fluid
     // and solid; on springs under a cusp x^p it is 1 + 1/p, and this step is too long.
     let mut exponent = 1.5;
     for step_number in 0..MAX_SECANT_STEPS {
-        if excess.abs() <= f64::EPSILON {
+        if log_ratio.abs() <= f64::EPSILON {
             break;
         }
-        let step = -excess / exponent;
+        let step = -log_ratio / exponent;
         let (next, at_next) = within_reach(&load, depth * step.exp(), target)?;
-        let next_excess = (at_next / target).ln();
-        let slope = (next_excess - excess) / (next / depth).ln();
+        let next_log_ratio = (at_next / target).ln();
+        let slope = (next_log_ratio - log_ratio) / (next / depth).ln();
         if slope.is_finite() && slope > 0.5 {
             exponent = slope;
         }
 
-        // Stop when the excess does not fall any more: rounding.
-        if next_excess.abs() < excess.abs() {
-            (depth, excess) = (next, next_excess);
+        // Stop when the deviation does not fall any more: rounding.
+        if next_log_ratio.abs() < log_ratio.abs() {
+            (depth, log_ratio) = (next, next_log_ratio);
         } else if step_number > 0 {
             break;
         }
@@ -74,9 +74,9 @@ fn bracket(
     target: f64,
 ) -> Result<[f64; 2], MdrError> {
     let (start, at_start) = within_reach(load, SEARCH_START, target)?;
-    let excessive = at_start > target;
+    let exceeds_target = at_start > target;
     let mut near = start;
-    let [margin, stride] = if excessive {
+    let [margin, stride] = if exceeds_target {
         [1.0 - BRACKET_MARGIN, BRACKET_STRIDE.recip()]
     } else {
         [1.0 + BRACKET_MARGIN, BRACKET_STRIDE]
@@ -89,7 +89,7 @@ fn bracket(
             break;
         }
         let (reached, at_far) = within_reach(load, far, target)?;
-        if (at_far > target) != excessive {
+        if (at_far > target) != exceeds_target {
             return Ok([reached.min(near), reached.max(near)]);
         }
         near = reached;
@@ -98,7 +98,7 @@ fn bracket(
     Err(non_finite("indentation depth", far, 0.0))
 }
 
-/// A depth and the load there; the largest depth that the line has, if `depth` is beyond it.
+/// A depth and the load at it; the largest depth of the line if `depth` is beyond it.
 fn within_reach(
     load: &impl Fn(f64) -> Result<f64, MdrError>,
     depth: f64,

@@ -7,7 +7,7 @@ use numerics::{Estimate, ValueWithError, positive};
 use rheology::Material;
 
 use super::SteadySliding;
-use super::depth::{depth_of_load, polished_depth};
+use super::depth::{depth_of_load, refined_depth};
 use super::sweep::{SweepSums, sweep};
 use super::track::{check_length, sweep_until_periodic};
 use crate::MdrError;
@@ -36,7 +36,9 @@ const END_ROUNDING: f64 = 2.4e-7;
 
 /// A line that moves over a foundation at one speed.
 pub(crate) struct LineProblem<'a> {
+    /// Rigid line that slides.
     line: &'a dyn RigidLine,
+    /// Law of an element at the velocity.
     pub(super) foundation: Foundation,
     /// Length of the track after which the line returns to the same place, \[m]; `None` on fresh ground.
     pub(super) track: Option<f64>,
@@ -51,6 +53,7 @@ pub(crate) struct SteadyContact {
 }
 
 impl<'a> LineProblem<'a> {
+    /// A line that moves with a `velocity` \[m/s] on fresh ground.
     pub(crate) fn new(
         line: &'a dyn RigidLine,
         material: &dyn Material,
@@ -74,6 +77,7 @@ impl<'a> LineProblem<'a> {
     ) -> Result<SteadySliding, MdrError> {
         let mut tolerance = FIRST_TOLERANCE_FRACTION * relative_error;
         loop {
+            // Solve, and return a state with the requested error.
             let state = self.state(control, tolerance)?;
             let ValueWithError { value, error } = *sought(&state);
             let wanted = relative_error * value.abs();
@@ -89,6 +93,7 @@ impl<'a> LineProblem<'a> {
                     reached: Box::new(self.with_ends(state, tolerance)?),
                 });
             }
+            // Reduce the tolerance in proportion to the missing accuracy.
             tolerance = MIN_TOLERANCE.max(tolerance * (0.1 * wanted / error));
         }
     }
@@ -132,17 +137,18 @@ impl<'a> LineProblem<'a> {
             Control::NormalForce(force) => self.depth_of_force(force, tolerance)?,
         };
         match vertical_edge(self.line)? {
-            Some(edge) if edge.height < depth => Err(self.beyond(edge, control)?),
+            Some(edge) if edge.height < depth => Err(self.edge_error(edge, control)?),
             _ => Ok(depth),
         }
     }
 
+    /// The depth \[m] that carries a force \[N].
     fn depth_of_force(&self, force: f64, tolerance: f64) -> Result<f64, MdrError> {
         let target = 0.25 * positive("normal_force", force)?;
         // Most of the search needs few polynomials.
         let search_tolerance = tolerance.max(SEARCH_TOLERANCE);
         let start = depth_of_load(|depth| self.quarter_force(depth, search_tolerance), target)?;
-        polished_depth(|depth| self.quarter_force(depth, tolerance), target, start)
+        refined_depth(|depth| self.quarter_force(depth, tolerance), target, start)
     }
 
     /// A quarter of the normal force at a depth, \[N].
@@ -151,7 +157,7 @@ impl<'a> LineProblem<'a> {
     }
 
     /// The error for a contact that would reach a vertical edge.
-    fn beyond(&self, edge: VerticalEdge, control: Control) -> Result<MdrError, MdrError> {
+    fn edge_error(&self, edge: VerticalEdge, control: Control) -> Result<MdrError, MdrError> {
         let VerticalEdge { position, height } = edge;
         Ok(match control {
             Control::NormalForce(normal_force) => MdrError::ForceBeyondEdge {
@@ -168,12 +174,12 @@ impl<'a> LineProblem<'a> {
         })
     }
 
-    /// The pass at a depth.
+    /// Sums over one pass of the line at a depth.
     fn solve(&self, depth: f64, tolerance: f64) -> Result<SweepSums, MdrError> {
         self.solve_with(depth, tolerance, None)
     }
 
-    /// The pass at a depth, which appends its loads to `loads` if that is given.
+    /// Sums over one pass of the line at a depth; its loads are appended to `loads` if that is given.
     fn solve_with(
         &self,
         depth: f64,
@@ -209,8 +215,8 @@ impl<'a> LineProblem<'a> {
         let ends = sums.ends();
         sums.contacts.reverse();
         let SweepSums { load, work, .. } = sums;
-        let force = 4.0 * self.foundation.unit * (depth * load);
-        let force = finite("normal force", force, 0.0)?;
+        let unit = 4.0 * self.foundation.unit;
+        let force = finite("normal force", unit * (depth * load), 0.0)?;
         let friction = finite("friction coefficient", depth * (work / load), 0.0)?;
 
         // Their errors, by the tails of the polynomials and by rounding.

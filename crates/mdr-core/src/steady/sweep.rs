@@ -34,9 +34,9 @@ const MAX_CONTACTS: usize = 1 << 12;
 /// Sums over one pass.
 #[derive(Debug, Clone, Default)]
 pub(super) struct SweepSums {
-    /// ∫ w dx, a quarter of the normal force over depth and unit of stress, \[m].
+    /// Load ∫ w dx, a quarter of the normal force over depth and unit of stress, \[m].
     pub(super) load: f64,
-    /// ∫ w h̃' dx, a quarter of the friction force over the square of the depth and the unit of stress.
+    /// Work ∫ w h̃' dx, a quarter of the friction force over the square of the depth and the unit of stress.
     pub(super) work: f64,
     /// Error of `load` by the polynomials of the line, \[m].
     pub(super) load_error: f64,
@@ -63,11 +63,14 @@ impl SweepSums {
 
 /// State of the surface at the present position.
 enum Surface {
+    /// Recovers freely.
     Free(FreeSurface),
+    /// Surface in contact with the line.
     Loaded {
+        /// Stresses of the branches.
         stresses: Vec<f64>,
-        /// Whether contact has begun at the present position.
-        fresh: bool,
+        /// True if contact has begun at the present position.
+        is_new: bool,
     },
 }
 
@@ -88,10 +91,12 @@ pub(super) fn sweep(
         },
         surface: Surface::Free(ahead),
     };
+    // March over each piece from event to event.
     for piece in &profile.pieces {
         let whole = &piece.segment;
         let mut start = -1.0;
         while start < 1.0 {
+            // Go on from the last event in this piece.
             let segment = whole.between(&profile.interpolation, [start, 1.0]);
             let reached = march.advance(&segment, piece)?;
             start = if reached >= 1.0 {
@@ -106,28 +111,33 @@ pub(super) fn sweep(
 
 /// A pass along the line, from event to event.
 struct SurfaceMarch<'a> {
+    /// Law of an element.
     foundation: &'a Foundation,
+    /// Polynomials of the line.
     profile: &'a Profile,
+    /// Sums so far.
     sums: SweepSums,
+    /// State of the surface at the present position.
     surface: Surface,
 }
 
 impl SurfaceMarch<'_> {
-    /// Moves on to the next event, or the end of the segment; returns where that is.
+    /// Moves on to the next event, or the end of the segment; returns its position t.
     fn advance(&mut self, segment: &Segment, piece: &Piece) -> Result<f64, MdrError> {
         match std::mem::replace(&mut self.surface, Surface::Free(FreeSurface::untouched())) {
-            Surface::Free(recovery) => self.recover(recovery, segment),
-            Surface::Loaded { stresses, fresh } => {
+            Surface::Free(surface) => self.recover(surface, segment),
+            Surface::Loaded { stresses, is_new } => {
                 if piece.singular && self.foundation.has_dashpot() {
                     self.sums.too_steep.get_or_insert(piece.segment.ends[1]);
                 }
+                // Under load: solve the segment, up to the first tension.
                 let solution = self.foundation.solve_segment(segment, &stresses);
-                match first_tension(&solution, self.foundation.has_dashpot() && !fresh) {
+                match first_tension(&solution, self.foundation.has_dashpot() && !is_new) {
                     None => {
-                        self.add(&solution, segment, piece.tail);
+                        self.add_solution(&solution, segment, piece.tail);
                         self.surface = Surface::Loaded {
                             stresses: solution.stresses,
-                            fresh: false,
+                            is_new: false,
                         };
                         Ok(1.0)
                     }
@@ -140,26 +150,30 @@ impl SurfaceMarch<'_> {
         }
     }
 
-    /// Recovers up to the next contact, or the end of the segment; returns where that is.
-    fn recover(&mut self, mut recovery: FreeSurface, segment: &Segment) -> Result<f64, MdrError> {
-        let Some(t) = self.next_contact(&recovery, segment) else {
-            recovery.distance += segment.length;
-            self.surface = Surface::Free(recovery);
+    /// Recovers up to the next contact, or the end of the segment; returns its position t.
+    fn recover(&mut self, mut surface: FreeSurface, segment: &Segment) -> Result<f64, MdrError> {
+        let Some(contact) = self.next_contact(&surface, segment) else {
+            surface.distance += segment.length;
+            self.surface = Surface::Free(surface);
             return Ok(1.0);
         };
         if self.sums.contacts.len() == MAX_CONTACTS {
             return Err(MdrError::TooMuchDetail {
                 parts: "contact intervals",
                 allowed: MAX_CONTACTS,
-                position: segment.position(t),
+                position: segment.position(contact),
             });
         }
 
-        // The stored energy comes back, and the branches have the stresses that are left.
-        let t = if 1.0 - t > MIN_CONTACT_PART { t } else { 1.0 };
+        // The energy that is still stored is recovered, and the branches keep their present stresses.
+        let t = if 1.0 - contact > MIN_CONTACT_PART {
+            contact
+        } else {
+            1.0
+        };
         let distance = 0.5 * (1.0 + t) * segment.length;
-        let free = self.foundation.free_displacement(&recovery, distance);
-        let mut stresses = self.foundation.free_stresses(&recovery, distance);
+        let free = self.foundation.free_displacement(&surface, distance);
+        let mut stresses = self.foundation.free_stresses(&surface, distance);
         let position = segment.position(t);
         let displacement = self.storing_displacement(free);
         self.sums.work -= self.foundation.stored_energy(displacement, &stresses);
@@ -175,22 +189,22 @@ impl SurfaceMarch<'_> {
         self.append_zero_load(position);
         self.surface = Surface::Loaded {
             stresses,
-            fresh: true,
+            is_new: true,
         };
         Ok(t)
     }
 
-    /// Where the line comes into contact with a free surface; `None` if it does not in this segment.
-    fn next_contact(&self, recovery: &FreeSurface, segment: &Segment) -> Option<f64> {
+    /// Position t at which the line comes into contact with a free surface; `None` if it does not in this segment.
+    fn next_contact(&self, surface: &FreeSurface, segment: &Segment) -> Option<f64> {
         let gap = |t: f64| {
             let distance = 0.5 * (1.0 + t) * segment.length;
-            self.foundation.free_displacement(recovery, distance) - segment.displacement(t)
+            self.foundation.free_displacement(surface, distance) - segment.displacement(t)
         };
         let mut before = -1.0;
         for t in samples() {
             if gap(t) < -GAP_ROUNDING {
                 // At the very start rounding may close the gap; but no element separates and comes into contact at one place.
-                let nearest = if recovery.distance <= 0.0 { t } else { before };
+                let nearest = if surface.distance <= 0.0 { t } else { before };
                 return Some(bracketed_root(gap, [before, t]).unwrap_or(nearest));
             }
             before = t;
@@ -216,13 +230,13 @@ impl SurfaceMarch<'_> {
         self.sums.work_error += compression.abs() * sensitivity.work;
     }
 
-    /// Releases the surface at t in the segment.
-    fn release_at(&mut self, stresses: &[f64], segment: &Segment, t: f64, tail: f64) {
-        let mut stresses = stresses.to_vec();
+    /// Releases the surface at t in the segment; `start` are the stresses at the beginning of the segment.
+    fn release_at(&mut self, start: &[f64], segment: &Segment, t: f64, tail: f64) {
+        let mut stresses = start.to_vec();
         if 1.0 + t > MIN_CONTACT_PART {
             let loaded = segment.between(&self.profile.interpolation, [-1.0, t]);
             let solution = self.foundation.solve_segment(&loaded, &stresses);
-            self.add(&solution, &loaded, tail);
+            self.add_solution(&solution, &loaded, tail);
             stresses = solution.stresses;
         }
         let displacement = self.storing_displacement(segment.displacement(t));
@@ -231,14 +245,14 @@ impl SurfaceMarch<'_> {
     }
 
     /// Adds the solution under a segment to the sums.
-    fn add(&mut self, solution: &SegmentSolution, segment: &Segment, tail: f64) {
+    fn add_solution(&mut self, solution: &SegmentSolution, segment: &Segment, tail: f64) {
         self.sums.load += solution.load;
         self.sums.work += solution.dissipation;
         self.sums.load_error += tail * self.foundation.stiffness(segment.length);
         self.sums.work_error += tail * solution.dissipation_change + solution.dissipation_rounding;
         if let Some(loads) = &mut self.sums.loads {
-            let places = straight_parts(|t| solution.potential(t));
-            loads.extend(places.map(|[t, load]| [segment.position(t), load]));
+            let points = straight_parts(|t| solution.potential(t));
+            loads.extend(points.map(|[t, load]| [segment.position(t), load]));
         }
         if let Some(contact) = self.sums.contacts.last_mut() {
             contact[0] = segment.ends[1];
@@ -274,7 +288,7 @@ impl SurfaceMarch<'_> {
                 self.end_contact(end, &stresses, piece.segment.ends[1]);
                 self.foundation.release(end, &stresses)
             }
-            (Surface::Free(recovery), _) => recovery,
+            (Surface::Free(surface), _) => surface,
             (Surface::Loaded { .. }, None) => FreeSurface::untouched(),
         };
         (self.sums, behind)
@@ -287,28 +301,28 @@ fn samples() -> impl Iterator<Item = f64> {
     (1..=N_SEGMENT_SAMPLES).map(move |k| -(angle * k as f64).cos())
 }
 
-/// Positions in [−1, 1] and values of a function there, between which it is linear to [`CHORD_TOLERANCE`].
+/// Positions in [−1, 1] with the values of a function, between which it is linear to [`CHORD_TOLERANCE`].
 fn straight_parts(value: impl Fn(f64) -> f64) -> impl Iterator<Item = [f64; 2]> {
     let at = |t: f64| [t, value(t)];
-    let mut parts = vec![at(-1.0)];
+    let mut points = vec![at(-1.0)];
     // The next position comes last.
     let mut ahead: Vec<[f64; 2]> = samples().map(at).collect();
     ahead.reverse();
-    while let (Some(&from), Some(&to)) = (parts.last(), ahead.last()) {
+    while let (Some(&from), Some(&to)) = (points.last(), ahead.last()) {
         let middle = at(0.5 * (from[0] + to[0]));
         let mean = 0.5 * (from[1] + to[1]);
         let scale = middle[1].abs().max(mean.abs());
         if to[0] - from[0] > MIN_LAYER_WIDTH && (middle[1] - mean).abs() > CHORD_TOLERANCE * scale {
             ahead.push(middle);
         } else {
-            parts.push(to);
+            points.push(to);
             ahead.pop();
         }
     }
-    parts.into_iter()
+    points.into_iter()
 }
 
-/// Where the load would become tensile; `None` if it stays compressive.
+/// Position t from which on the load would be tensile; `None` if it stays compressive.
 fn first_tension(solution: &SegmentSolution, may_jump: bool) -> Option<f64> {
     // With a lone dashpot the load jumps where the slope does.
     if may_jump && solution.potential(-1.0) < 0.0 {
@@ -325,7 +339,7 @@ fn first_tension(solution: &SegmentSolution, may_jump: bool) -> Option<f64> {
     None
 }
 
-/// Positions inside the boundary layers that are thinner than the distance of the other samples.
+/// Samples t inside the boundary layers that are thinner than the distance of the other samples.
 fn layer_samples(solution: &SegmentSolution) -> Vec<f64> {
     let first = samples().next().unwrap_or(1.0);
     let widths = solution

@@ -1,10 +1,9 @@
 //! Periodic state of a line that returns to the same place again and again, as a ball on a disc does.
 //!
-//! All passes are equal. The surface ahead of the line has the amplitudes that are left in the modes of recovery from the pass
-//! before:
+//! All passes are equal. The surface ahead of the line has the amplitudes that the pass before leaves in the modes of recovery:
 //!
 //! ```text
-//! x = g(x),   g: one pass over a surface with x_k left in mode k, and then free over the rest of the track
+//! x = g(x),   g: one pass over a surface with the amplitude x_k in mode k, then recovery over the remainder of the track
 //! u(s) = u₁ e^(−(L − s)/(v λ)) / (1 − e^(−L/(v λ)))        at a distance s ahead of one load that alone gives u₁ behind itself
 //! ```
 //! A mode with v λ ≫ L follows the mean load of the whole track. It hardly changes under the line, so that it dissipates
@@ -34,7 +33,7 @@ pub(super) fn check_length(track: f64, range: &Range) -> Result<(), MdrError> {
     Err(MdrError::TrackTooShort { track, needed })
 }
 
-/// The pass whose surface ahead is that left by the pass before.
+/// The pass whose surface ahead is that behind the pass before.
 pub(super) fn sweep_until_periodic(
     foundation: &Foundation,
     profile: &Profile,
@@ -45,21 +44,21 @@ pub(super) fn sweep_until_periodic(
     let free = (track - profile.length).max(0.0);
     let slowness = -(-track / foundation.longest_recovery()).exp_m1().recip();
     let tolerance = PERIODICITY_TOLERANCE.max(PERIODICITY_ROUNDING * slowness);
-    let mut left = 0.0;
+    let mut remaining_change = 0.0;
     let pass = |ahead: &[f64]| {
-        let ahead = foundation.recovering_surface(ahead);
-        let (_, behind) = sweep(foundation, profile, ahead, None)?;
+        let surface = foundation.recovering_surface(ahead);
+        let (_, behind) = sweep(foundation, profile, surface, None)?;
         let end = foundation.remaining_amplitudes(&behind, free);
         Ok::<_, MdrError>((end.clone(), end))
     };
-    let rest = |now: &mut Vec<f64>, before: &Vec<f64>| {
+    let find_change = |now: &mut Vec<f64>, before: &Vec<f64>| {
         let pairs = now.iter().zip(before.iter());
         let changes = pairs.map(|(now, before)| (now - before).abs());
-        left = slowness * changes.fold(0.0, f64::max);
-        left
+        remaining_change = slowness * changes.fold(0.0, f64::max);
+        remaining_change
     };
     let start = foundation.remaining_amplitudes(&FreeSurface::untouched(), free);
-    let ahead = match anderson_fixed_point(start, MAX_PASSES, tolerance, pass, rest)? {
+    let ahead = match anderson_fixed_point(start, MAX_PASSES, tolerance, pass, find_change)? {
         FixedPoint::Converged { result, .. } => result,
         FixedPoint::NotConverged {
             remaining_error: change,
@@ -77,9 +76,9 @@ pub(super) fn sweep_until_periodic(
         foundation.recovering_surface(&ahead),
         loads,
     )?;
-    // The surface may be this much higher or lower under the whole line.
+    // Error: the whole surface may be higher or lower by the remaining change.
     let sensitivity = foundation.sensitivity(profile.length.recip(), profile.length);
-    sums.load_error += left * sensitivity.load;
-    sums.work_error += left * sensitivity.work;
+    sums.load_error += remaining_change * sensitivity.load;
+    sums.work_error += remaining_change * sensitivity.work;
     Ok(sums)
 }

@@ -34,7 +34,7 @@ fn through(points: &[[f64; 2]], control: Control) -> MovingLoad {
         control,
     };
     let points: Vec<MovingPoint> = points.iter().map(point).collect();
-    MovingLoad::through(&points).expect("a motion")
+    MovingLoad::through_points(&points).expect("a motion")
 }
 
 pub(crate) fn reciprocating(length: f64, frequency: f64, control: Control) -> MovingLoad {

@@ -109,7 +109,7 @@ fn laps_of_a_motion_end_in_the_state_on_the_track() {
             point(start + lap + 2.0 * back, 0.0, -1e-3),
         ]
     });
-    let motion = MovingLoad::through(&points.collect::<Vec<_>>()).expect("a motion");
+    let motion = MovingLoad::through_points(&points.collect::<Vec<_>>()).expect("a motion");
     let line = ball();
     let line = EquivalentLine(&line);
     let moved = move_along(&line, &rubber(), &motion, Accuracy::Elements(96)).expect("laps");

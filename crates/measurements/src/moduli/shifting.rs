@@ -111,7 +111,7 @@ impl Table<'_> {
             shift.modulus_factor(nearest)?.recip(),
         ];
         Ok(Shifted {
-            master: master.about(wanted, log10_factor, modulus_factor)?,
+            master: master.at_temperature(wanted, log10_factor, modulus_factor)?,
             shift: Some(shift),
         })
     }
@@ -141,8 +141,8 @@ impl Table<'_> {
         let log10_factor = shift.log10_factor(celsius(wanted))?;
         let modulus_factor = shift.modulus_factor(celsius(wanted))?;
         Ok(Shifted {
-            master: master.about(wanted, log10_factor, modulus_factor)?,
-            shift: Some(shift.about(celsius(wanted))?),
+            master: master.at_temperature(wanted, log10_factor, modulus_factor)?,
+            shift: Some(shift.with_reference(celsius(wanted))?),
         })
     }
 
@@ -199,8 +199,8 @@ fn fit_law_around(shifts: &[[f64; 2]], [nearest, wanted]: [f64; 2]) -> Option<Sh
 fn fit_closest_law(shifts: &[[f64; 2]], reference: f64) -> Option<Shift> {
     let kelvin = |celsius: f64| celsius + KELVIN_AT_ZERO_CELSIUS;
     let in_kelvin: Vec<[f64; 2]> = shifts.iter().map(|[t, log]| [kelvin(*t), *log]).collect();
-    let wlf = WlfShift::through(shifts, reference);
-    let arrhenius = ArrheniusShift::through(&in_kelvin, kelvin(reference));
+    let wlf = WlfShift::fit(shifts, reference);
+    let arrhenius = ArrheniusShift::fit(&in_kelvin, kelvin(reference));
     let laws = [
         wlf.map(|law| ShiftLaw::Wlf(law.constants())),
         arrhenius.map(|law| ShiftLaw::Arrhenius(law.activation_energy())),

@@ -41,7 +41,7 @@ pub struct ParameterRange {
 #[derive(Debug, Clone, PartialEq)]
 #[must_use]
 pub struct Minimum {
-    /// The parameters.
+    /// Parameters at the minimum.
     pub parameters: Vec<f64>,
     /// The sum and its quadratic model; after a last step by the model, the sum is that of the model.
     pub model: QuadraticModel,
@@ -120,6 +120,7 @@ enum StoppingRule {
 }
 
 impl StoppingRule {
+    /// Largest number of evaluations of the sum.
     const fn max_evaluations(self) -> usize {
         match self {
             Self::PredictedDecrease {

@@ -7,7 +7,7 @@ use super::{Minimum, ParameterRange, QuadraticModel, StoppingRule, descend, inve
 pub struct IntervalEnd {
     /// Index of the parameter.
     pub parameter: usize,
-    /// −1 for the lower end, 1 for the upper one.
+    /// Sign of the end: −1 for the lower one, 1 for the upper one.
     pub side: f64,
     /// Rise of the minimal sum from the minimum to the end, in units of the sum.
     pub rise: f64,
@@ -101,8 +101,9 @@ pub fn profile_end(
 /// A distance from the minimum, and the root of the relative rise there.
 #[derive(Clone, Copy)]
 struct Trial {
+    /// Distance of the parameter from the minimum.
     step: f64,
-    /// √(rise of the minimal sum/required rise), 1 at the end of the interval and nearly linear in the step.
+    /// Relative root √(rise of the minimal sum/required rise), 1 at the end of the interval and nearly linear in the step.
     root_rise: f64,
 }
 
@@ -125,7 +126,7 @@ impl Trial {
     }
 }
 
-/// √(rise of the minimal sum/required rise) with the parameter held at a distance from the minimum.
+/// Relative root √(rise of the minimal sum/required rise) with the parameter held at a distance from the minimum.
 ///
 /// Infinite where there is no finite sum, or where the required rise is 0: the end is before.
 fn root_rise(

@@ -22,7 +22,7 @@ pub fn student_quantile(coverage: f64, degrees_of_freedom: usize) -> Option<f64>
     (degrees_of_freedom > 0 && quantile.is_finite()).then_some(quantile)
 }
 
-/// P(|T| < t) for t = √ν tan θ and ν degrees of freedom (Abramowitz & Stegun 1964, 26.7.3 and 26.7.4).
+/// Probability P(|T| < t) for t = √ν tan θ and ν degrees of freedom (Abramowitz & Stegun 1964, 26.7.3 and 26.7.4).
 fn probability_within(angle: f64, degrees_of_freedom: usize) -> f64 {
     let (sine, cosine) = angle.sin_cos();
     let is_odd = degrees_of_freedom % 2 == 1;

@@ -63,11 +63,13 @@ fn creep_spectrum(
     points: &[CreepPoint],
     [shortest, longest]: [f64; 2],
 ) -> Result<CreepSpectrum, RheologyError> {
+    // Times at equal distances in the logarithm.
     let steps = (TIMES_PER_DECADE * (longest / shortest).log10()).ceil();
     let places = std::iter::successors(Some(0.0), |k| Some(k + 1.0)).take_while(|k| *k <= steps);
     let times: Vec<f64> = places
         .map(|k| shortest * (longest / shortest).powf(k / steps))
         .collect();
+    // Fit the instantaneous compliance, the flow, and a compliance for each time.
     let matrix = DMatrix::from_fn(points.len(), times.len() + 2, |row, k| {
         let CreepPoint { time, compliance } = points[row];
         let response = match k.checked_sub(2).map(|k| times[k]) {
@@ -78,12 +80,14 @@ fn creep_spectrum(
         response / compliance
     });
     let compliances = nnls(&matrix, &DVector::from_element(points.len(), 1.0))?;
+    // Refuse a curve that the series does not describe.
     let error = (&matrix * &compliances).add_scalar(-1.0).norm() / (points.len() as f64).sqrt();
     if error > MAX_RMS_ERROR {
         let what =
             "no sum of retarded compliances comes near to J(t), which rises ever more slowly";
         return Err(RheologyError::WrongTrend { what });
     }
+    // Keep the compliances that are not zero.
     let elements = times
         .iter()
         .zip(compliances.iter().skip(2))

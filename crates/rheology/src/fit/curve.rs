@@ -99,12 +99,14 @@ impl MeasuredCurve {
     /// [`RheologyError::TooFewPoints`] below two points; [`RheologyError::InvalidElement`] when a frequency is not
     /// greater than the one before it, or a modulus is not finite, negative, or both of a point are zero.
     pub fn oscillation(points: Vec<ModulusPoint>) -> Result<Self, RheologyError> {
+        // Check a point, and find its |G*|.
         let magnitude = |point: &ModulusPoint, last: f64| {
             check_increasing("angular_frequency", point.angular_frequency, last)?;
             not_negative("storage", point.storage)?;
             not_negative("loss", point.loss)?;
             positive("modulus", point.storage.hypot(point.loss))
         };
+        // Weight both moduli by |G*|.
         let mut rows = Vec::new();
         let mut last = 0.0;
         for (index, point) in points.iter().enumerate() {

@@ -12,7 +12,7 @@
 use std::f64::consts::LN_10;
 
 use super::curve::{MeasuredCurve, RelaxationPoint};
-use super::identify::{Control, Ending, IdentifyOptions, MAX_BRANCHES, series_of};
+use super::identify::{Control, IdentifyOptions, LongTimeLimit, MAX_BRANCHES, series_of};
 use crate::fractional::{PronyExpansion, validate};
 use crate::{RelaxationSpectrum, RheologyError};
 
@@ -80,7 +80,7 @@ pub fn expand(
 /// Options for branches at fixed times, without smoothing.
 const fn fixed_branches(n_branches: usize) -> IdentifyOptions {
     IdentifyOptions {
-        ending: Ending::Solid,
+        long_time_limit: LongTimeLimit::Solid,
         control: Control::Smooth {
             n_branches,
             weight: 0.0,
@@ -100,7 +100,9 @@ fn log_spaced([first, last]: [f64; 2], per_decade: f64) -> impl Iterator<Item = 
 
 /// A relaxation function and its range of times.
 struct RelaxationFunction<'a> {
+    /// Relaxation modulus \[Pa] at a time \[s].
     relaxation_modulus: &'a dyn Fn(f64) -> f64,
+    /// Shortest and longest time, \[s].
     time_range: [f64; 2],
 }
 

@@ -15,7 +15,7 @@ use crate::{PronyExpansion, RelaxationBranch, RelaxationSpectrum, RheologyError}
 
 /// Behaviour at long times.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Ending {
+pub enum LongTimeLimit {
     /// Solid: equilibrium modulus ≥ 0, fitted.
     Solid,
     /// Liquid: no equilibrium modulus.
@@ -47,7 +47,7 @@ pub enum Control {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct IdentifyOptions {
     /// Behaviour at long times.
-    pub ending: Ending,
+    pub long_time_limit: LongTimeLimit,
     /// Number and relaxation times of the branches.
     pub control: Control,
 }
@@ -55,7 +55,7 @@ pub struct IdentifyOptions {
 impl Default for IdentifyOptions {
     fn default() -> Self {
         Self {
-            ending: Ending::Solid,
+            long_time_limit: LongTimeLimit::Solid,
             control: Control::Parsimony { tolerance: 0.02 },
         }
     }
@@ -138,7 +138,7 @@ pub fn identify(
         })
     });
     if !matches!(found, Err(RheologyError::InvalidParameter(_))) {
-        plausible::check(curve, options.ending, found.as_ref().ok())?;
+        plausible::check(curve, options.long_time_limit, found.as_ref().ok())?;
     }
     found
 }
@@ -160,7 +160,7 @@ fn fit_series(
     let mut problem = FitProblem {
         rows: curve.rows.clone(),
         window: curve.time_window,
-        ending: options.ending,
+        long_time_limit: options.long_time_limit,
     };
     problem.set_weights()?;
     let series = match options.control {
@@ -187,10 +187,12 @@ const MAX_STORAGE_ERROR_RATIO: f64 = 3.0;
 
 /// The weighted data of a fit.
 struct FitProblem {
+    /// Measured numbers with their weights.
     rows: Vec<Measurement>,
     /// Shortest and longest time of the curve, \[s].
     window: [f64; 2],
-    ending: Ending,
+    /// Behaviour at long times.
+    long_time_limit: LongTimeLimit,
 }
 
 impl FitProblem {
@@ -237,7 +239,7 @@ impl FitProblem {
 
     /// Nonnegative least-squares fit of the moduli at given times; `smoothing` weights their second differences.
     fn fit_moduli(&self, times: Vec<f64>, smoothing: f64) -> Result<Series, RheologyError> {
-        let is_solid = self.ending == Ending::Solid;
+        let is_solid = self.long_time_limit == LongTimeLimit::Solid;
         let [n_rows, n_branches] = [self.rows.len(), times.len()];
         let n_columns = n_branches + usize::from(is_solid);
         let mut matrix = DMatrix::from_fn(n_rows, n_columns, |index, k| {

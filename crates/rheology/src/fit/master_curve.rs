@@ -54,7 +54,7 @@ impl MasterCurve {
     ///
     /// # Errors
     /// The errors of [`MeasuredCurve::oscillation`] if a frequency or a modulus overflows or underflows.
-    pub fn about(
+    pub fn at_temperature(
         mut self,
         temperature: f64,
         log10_factor: f64,

@@ -18,7 +18,9 @@ pub use covariance::ModuliCovariance;
 pub use creep::{CreepPoint, relaxation_of_creep};
 pub use curve::{MeasuredCurve, ModulusPoint, RelaxationPoint};
 pub use expand::expand;
-pub use identify::{Control, Ending, Identification, IdentifyOptions, RelativeError, identify};
+pub use identify::{
+    Control, Identification, IdentifyOptions, LongTimeLimit, RelativeError, identify,
+};
 pub use master_curve::{
     Isotherm, IsothermShift, MasterCurve, automatic_master_curve, shifted_master_curve,
 };

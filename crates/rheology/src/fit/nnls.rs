@@ -42,8 +42,11 @@ pub(super) fn nnls(
 
 /// The normalised problem and the current iterate.
 struct ActiveSet {
+    /// Matrix with normalised columns.
     matrix: DMatrix<f64>,
+    /// Right side.
     target: DVector<f64>,
+    /// Present solution; 0 outside the passive set.
     solution: DVector<f64>,
     /// Indices of the passive set, the unknowns that may differ from zero.
     passive: Vec<usize>,

@@ -35,7 +35,9 @@ struct Residuals {
 
 /// An isotherm and the one that it is shifted onto.
 pub(super) struct Pair<'a> {
+    /// Curves of the isotherm that stays.
     pub(super) fixed: &'a LogCurves,
+    /// Curves of the isotherm that is shifted.
     pub(super) moved: &'a LogCurves,
     /// Variances of the residuals of ln G' and ln G'' from the scatter of points alone.
     pub(super) scatter: [f64; 2],
@@ -80,6 +82,7 @@ const MAX_RMS_DISTANCE: f64 = 0.23;
 const N_TRIALS: u32 = 1000;
 
 impl LogCurves {
+    /// Logarithms of frequency and moduli of an isotherm.
     pub(super) fn new(points: &[ModulusPoint]) -> Self {
         let line = |modulus: fn(&ModulusPoint) -> f64| {
             let logs = points
@@ -147,6 +150,7 @@ pub(super) fn taper(next: usize, n_points: usize, part: f64) -> f64 {
 }
 
 impl Residuals {
+    /// Residuals in the overlap at a shift ln a, of the points of either curve from the line through the other.
     fn new(fixed: &LogCurve, moved: &LogCurve, shift: f64) -> Self {
         let mut residuals = Self::default();
         for (points, line, offset, sign) in
@@ -170,6 +174,7 @@ impl Residuals {
         squares.max(0.0)
     }
 
+    /// Weighted mean square after division of the moved moduli by a factor; 0 without overlap.
     fn mean_square(&self, log_modulus: f64) -> f64 {
         if self.weight > 0.0 {
             self.squares(log_modulus) / self.weight
@@ -180,10 +185,12 @@ impl Residuals {
 }
 
 impl Pair<'_> {
+    /// Residuals of both moduli at a shift ln a.
     fn residuals(&self, shift: f64) -> [Residuals; 2] {
         [0, 1].map(|k| Residuals::new(&self.fixed.0[k], &self.moved.0[k], shift))
     }
 
+    /// Placement at a shift ln a, with the best modulus factor.
     fn place(&self, log_factor: f64, factor: ModulusFactor, variances: [f64; 2]) -> Place {
         let residuals = self.residuals(log_factor);
         let log_modulus = factor.best_log_modulus(&residuals, variances);
@@ -273,7 +280,9 @@ impl Pair<'_> {
 
 /// Residuals of both moduli at a trial shift.
 struct Trial {
+    /// Shift ln a.
     shift: f64,
+    /// Residuals of ln G' and ln G''.
     residuals: [Residuals; 2],
 }
 

@@ -9,7 +9,9 @@ use crate::RelaxationBranch;
 /// A Prony series during the fit: the equilibrium modulus, if there is one, and the branches.
 #[derive(Debug, Clone)]
 pub(super) struct Series {
+    /// Equilibrium modulus, \[Pa]; `None` for a liquid.
     pub(super) spring: Option<f64>,
+    /// Relaxing branches.
     pub(super) branches: Vec<RelaxationBranch>,
 }
 
@@ -77,6 +79,7 @@ impl Series {
         rows.iter().map(error).map(|error| error * error).sum()
     }
 
+    /// Quadratic model of the sum of squares, by the logarithms of all parameters.
     fn linearise(&self, rows: &[Measurement]) -> QuadraticModel {
         let n = self.branches.len() * 2 + usize::from(self.spring.is_some());
         let mut slopes = DMatrix::zeros(n, rows.len());

@@ -66,8 +66,11 @@ impl Default for SuperpositionOptions {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub(super) struct Link {
+    /// Index of the isotherm that stays.
     pub(super) fixed: usize,
+    /// Index of the isotherm that is shifted onto it.
     pub(super) moved: usize,
+    /// Source of the shift.
     pub(super) by: LinkedBy,
 }
 
@@ -99,7 +102,9 @@ pub(super) struct Superposed {
     pub(super) log_moduli: Vec<f64>,
     /// Pairs from the reference outwards.
     pub(super) links: Vec<Link>,
+    /// Vertical shift that was used.
     pub(super) vertical: VerticalShift,
+    /// Reason for this shift.
     pub(super) choice: VerticalChoice,
     /// Shifts ln b of an ideal rubber if the data leave them undecided, else empty.
     pub(super) undecided: Vec<f64>,
@@ -127,6 +132,7 @@ pub(super) fn superpose(
     known: Option<&[f64]>,
     options: &SuperpositionOptions,
 ) -> Result<Superposed, RheologyError> {
+    // Check the temperatures, and prepare the curves.
     for isotherm in isotherms {
         positive("temperature", isotherm.temperature + options.kelvin_at_zero)?;
     }
@@ -142,6 +148,7 @@ pub(super) fn superpose(
         scatter: scatter(&curves),
         curves,
     };
+    // Place the pairs with a given vertical shift, or select one from the data.
     let bound = |vertical| superposition.place_pairs(vertical, None);
     let freed = |about| superposition.place_pairs(about, Some(PRIOR_MODULUS_SPREAD));
     let selected = match options.vertical {
@@ -210,10 +217,13 @@ const MIN_SCATTER: f64 = 1e-4;
 /// The placement of a pair of isotherms.
 #[derive(Debug, Clone, PartialEq)]
 struct Placed {
+    /// Shift ln a of the frequencies.
     log_factor: f64,
+    /// Shift ln b of the moduli.
     log_modulus: f64,
     /// Placement in the overlap; `None` without overlap.
     place: Option<Place>,
+    /// Source of the shift.
     by: LinkedBy,
 }
 
@@ -250,25 +260,32 @@ impl Placed {
 
 /// A vertical shift with the placements of all pairs.
 struct Selected {
+    /// Kind of the vertical shift.
     vertical: VerticalShift,
+    /// Reason for this kind.
     choice: VerticalChoice,
+    /// Placements of all pairs.
     placed: Vec<Placed>,
 }
 
 /// The isotherms that are superposed.
 struct Superposition<'a> {
+    /// Isotherms in any order.
     isotherms: &'a [Isotherm],
     /// Pairs from the reference outwards, the isotherm nearer to it first.
     chain: &'a [[usize; 2]],
     /// Given ln a_T of all isotherms.
     known: Option<&'a [f64]>,
+    /// Given vertical shift and zero of the temperature.
     options: &'a SuperpositionOptions,
     /// Variances of the residuals of ln G' and ln G'' from the scatter of points.
     scatter: [f64; 2],
+    /// Logarithms of frequency and moduli of each isotherm.
     curves: Vec<LogCurves>,
 }
 
 impl Superposition<'_> {
+    /// Curves of a fixed and a moved isotherm.
     fn pair(&self, [fixed, moved]: [usize; 2]) -> Pair<'_> {
         Pair {
             fixed: &self.curves[fixed],
@@ -296,12 +313,14 @@ impl Superposition<'_> {
         vertical: VerticalShift,
         spread: Option<f64>,
     ) -> Result<Vec<Placed>, RheologyError> {
+        // Prior of the modulus factor of each pair.
         let factor = |pair: &[usize; 2]| ModulusFactor {
             centre: self.log_modulus(vertical, *pair),
             spread,
         };
         let factors: Vec<ModulusFactor> = self.chain.iter().map(factor).collect();
         let pairs = self.chain.iter().zip(&factors);
+        // Given shifts.
         if let Some(known) = self.known {
             let at = |(pair, factor): (&[usize; 2], &ModulusFactor)| {
                 let log_factor = known[pair[1]] - known[pair[0]];
@@ -310,6 +329,7 @@ impl Superposition<'_> {
             };
             return Ok(pairs.map(at).collect());
         }
+        // Shifts with the best agreement; those that are forced are replaced by the law of the others.
         let places = pairs.map(|(pair, factor)| self.pair(*pair).best_place(*factor));
         let places: Vec<Option<Place>> = places.collect();
         let forced = forced(&places);
@@ -370,6 +390,7 @@ impl Superposition<'_> {
 
     /// The vertical shift without constants for which the pairs agree better.
     fn select_vertical(&self) -> Result<Selected, RheologyError> {
+        // If only one kind can be placed, it is that one.
         let without = self.place_pairs(VerticalShift::None, None);
         let Ok(entropic) = self.place_pairs(VerticalShift::Entropic, None) else {
             return Ok(Selected {
@@ -385,6 +406,7 @@ impl Superposition<'_> {
                 placed: entropic,
             });
         };
+        // Otherwise the data decide, or leave it undecided.
         let log_likelihood_ratio = self.log_likelihood_ratio(&entropic, &without);
         let choice = if log_likelihood_ratio.abs() > MIN_LOG_LIKELIHOOD_RATIO {
             VerticalChoice::FoundInData
@@ -467,11 +489,13 @@ impl Superposition<'_> {
             choice,
             placed,
         } = selected;
+        // Add up the shifts along the chain.
         let log_factors = match self.known {
             Some(known) => known.to_vec(),
             None => self.sum_along_chain(&placed, |one| one.log_factor),
         };
         let log_moduli = self.sum_along_chain(&placed, |one| one.log_modulus);
+        // Shifts of an ideal rubber, if the data are undecided.
         let undecided = match choice {
             VerticalChoice::NotInData => {
                 let reference = self.chain.first().map_or(0, |[fixed, _]| *fixed);
@@ -481,6 +505,7 @@ impl Superposition<'_> {
             }
             VerticalChoice::Given | VerticalChoice::FoundInData => Vec::new(),
         };
+        // Collect the links.
         let links = self.chain.iter().zip(placed);
         let link = |([fixed, moved], placed): (&[usize; 2], Placed)| Link {
             fixed: *fixed,

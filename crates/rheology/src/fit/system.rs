@@ -20,6 +20,7 @@ pub(super) enum Quantity {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub(super) struct Measurement {
+    /// Measured quantity.
     pub(super) quantity: Quantity,
     /// Angular frequency ω \[rad/s] or time t \[s].
     pub(super) at: f64,

@@ -79,6 +79,7 @@ impl ContinuousSpectrum<'_> {
         })
     }
 
+    /// The series of the trapezoidal rule over the logarithm of the rate, for a band of frequencies and a target error.
     fn series(
         &self,
         [low, high]: [f64; 2],
@@ -112,14 +113,15 @@ impl ContinuousSpectrum<'_> {
         RelaxationSpectrum::new(slow, 0.0, branches)
     }
 
+    /// Largest relative error of a series in a band of frequencies.
     fn error_of(
         &self,
         series: &RelaxationSpectrum,
         [low, high]: [f64; 2],
     ) -> Result<f64, RheologyError> {
         let factor = 10_f64.powf(SAMPLES_PER_DECADE.recip());
-        let inner = successors(Some(low), |omega| Some(omega * factor));
-        let inner = inner.take_while(|&omega| omega < high);
+        let samples = successors(Some(low), |omega| Some(omega * factor));
+        let inner = samples.take_while(|&omega| omega < high);
         let mut worst = 0.0_f64;
         for omega in inner.chain([high]) {
             let (exact, series) = ((self.exact)(omega)?, series.complex_modulus(omega)?);

@@ -28,6 +28,7 @@ pub struct FractionalMaxwellParameters {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FractionalMaxwell {
+    /// Parameters in SI units.
     parameters: FractionalMaxwellParameters,
 }
 
@@ -90,6 +91,7 @@ impl FractionalMaxwell {
         continuous.expand(band, relative_error)
     }
 
+    /// Logarithm of the spectral density at the logarithm of a relaxation rate.
     fn log_density(&self, log_rate: f64) -> f64 {
         let given = self.parameters;
         // r^a + r^(−a) + 2 cos(π a) without the cancellation at r = 1, a = 1.

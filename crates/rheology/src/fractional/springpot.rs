@@ -14,7 +14,9 @@ use numerics::{not_negative, positive};
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Springpot {
+    /// Coefficient K, \[Pa sᵃ].
     coefficient: f64,
+    /// Exponent a.
     exponent: f64,
 }
 

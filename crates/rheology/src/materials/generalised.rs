@@ -7,7 +7,9 @@ use numerics::in_range;
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Prony {
+    /// Relaxation spectrum in shear.
     relaxation: RelaxationSpectrum,
+    /// Creep spectrum in shear.
     creep: CreepSpectrum,
 }
 
@@ -45,8 +47,11 @@ impl Material for Prony {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Compressible {
+    /// Relaxation spectrum in shear.
     relaxation: RelaxationSpectrum,
+    /// Creep spectrum in shear.
     creep: CreepSpectrum,
+    /// Poisson ratio.
     poisson_ratio: f64,
 }
 

@@ -32,6 +32,7 @@ pub struct StandardSolidParameters {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct StandardSolid {
+    /// Parameters in SI units.
     parameters: StandardSolidParameters,
 }
 

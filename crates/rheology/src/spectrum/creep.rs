@@ -26,8 +26,11 @@ pub struct RetardationElement {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct CreepSpectrum {
+    /// Instantaneous compliance, \[1/Pa].
     instantaneous_compliance: f64,
+    /// Fluidity, the inverse of the viscosity of flow, \[1/(Pa s)].
     fluidity: f64,
+    /// Retarded elements by increasing time.
     elements: Vec<RetardationElement>,
 }
 

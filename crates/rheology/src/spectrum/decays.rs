@@ -12,6 +12,7 @@ const MERGE_TOLERANCE: f64 = 1e-8;
 /// An exponential decay.
 #[derive(Clone, Copy)]
 pub(super) struct Decay {
+    /// Amplitude, a modulus \[Pa] or a compliance \[1/Pa].
     pub(super) amplitude: f64,
     /// Time constant, \[s].
     pub(super) time: f64,
@@ -19,8 +20,11 @@ pub(super) struct Decay {
 
 /// Names of a list of decays and of its columns, for messages.
 pub(super) struct DecayNames {
+    /// Name of the list.
     pub(super) list: &'static str,
+    /// Name of the amplitude.
     pub(super) amplitude: &'static str,
+    /// Name of the time constant.
     pub(super) time: &'static str,
 }
 

@@ -26,8 +26,11 @@ pub struct RelaxationBranch {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RelaxationSpectrum {
+    /// Equilibrium modulus, \[Pa].
     equilibrium_modulus: f64,
+    /// Viscosity of a parallel dashpot, \[Pa s].
     viscosity: f64,
+    /// Relaxing branches by increasing time.
     branches: Vec<RelaxationBranch>,
 }
 

@@ -10,12 +10,15 @@
 /// A pole p ≥ 0 and its weight w > 0.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pole {
+    /// Position p.
     pub(super) position: f64,
+    /// Weight w.
     pub(super) weight: f64,
 }
 
 /// A root x of the equation.
 pub(super) struct Root {
+    /// Position x.
     pub(super) position: f64,
     /// Value −1/(x S'(x)), which does not overflow if −1/S' does.
     pub(super) relative_inverse_slope: f64,
@@ -38,20 +41,26 @@ pub(super) fn roots(poles: &[Pole], level: f64) -> Vec<Root> {
 
 /// The equation S(x) = 0.
 struct Secular<'a> {
+    /// Poles in increasing order.
     poles: &'a [Pole],
+    /// Constant e.
     level: f64,
 }
 
 /// A point at an offset from the pole `near` of at most half the gap on that side.
 #[derive(Debug, Clone, Copy)]
 struct RootPosition {
+    /// Index of the pole.
     near: usize,
+    /// Offset from this pole.
     offset: f64,
 }
 
 /// Magnitudes of the sums of the positive and the negative terms of S at one point.
 struct Balance {
+    /// Sum of the positive terms.
     up: f64,
+    /// Sum of the moduli of the negative terms.
     down: f64,
     /// Magnitudes of the derivatives of `up` and `down` by the logarithm of the distance from the pole `near`.
     slopes: [f64; 2],

@@ -3,7 +3,7 @@ use std::ops::Range;
 
 use casebook::{NEGATIVE, NOT_POSITIVE, assert_close, refuses};
 use rheology::fit::{
-    Control, Ending, IdentifyOptions, MeasuredCurve, ModulusPoint, RelaxationPoint, identify,
+    Control, IdentifyOptions, LongTimeLimit, MeasuredCurve, ModulusPoint, RelaxationPoint, identify,
 };
 use rheology::{RelaxationSpectrum, RheologyError};
 
@@ -59,7 +59,7 @@ fn assert_same_branches(
 
 fn solid(control: Control) -> IdentifyOptions {
     IdentifyOptions {
-        ending: Ending::Solid,
+        long_time_limit: LongTimeLimit::Solid,
         control,
     }
 }
@@ -74,18 +74,21 @@ fn exact_data_give_back_their_spectrum() {
         RelaxationPoint { time, modulus }
     });
     let relaxing = MeasuredCurve::relaxation(relaxing.collect()).unwrap();
-    for (given, curve, ending) in [
-        (&solid, oscillation(&solid, -4..8), Ending::Solid),
-        (&solid, relaxing, Ending::Solid),
-        (&liquid, oscillation(&liquid, -4..8), Ending::Liquid),
+    for (given, curve, long_time_limit) in [
+        (&solid, oscillation(&solid, -4..8), LongTimeLimit::Solid),
+        (&solid, relaxing, LongTimeLimit::Solid),
+        (&liquid, oscillation(&liquid, -4..8), LongTimeLimit::Liquid),
     ] {
         let options = IdentifyOptions {
-            ending,
+            long_time_limit,
             control: Control::Branches(3),
         };
         let found = identify(&curve, &options).unwrap();
         // The refinement stops when the squares fall by less than 1e-4 of themselves.
-        assert!(found.rms_relative_error < 1e-6, "{ending:?}: {found:?}");
+        assert!(
+            found.rms_relative_error < 1e-6,
+            "{long_time_limit:?}: {found:?}"
+        );
         assert_close!(
             found.spectrum.equilibrium_modulus() => given.equilibrium_modulus(),
             within 1e-5

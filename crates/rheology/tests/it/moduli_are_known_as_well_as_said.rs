@@ -162,7 +162,7 @@ fn errors_of_moduli_follow_those_of_the_data() {
         "{known:?}"
     );
     assert!(known.noise.len() == 1 && known.noise[0] < 1e-3, "{known:?}");
-    let words = known.in_words();
+    let words = known.description();
     assert!(
         words.contains("of G(t)") && words.contains("in common"),
         "{words}"

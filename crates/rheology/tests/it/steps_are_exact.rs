@@ -56,7 +56,7 @@ fn linear_loads_are_of_the_second_order() {
         let omega = 1.0;
         let exact = creep.complex_compliance(omega).unwrap();
         let error = |step: &ExponentialStep, time_step: f64| {
-            let got = step.turning_response(omega * time_step);
+            let got = step.harmonic_response(omega * time_step);
             (got.storage - exact.storage).hypot(got.loss - exact.loss)
         };
         let of = |time_step: f64| {
@@ -88,7 +88,7 @@ fn linear_steps_follow_a_load_that_turns() {
         count += 1.0;
     }
     let (sin, cos) = (angle * count).sin_cos();
-    let response = step.turning_response(angle);
+    let response = step.harmonic_response(angle);
     let got = output(&step, cos, &mut state);
     assert_close!(got => response.storage * cos + response.loss * sin, within 1e-11);
 }

@@ -10,7 +10,9 @@ fn wlf_matches_exact_numbers_about_any_reference() {
         let law = WlfShift::new(c1, c2, 20.0).unwrap();
         let shift = law.log10_factor(20.0 + difference);
         if case.expected_error().is_some() {
-            let about = law.about(20.0 + difference).map(|law| law.constants()[1]);
+            let about = law
+                .with_reference(20.0 + difference)
+                .map(|law| law.constants()[1]);
             for result in [shift, about] {
                 assert_matches!(result, Err(RheologyError::BelowWlfPole { pole, .. }) if (pole - 20.0 + c2).abs() < 1e-13);
             }
@@ -19,7 +21,7 @@ fn wlf_matches_exact_numbers_about_any_reference() {
         let shift = shift.unwrap();
         case.check("log10_aT", shift);
         case.check("aT", 10_f64.powf(shift));
-        let other = law.about(20.0 + difference).unwrap();
+        let other = law.with_reference(20.0 + difference).unwrap();
         case.check("C1_new", other.constants()[0]);
         case.check("C2_new", other.constants()[1]);
         // a_T(T; T_r') = a_T(T; T_r)/a_T(T_r'; T_r)
@@ -34,11 +36,11 @@ fn wlf_constants_come_back_from_their_shifts() {
     let shifts = [10.0, 30.0, 50.0, 70.0, 120.0].map(|t| [t, law.log10_factor(t).unwrap()]);
     // The two equations are a few hundred times worse conditioned than the shifts.
     for enough in [&shifts, &shifts[1..4]] {
-        let [c1, c2] = WlfShift::through(enough, 50.0).unwrap().constants();
+        let [c1, c2] = WlfShift::fit(enough, 50.0).unwrap().constants();
         assert_close!(c1 => 8.86, within 1e-12);
         assert_close!(c2 => 101.6, within 1e-12);
     }
-    let too_few = WlfShift::through(&shifts[1..3], 50.0).unwrap_err();
+    let too_few = WlfShift::fit(&shifts[1..3], 50.0).unwrap_err();
     let message = "at least 2 points are needed, but there are 1";
     assert_eq!(too_few.to_string(), message, "one besides 50");
 }

@@ -15,8 +15,8 @@ use measurements::moduli::{
 };
 use rheology::RheologyError;
 use rheology::fit::{
-    Control, Ending, Identification, IdentifyOptions, MeasuredCurve, ModulusPoint, RelativeError,
-    RelaxationPoint, SignChanges, VerticalChoice, VerticalShift, identify,
+    Control, Identification, IdentifyOptions, LongTimeLimit, MeasuredCurve, ModulusPoint,
+    RelativeError, RelaxationPoint, SignChanges, VerticalChoice, VerticalShift, identify,
 };
 use viscofriction::WrongInput;
 use viscofriction::scene::ShiftLaw;
@@ -225,12 +225,15 @@ impl FitMaterial {
             (None, _, Some(tolerance)) => Control::Parsimony { tolerance },
             (None, _, None) => defaults.control,
         };
-        let ending = if self.liquid {
-            Ending::Liquid
+        let long_time_limit = if self.liquid {
+            LongTimeLimit::Liquid
         } else {
-            Ending::Solid
+            LongTimeLimit::Solid
         };
-        IdentifyOptions { ending, control }
+        IdentifyOptions {
+            long_time_limit,
+            control,
+        }
     }
 }
 

@@ -152,7 +152,7 @@ pub(super) fn material(fitted: &Fitted<'_>) -> String {
 fn covariance_lines(covariance: &ModuliCovariance) -> String {
     let row = |row: &Vec<f64>| format!("    {row:?},\n");
     let rows: String = covariance.relative.iter().map(row).collect();
-    let method = covariance.in_words();
+    let method = covariance.description();
     format!("covariance.method = {method:?}\ncovariance.relative = [\n{rows}]\n")
 }
 

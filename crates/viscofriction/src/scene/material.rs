@@ -299,7 +299,7 @@ impl MaterialTable {
         if let Some(known) = approximation {
             known.time_range = known.time_range.map(|time| time * factor);
         }
-        *shift = shift.about(celsius).map_err(wrong)?;
+        *shift = shift.with_reference(celsius).map_err(wrong)?;
         Ok(self)
     }
 }

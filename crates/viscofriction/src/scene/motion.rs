@@ -67,7 +67,7 @@ impl Load {
             }
         };
         let points = self.pressed(&points, (key, period.is_some()), control)?;
-        let load = MovingLoad::through(&points);
+        let load = MovingLoad::through_points(&points);
         load.map(Some).map_err(|error| refused(key, &error))
     }
 

@@ -45,7 +45,7 @@ pub fn body_of_heights(
     }
     let periodic = |map: &HeightMap| {
         let shortest = table.shortest_wavelength.unwrap_or(0.0);
-        let waves = PeriodicSurface::through(map, shortest);
+        let waves = PeriodicSurface::from_map(map, shortest);
         waves.map_err(|error| match error {
             IndenterError::InvalidParameter(refused)
                 if refused.parameter == "shortest_wavelength" =>

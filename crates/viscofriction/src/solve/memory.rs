@@ -62,9 +62,9 @@ fn check_waves(problem: &Problem, surface: &PeriodicSurface) -> Result<(), Scene
     // Propose the waves resolved on the largest of successively halved grids that fits.
     let largest = surface.largest_numbers();
     let shapes = (1..usize::BITS).map(|power| largest.map(|number| ((2 * number) >> power).max(1)));
-    let told = |shape| surface.told_by(shape);
-    let mut told = shapes.filter_map(told);
-    let kept = told.find(|kept| periodic::elements_for_bars(kept) <= most);
+    let resolved_on = |shape| surface.resolved_on(shape);
+    let mut resolved = shapes.filter_map(resolved_on);
+    let kept = resolved.find(|kept| periodic::elements_for_bars(kept) <= most);
     let kept = kept.map(|kept| kept.largest_numbers());
     Err(too_large([elements, most], surface.period(), kept))
 }

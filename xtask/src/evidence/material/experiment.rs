@@ -277,7 +277,7 @@ fn series(
         approximation: None,
         covariance: covariance.map(|known| Covariance {
             relative: known.relative.clone(),
-            method: Some(known.in_words()),
+            method: Some(known.description()),
         }),
     }
 }

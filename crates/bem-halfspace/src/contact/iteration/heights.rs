@@ -41,7 +41,7 @@ impl Heights {
     }
 
     /// Extremes and sums over two parts of the grid together.
-    fn combine(self, other: Self) -> Self {
+    fn join(self, other: Self) -> Self {
         Self {
             lowest_outside: smaller(self.lowest_outside, other.lowest_outside),
             sum_inside: self.sum_inside + other.sum_inside,
@@ -52,9 +52,11 @@ impl Heights {
 impl Iteration<'_> {
     /// Computes the displacement from the load, and restarts the directions.
     pub(super) fn recompute_displacement(&mut self) {
+        // Find the displacement on the whole grid.
         self.scatter_load();
         self.convolution
             .apply(self.workspace, self.load, self.displacement);
+        // Gather it on the active set, with the height statistics.
         let (active, vectors) = (&self.fields.active, &mut self.fields.vectors);
         let (fields, depth) = ([self.separation, self.displacement], self.indentation_depth);
         let separation = &vectors.separation;
@@ -67,7 +69,7 @@ impl Iteration<'_> {
         let displacement = [active.packed(&mut vectors.displacement)];
         self.heights = active
             .row_blocks
-            .fold(displacement, in_row_block, Heights::combine);
+            .fold(displacement, in_row_block, Heights::join);
         self.displacement_is_exact = true;
         self.previous_product = 0.0;
     }
@@ -100,9 +102,7 @@ impl Iteration<'_> {
             active.packed(&mut vectors.displacement),
             active.packed(&mut vectors.load),
         ];
-        self.heights = active
-            .row_blocks
-            .fold(moved, in_row_block, Heights::combine);
+        self.heights = active.row_blocks.fold(moved, in_row_block, Heights::join);
         self.displacement_is_exact = false;
         self.has_stepped = true;
     }
@@ -119,8 +119,8 @@ impl Iteration<'_> {
             }
             Control::NormalForce(_) => {
                 let mean = self.indentation_depth + self.heights.sum_inside / active.len() as f64;
-                // For an exact displacement corrected once, because the previous depth may have been far off, and no direction
-                // removes the rounding of the long sum.
+                // The sum of many heights has a rounding error, which no later step removes. After the displacement was computed
+                // anew the mean is therefore corrected once.
                 let rounding_correction = if self.displacement_is_exact {
                     vectors.mean_height_above(active, mean)
                 } else {
@@ -138,6 +138,7 @@ impl Iteration<'_> {
             (&vectors.separation, &vectors.displacement, &vectors.load);
         let self_influence = self.convolution.self_influence;
         let depth = self.indentation_depth;
+        // Residual and violations inside each row block.
         let in_row_block = |row_block, [residual]: [&mut [f64]; 1]| {
             let [separation, displacement, load] = [separation, displacement, load]
                 .map(|vector| &vector[active.packed_range(row_block)]);
@@ -148,6 +149,7 @@ impl Iteration<'_> {
             }
             Violations::inside(residual, load, displacement, self_influence)
         };
+        // Combine the row blocks, and add the penetration outside.
         let residual = [active.packed(&mut vectors.residual)];
         let inside = active
             .row_blocks
@@ -200,7 +202,7 @@ impl Violations {
         }
     }
 
-    /// Violations inside a part of the active set. A unit load displaces its self_displacement element by `self_influence`.
+    /// Violations inside a part of the active set. A unit load displaces its own element by `self_influence`.
     pub(super) fn inside(
         residual: &[f64],
         load: &[f64],
@@ -210,17 +212,12 @@ impl Violations {
         // Zero if all residuals are finite, else NaN: comparisons would skip a NaN, a sum does not.
         let zero_or_nan = sum([residual], |[residual]| 0.0 * residual);
         let lowest_load = reduce([load], 0.0, |[load]| load, smaller);
-        let self_displacement = self_influence * reduce([load], 0.0, |[load]| load, larger);
+        let own_part = self_influence * reduce([load], 0.0, |[load]| load, larger);
         Self {
             gap: zero_or_nan + reduce([residual], 0.0, |[residual]| residual.abs(), larger),
             tension: -self_influence * lowest_load,
             penetration: 0.0,
-            deflection: reduce(
-                [displacement],
-                self_displacement,
-                |[displaced]| displaced,
-                larger,
-            ),
+            deflection: reduce([displacement], own_part, |[displaced]| displaced, larger),
         }
     }
 }

@@ -352,10 +352,12 @@ impl<'a> March<'a> {
     /// State at the end of a step from the contact box; depth, forces and iterations are left 0.
     fn motion_row(&self, step: &ScheduledStep) -> MotionRow {
         let [dx, dy] = self.options.spacing;
+        // Count the elements in contact with their images.
         let loaded = self.loaded_elements();
         let images = loaded.map(|(element, _)| self.layout.n_images_of(element));
         let n_contact = images.sum();
         let edges = (n_contact > 0).then(|| self.contact_edges());
+        // Forces and depth are filled in by the caller.
         MotionRow {
             time: step.end.time,
             position: step.end.position,
@@ -411,6 +413,7 @@ impl<'a> March<'a> {
         if offset.total_cmp(&self.sampled_offset).is_eq() {
             return Ok(());
         }
+        // Sample the surface at the elements in front of the mirrors.
         let ([rows, columns], [first_row, first_column]) = (self.layout.shape, self.layout.first());
         let mut heights = Vec::with_capacity(self.initial_gap.len());
         for row in first_row..rows {
@@ -420,6 +423,7 @@ impl<'a> March<'a> {
                     .push(self.surface.height([x, self.y_of_column(column)]) / self.height_scale);
             }
         }
+        // Check and store the heights.
         let first = [first_row, first_column];
         check_heights(
             "height of the surface",

@@ -74,6 +74,7 @@ impl Schedule {
     pub(super) fn sliding(load: &SlidingLoad, length: f64, spacing: f64) -> Result<Self, BemError> {
         load.require_fresh_ground()?;
         positive("spacing along x", spacing)?;
+        // Divide the distance into steps; the last one may be shorter.
         let distance = load
             .sliding_distance()
             .ok_or(BemError::SlidingDistanceMissing {
@@ -186,14 +187,10 @@ fn divide_into_steps(distance: f64, length: f64) -> Result<(usize, f64), BemErro
     }
     // The last step takes up the remainder of half an element to one and a half.
     let before = (steps - 0.5).ceil().max(1.0) - 1.0;
-    let last_in_lengths = steps - before;
+    let fraction = steps - before;
     // A whole step must not become another one by rounding, or results would depend on the unit of length.
-    let is_whole = (last_in_lengths - 1.0).abs() <= 4.0 * f64::EPSILON * steps;
-    let last = if is_whole {
-        length
-    } else {
-        last_in_lengths * length
-    };
+    let is_whole = (fraction - 1.0).abs() <= 4.0 * f64::EPSILON * steps;
+    let last = if is_whole { length } else { fraction * length };
     Ok((whole_elements(before)? + 1, last))
 }
 

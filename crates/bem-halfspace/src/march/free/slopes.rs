@@ -22,7 +22,7 @@ use crate::march::free::{March, ScheduledStep};
 /// Slopes of the body over the loaded elements, weighted with their pressure; all zero without contact.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct MeanSlopes {
-    /// θ: pressure and forces belong to the time θ Δt before the end of the step, from 0 to ½.
+    /// Time level θ: pressure and forces belong to the time θ Δt before the end of the step, from 0 to ½.
     pub(super) time_level: f64,
     /// Mean slope at the time level θ: F_h / F_N.
     pub(super) at_time_level: f64,
@@ -47,17 +47,13 @@ impl MeanSlopes {
         // Images fore and aft have the opposite slope.
         let has_image = !march.layout.mirrors[0].is_none();
         for (element, load) in march.loaded_elements() {
-            let [at_time_level, end] = slopes_at(march, time_level, step, element)?;
+            let [slope, end] = slopes_at(march, time_level, step, element)?;
             if !has_image {
-                sum.at_time_level += load * at_time_level;
+                sum.at_time_level += load * slope;
                 sum.end_of_step += load * end;
             }
-            sum.mean_slope_modulus += load * at_time_level.abs();
-            sum.largest = sum.largest.max(if has_image {
-                at_time_level.abs()
-            } else {
-                at_time_level
-            });
+            sum.mean_slope_modulus += load * slope.abs();
+            sum.largest = sum.largest.max(if has_image { slope.abs() } else { slope });
             total_load += load;
         }
         if total_load == 0.0 {
@@ -87,17 +83,17 @@ fn slopes_at(
     let centre = centre_of_element + time_level * step.advance;
     let length = (2.0 * time_level * step.advance.abs()).max(1.0);
     let half = 0.5 * length;
-    let at_time_level = (height(centre + half) - height(centre - half)) / length / spacing;
+    let slope = (height(centre + half) - height(centre - half)) / length / spacing;
     let x = centre_of_element * spacing;
-    if !at_time_level.is_finite() {
+    if !slope.is_finite() {
         return Err(BemError::VerticalWall { x, y });
     }
     let end = march.surface.gradient([x, y])[0];
     in_range("slope of the surface", end, !end.is_nan(), "a number")?;
-    Ok([at_time_level, end])
+    Ok([slope, end])
 }
 
-/// θ = ½ (1 − E G'), from 0 at the end of the step to ½ in its middle, times the part of the step in which the load is held_share.
+/// Time level θ = ½ (1 − E G'), from 0 at the end of the step to ½ in its middle, times the part of the step in which the load is held_share.
 fn time_level(march: &March<'_>, step: &ScheduledStep) -> Result<f64, BemError> {
     let held_share = 1.0 - march.creep_step.linear_share();
     if held_share == 0.0 {
@@ -106,7 +102,7 @@ fn time_level(march: &March<'_>, step: &ScheduledStep) -> Result<f64, BemError> 
     Ok(0.5 * held_share * (1.0 - elastic_share(march, step)?))
 }
 
-/// E G' at the frequency ω = 2πv/L with which the contact passes: 1 on an elastic half space, 0 on a dashpot.
+/// Elastic share E G' at the frequency ω = 2πv/L with which the contact passes: 1 on an elastic half space, 0 on a dashpot.
 fn elastic_share(march: &March<'_>, step: &ScheduledStep) -> Result<f64, BemError> {
     let (creep, advance, time_step) = (&march.creep, step.advance, step.time_step);
     let mut elastic = creep.instantaneous_compliance();

@@ -47,7 +47,7 @@ pub struct IndentPoint {
 pub struct IndentCurve {
     /// The points of the history; the error of a quantity is the largest one at any of them.
     pub points: Vec<IndentPoint>,
-    /// What the error of the force consists of, or that of the depth under a force.
+    /// Parts of the error of the force, or of the depth under a force.
     pub error_parts: ErrorParts,
     /// Elements in contact at the last point.
     pub n_contact: usize,
@@ -93,25 +93,27 @@ pub fn indent_along<'w>(
     history: &[HistoryPoint],
     request: impl Into<Request<'w>>,
 ) -> Result<IndentCurve, BemError> {
-    let request = request.into();
+    let accuracy_request = request.into();
     let path = Path::new(history, has_instantaneous_compliance(elastomer))?;
     let plan = path.spring(elastomer)?.plan(surface, path.largest())?;
     let times: Vec<f64> = path.points[1..].iter().map(|[time, _]| *time).collect();
+    // Solve on one grid, with steps for half the error.
     let solve = |elements: usize, _: &dyn Fn(f64)| {
         let mut options = HistoryOptions::new(grid(&plan, elements));
-        let most = MAX_HISTORY_STEPS / times.len();
-        options.max_steps = most.clamp(MIN_STEPS_PER_INTERVAL, options.max_steps);
+        let max_steps = MAX_HISTORY_STEPS / times.len();
+        options.max_steps = max_steps.clamp(MIN_STEPS_PER_INTERVAL, options.max_steps);
         let control = |time| path.control_at(time);
-        let found = match request.accuracy {
-            Accuracy::RelativeError(asked) => {
-                options.relative_error = 0.5 * asked;
+        let found = match accuracy_request.accuracy {
+            Accuracy::RelativeError(error) => {
+                options.relative_error = 0.5 * error;
                 indent_history(surface, elastomer, control, &times, &options)
             }
             Accuracy::Elements(_) => refined(surface, elastomer, control, &times, &options),
         };
         Ok::<_, BemError>((found?, options.grid))
     };
-    let others = |(found, _): &(IndentHistory, GridOptions), _: &dyn Fn(f64)| {
+    // Errors of the steps, which all grids share.
+    let step_errors = |(found, _): &(IndentHistory, GridOptions), _: &dyn Fn(f64)| {
         let of_steps = |quantity: Quantity| ErrorParts {
             time_stepping: Some(found.time_error * quantity.scale),
             ..ErrorParts::NONE
@@ -120,15 +122,16 @@ pub fn indent_along<'w>(
         Ok(quantities.map(of_steps).collect())
     };
     let fine = refine(
-        &HISTORY.goal(request, PRESSED_ORDER),
+        &HISTORY.goal(accuracy_request, PRESSED_ORDER),
         solve,
         |(found, _)| path.quantities(found),
-        others,
+        step_errors,
     )?;
+    // The largest error of a quantity at any point is that of all.
     let worst = |name: Name| {
-        let rows = fine.parts.iter().skip(name.index());
-        let rows = rows.step_by(Name::ALL.len());
-        let worst = rows.max_by(|a, b| a.sum().total_cmp(&b.sum()));
+        let parts = fine.parts.iter().skip(name.index());
+        let parts_of_rows = parts.step_by(Name::ALL.len());
+        let worst = parts_of_rows.max_by(|a, b| a.sum().total_cmp(&b.sum()));
         worst.copied().unwrap_or(ErrorParts::NONE)
     };
     let (found, options) = fine.value;
@@ -173,12 +176,14 @@ const fn row_quantities(row: &MotionRow) -> Quantities<f64> {
 
 /// A history of which every point is later than the one before.
 struct Path {
+    /// True if forces are given, false for depths.
     is_force: bool,
     /// Time since the first one, and force or depth; at the first one nothing is pressed.
     points: Vec<[f64; 2]>,
 }
 
 impl Path {
+    /// Checks the points, and moves apart those of the same time.
     fn new(history: &[HistoryPoint], has_instantaneous_compliance: bool) -> Result<Self, BemError> {
         let allowed = "at least 2";
         let n_points = history.len() as f64;
@@ -198,6 +203,7 @@ impl Path {
             if index == 0 && value <= 0.0 {
                 continue;
             }
+            // Move a point of the same time behind the one before.
             let [last, _] = points[points.len() - 1];
             let time = step.time - first.time;
             if time < last + shortest && !is_forced && !has_instantaneous_compliance {
@@ -212,6 +218,7 @@ impl Path {
         })
     }
 
+    /// The force or depth of this value.
     fn control(&self, value: f64) -> Control {
         if self.is_force {
             Control::NormalForce(value)
@@ -240,9 +247,9 @@ impl Path {
 
     /// Control at a time, linear between two points.
     fn control_at(&self, time: f64) -> Control {
-        let end = self.points.partition_point(|[before, _]| *before < time);
-        let end = end.clamp(1, self.points.len() - 1);
-        let [[start, from], [end, to]] = [self.points[end - 1], self.points[end]];
+        let next = self.points.partition_point(|[before, _]| *before < time);
+        let index = next.clamp(1, self.points.len() - 1);
+        let [[start, from], [end, to]] = [self.points[index - 1], self.points[index]];
         let part = ((time - start) / (end - start)).min(1.0);
         self.control(from + part * (to - from))
     }
@@ -259,6 +266,7 @@ impl Path {
     /// Quantities of all rows, one row after the other. The one that is sought must have the requested error, relative to its largest
     /// value in the history.
     fn quantities(&self, found: &IndentHistory) -> Vec<Quantity> {
+        // Scale of each quantity: its largest value in the history.
         let largest = |name| {
             let values = found
                 .rows
@@ -267,6 +275,7 @@ impl Path {
             values.fold(0.0, f64::max)
         };
         let (sizes, [sought, _]) = (Name::ALL.map(largest), self.sought_and_given());
+        // Quantities of one row; the sought one controls the refinement.
         let of_one_row = |row: &MotionRow| {
             let area_uncertainty = row.contact_area_uncertainty;
             let quantity = move |(name, value): (Name, f64)| {

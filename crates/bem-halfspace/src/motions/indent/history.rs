@@ -22,7 +22,7 @@ const LARGEST_RATIO: f64 = 0.9;
 /// How exactly a history is followed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HistoryOptions {
-    /// The grid.
+    /// Grid and stopping criteria.
     pub grid: GridOptions,
     /// Error of force and depth by the steps in time, relative to the largest of each in the history.
     pub relative_error: f64,
@@ -143,7 +143,7 @@ fn remaining_error(change: f64, before: Option<f64>) -> f64 {
     change * ratio / (1.0 - ratio)
 }
 
-/// The intervals between successive times, of which the first begins at zero.
+/// The intervals between successive times; the first one begins at zero.
 fn intervals(times: &[f64]) -> impl Iterator<Item = [f64; 2]> {
     let starts = std::iter::once(&0.0).chain(times);
     starts.zip(times).map(|(&start, &end)| [start, end])
@@ -163,7 +163,7 @@ fn subdivided(control: impl Fn(f64) -> Control, times: &[f64], n: usize) -> Vec<
 }
 
 /// Force and depth extrapolated to steps of no length, 2 f_2n − f_n. The contact is that of the finer rows: elements are in contact or
-/// not. Forces stay above zero: the contact is lost at a moment between steps.
+/// not. Forces stay above zero: the contact opens between two steps.
 fn extrapolated(coarse: &[MotionRow], fine: &[MotionRow]) -> Vec<MotionRow> {
     let row = |(coarse, fine): (&MotionRow, &MotionRow)| MotionRow {
         indentation_depth: 2.0 * fine.indentation_depth - coarse.indentation_depth,

@@ -170,16 +170,18 @@ pub(crate) fn footprint_after(
 
 /// The spring that a material under a constant control is equivalent to (Lee & Radok 1960).
 pub(super) struct Spring {
-    /// With the compliance 2 (1 − ν)/G = 1, and the Poisson ratio of the material.
+    /// Material of the compliance 2 (1 − ν)/G = 1, with the Poisson ratio of the material.
     unit: Compressible,
+    /// Base of the material: a half space of the same material, or a substrate.
     base: Base,
-    /// 2 (1 − ν) J, or its inverse where the depth is given, \[1/Pa].
+    /// Compliance 2 (1 − ν) J, or its inverse where the depth is given, \[1/Pa].
     compliance: f64,
-    /// Whether its pressure is that of the material too.
+    /// True if its pressure is that of the material too.
     has_pressure: bool,
 }
 
 impl Spring {
+    /// The spring of a material that has come to rest; fails for one that flows.
     fn at_rest(elastomer: &dyn Elastomer) -> Result<Self, BemError> {
         let material = elastomer.material();
         check_spectra(&material)?;

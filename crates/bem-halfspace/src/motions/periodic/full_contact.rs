@@ -15,14 +15,16 @@ use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
 use crate::transform::plane_transform::ZERO;
 
 /// A surface on a grid, for the test whether its contact is full and for its closed form.
-pub(super) struct Closed<'a> {
+pub(super) struct FullContactSurface<'a> {
+    /// Grid of one period.
     pub(super) grid: &'a Grid,
     /// Heights at the centres of the elements, \[m].
     pub(super) heights: &'a [f64],
+    /// Waves of the grid.
     pub(super) waves: FourierMultiplier,
-    /// 1 − ν, for the Poisson ratio ν.
+    /// Factor 1 − ν, for the Poisson ratio ν.
     pub(super) factor: f64,
-    /// \[Pa].
+    /// Mean pressure, \[Pa].
     pub(super) mean_pressure: f64,
     /// Largest numbers of waves in the period along both axes.
     pub(super) largest_numbers: [usize; 2],
@@ -36,7 +38,7 @@ pub(super) struct FullContact {
     pub(super) work: f64,
 }
 
-impl Closed<'_> {
+impl FullContactSurface<'_> {
     /// Lower bound of the ratio of the largest value at the centres of the elements to the maximum of a band-limited field.
     ///
     /// It is cos(πn/N) for n waves along N elements (Ehlich & Zeller 1964), and once more along x, because steps are as long as an

@@ -72,6 +72,7 @@ pub fn move_along<'w>(
 ) -> Result<Moved, BemError> {
     let request = request.into();
     let problem = MovingSurface::new(surface, elastomer, load, request.accuracy)?;
+    // Choose the first grid, and the finest one whose march is short enough.
     let first = elements_of_motion(surface);
     let is_full = problem.is_full();
     let goal = Goal {
@@ -83,6 +84,7 @@ pub fn move_along<'w>(
         extra_work: 0.0,
         selection_factor: 1.0,
     };
+    // Refine elements and steps.
     let view = MotionView {
         load,
         is_elastic: problem.spectra.creep.is_elastic(),
@@ -145,10 +147,10 @@ fn other_errors(view: &MotionView, record: &MotionRecord) -> Vec<ErrorParts> {
         .map(|step| step.n_contact)
         .min()
         .unwrap_or(usize::MAX);
-    let mut rests = view.rests(record);
+    let mut rests = view.truncation_errors(record);
     if let (true, [friction, _, work, ..]) = (record.n_cycles > 0, &mut rests[..]) {
-        friction.iteration = Some(CONTACT_TOLERANCE * record.steepness);
-        work.iteration = Some(CONTACT_TOLERANCE * record.steepness * record.normal_work);
+        friction.iteration = Some(CONTACT_TOLERANCE * record.rms_slope);
+        work.iteration = Some(CONTACT_TOLERANCE * record.rms_slope * record.normal_work);
     }
     // The coarser grid of the error estimate has half the elements along both axes.
     if fewest >= 4 * MIN_CONTACT_ELEMENTS {

@@ -16,7 +16,7 @@ use numerics::Accuracy;
 use rheology::{Material as _, check_spectra};
 use rustfft::num_complex::Complex;
 
-use super::full_contact::{Closed, value_of_row};
+use super::full_contact::{FullContactSurface, value_of_row};
 use super::stresses::{Spectra, WaveMotion, WaveStates};
 use super::{CONTACT_TOLERANCE, edges, elements_of_motion};
 use crate::march::MAX_STEPS;
@@ -31,11 +31,15 @@ const MAX_ELEMENT_STEPS: f64 = 6e7;
 
 /// A motion of a surface over a material.
 pub(super) struct MovingSurface<'a> {
+    /// Surface that moves.
     surface: &'a PeriodicSurface,
+    /// Half space or layer under it.
     elastomer: &'a dyn Elastomer,
+    /// Motion and load.
     load: &'a MovingLoad,
+    /// Relaxation and creep spectrum of the material in shear.
     pub(super) spectra: Spectra,
-    /// q_x by the number of waves in the period, \[rad/m].
+    /// Wave number q_x by the number of waves in the period, \[rad/m].
     wave_numbers: Vec<f64>,
     /// Search for the limit cycle; `None` for a motion through points.
     pub(super) limit_cycle: Option<LimitCycle>,
@@ -45,19 +49,26 @@ pub(super) struct MovingSurface<'a> {
 
 /// A motion on one grid.
 struct MotionOnGrid {
+    /// Grid of one period.
     grid: Grid,
     /// Heights at the centres of the elements, \[m].
     heights: Vec<f64>,
+    /// Time steps of the motion.
     steps: Vec<MovingStep>,
+    /// Waves over all steps.
     waves: WaveMotion,
 }
 
 /// The state at the end of a step.
 #[derive(Clone, Copy)]
 struct StepEnd {
+    /// Tangential force, \[N].
     tangential_force: f64,
+    /// Normal force, \[N].
     normal_force: f64,
+    /// Depth of the mean plane, \[m].
     depth: f64,
+    /// Number of elements in contact.
     n_contact: usize,
 }
 
@@ -172,7 +183,7 @@ impl<'a> MovingSurface<'a> {
         let elements = 2 * elements_of_motion(self.surface);
         let fine = || self.on_grid(elements).ok();
         let found = self.load.is_cycle().then(fine).flatten();
-        found.is_some_and(|fine| self.closed_on(&fine).is_full(&fine.waves))
+        found.is_some_and(|fine| self.full_contact_on(&fine).is_full(&fine.waves))
     }
 
     /// The record of the motion on a grid, in closed form or by a march.
@@ -191,13 +202,13 @@ impl<'a> MovingSurface<'a> {
         };
         Ok(MotionRecord {
             spacing: spacing[0],
-            steepness: self.surface.rms_slope(),
+            rms_slope: self.surface.rms_slope(),
             ..record
         })
     }
 
-    fn closed_on<'b>(&self, on_grid: &'b MotionOnGrid) -> Closed<'b> {
-        Closed {
+    fn full_contact_on<'b>(&self, on_grid: &'b MotionOnGrid) -> FullContactSurface<'b> {
+        FullContactSurface {
             grid: &on_grid.grid,
             heights: &on_grid.heights,
             waves: FourierMultiplier::new(&on_grid.grid, &self.elastomer.base()),
@@ -209,7 +220,7 @@ impl<'a> MovingSurface<'a> {
 
     /// A cycle in which the contact is full all the time.
     fn closed(&self, on_grid: &MotionOnGrid) -> MotionRecord {
-        let closed = self.closed_on(on_grid);
+        let closed = self.full_contact_on(on_grid);
         let compliance = closed.factor * self.spectra.creep.equilibrium_compliance();
         let depth =
             closed.mean_pressure * (compliance * self.elastomer.base().uniform_compliance());
@@ -295,12 +306,14 @@ impl<'a> MovingSurface<'a> {
         control: Control,
         state: &WaveStates,
     ) -> Result<StepEnd, BemError> {
+        // Set the step, with the displacements and slopes of its waves.
         let rows = march.rows();
         let waves = state.displacement.iter().zip(&self.wave_numbers);
         let slopes: Vec<Complex<f64>> = waves.map(|(u, q)| Complex::i() * q * u).collect();
         march.set_step(duration, |row| {
             [&state.held, &slopes].map(|values| value_of_row(values, row, rows))
         })?;
+        // Solve the contact under the force.
         let options = ContactOptions {
             tolerance: CONTACT_TOLERANCE,
             ..ContactOptions::default()
@@ -401,7 +414,7 @@ mod tests {
                 return problem.is_full();
             };
             let fine = problem.on_grid(elements).expect("a grid");
-            problem.closed_on(&fine).is_full(&fine.waves)
+            problem.full_contact_on(&fine).is_full(&fine.waves)
         };
         let [mut low, mut high] = [0.1, 10.0];
         while high > 1.001 * low {

@@ -41,7 +41,7 @@ pub(super) struct WaveStates {
 /// The waves over all steps of a motion.
 #[derive(Debug)]
 pub(super) struct WaveMotion {
-    /// Before the first step, and at the end of each.
+    /// States before the first step, and at the end of each.
     pub(super) states: Vec<WaveStates>,
     /// Work on unit waves over the whole motion, by their number, \[Pa].
     pub(super) work: Vec<f64>,
@@ -49,22 +49,27 @@ pub(super) struct WaveMotion {
 
 /// Relaxation and creep spectrum of a material.
 pub(super) struct Spectra {
+    /// Relaxation spectrum in shear.
     pub(super) relaxation: RelaxationSpectrum,
+    /// Creep spectrum in shear.
     pub(super) creep: CreepSpectrum,
 }
 
 /// Response of a unit wave to a motion.
 struct WaveResponse {
-    /// Before the first step and at the end of each, \[Pa].
+    /// Stress before the first step and at the end of each, \[Pa].
     stresses: Vec<Complex<f64>>,
     /// Work over all steps, \[Pa].
     work: f64,
 }
 
-/// A step of a path at constant velocity: duration \[s], ends \[m] and velocity \[m/s].
+/// A step of a path at constant velocity.
 struct Leg {
+    /// Duration, \[s].
     duration: f64,
+    /// Positions at the beginning and at the end, \[m].
     ends: [f64; 2],
+    /// Velocity, \[m/s].
     velocity: f64,
 }
 
@@ -77,6 +82,7 @@ impl WaveMotion {
         wave_numbers: &[f64],
         spectra: &Spectra,
     ) -> Result<Self, BemError> {
+        // Find the stresses of all waves, in closed form on straight paths and from harmonics on others.
         let legs = legs(load, steps);
         let is_straight = load
             .stages()
@@ -90,17 +96,18 @@ impl WaveMotion {
         } else {
             harmonic_responses(load, steps.len(), wave_numbers, &spectra.relaxation)?
         };
-        let places = std::iter::once(0.0).chain(legs.iter().map(|leg| leg.ends[1]));
-        let state = |(index, place): (usize, f64)| WaveStates {
+        // Collect the states at the ends of all steps.
+        let positions = std::iter::once(0.0).chain(legs.iter().map(|leg| leg.ends[1]));
+        let state = |(index, position): (usize, f64)| WaveStates {
             displacement: wave_numbers
                 .iter()
-                .map(|q| Complex::from_polar(1.0, -q * place))
+                .map(|q| Complex::from_polar(1.0, -q * position))
                 .collect(),
             stress: responses.iter().map(|one| one.stresses[index]).collect(),
             held: Vec::new(),
         };
         let mut motion = Self {
-            states: places.enumerate().map(state).collect(),
+            states: positions.enumerate().map(state).collect(),
             work: responses.iter().map(|one| one.work).collect(),
         };
         motion.update_held(load, &legs, spectra)?;
@@ -139,8 +146,8 @@ impl WaveMotion {
                     Some(element) => (&stress, element.compliance),
                     None => (&displacement, 1.0),
                 };
-                for (place, value) in field.iter_mut().zip(values) {
-                    *place = factor * value;
+                for (entry, value) in field.iter_mut().zip(values) {
+                    *entry = factor * value;
                 }
             }
         }
@@ -196,7 +203,7 @@ fn piecewise_linear_response(
     relaxation: &RelaxationSpectrum,
     period: Option<f64>,
 ) -> WaveResponse {
-    let at = |place: f64| Complex::from_polar(1.0, -q * place);
+    let at = |position: f64| Complex::from_polar(1.0, -q * position);
     let first = relaxation.equilibrium_modulus() * at(0.0);
     let mut work = 0.0;
     let mut stresses = vec![first];
@@ -226,17 +233,17 @@ fn piecewise_linear_response(
     WaveResponse { stresses, work }
 }
 
-/// Stress of a branch at the end of a path, and the work on it; `each` gets the index of each step and the stress at its end.
+/// Stress of a branch at the end of a path, and the work on it; `add` gets the index of each step and the stress at its end.
 fn branch_stress(
     q: f64,
     legs: &[Leg],
     branch: &RelaxationBranch,
     start: Complex<f64>,
-    mut each: impl FnMut(usize, Complex<f64>),
+    mut add: impl FnMut(usize, Complex<f64>),
 ) -> (Complex<f64>, f64) {
     let (mut stress, mut work) = (start, 0.0);
     for (index, leg) in legs.iter().enumerate() {
-        let [from, to] = leg.ends.map(|place| Complex::from_polar(1.0, -q * place));
+        let [from, to] = leg.ends.map(|x| Complex::from_polar(1.0, -q * x));
         let turning = Complex::new(0.0, -q * leg.velocity);
         let rate = turning + branch.relaxation_time.recip();
         // The forced part of the stress turns with the wave, the free part relaxes.
@@ -245,12 +252,12 @@ fn branch_stress(
         let passed = -exp_m1(-rate * leg.duration) / rate;
         work += (turning.conj() * (free * from.conj() * passed + forced * leg.duration)).re;
         stress = free * (-leg.duration / branch.relaxation_time).exp() + forced * to;
-        each(index, stress);
+        add(index, stress);
     }
     (stress, work)
 }
 
-/// e^z − 1 without cancellation.
+/// Difference e^z − 1 without cancellation.
 fn exp_m1(z: Complex<f64>) -> Complex<f64> {
     let half = (0.5 * z.im).sin();
     Complex::new(
@@ -266,12 +273,14 @@ fn harmonic_responses(
     wave_numbers: &[f64],
     relaxation: &RelaxationSpectrum,
 ) -> Result<Vec<WaveResponse>, BemError> {
+    // Number of time samples: a multiple of the steps, and enough for the shortest wave.
     let [rear, front] = load.range();
     let (half, period) = (0.5 * (front - rear), load.duration());
     let shortest = wave_numbers.iter().copied().fold(0.0, f64::max);
     let needed = SAMPLES_PER_RADIAN * shortest * half + ADDITIONAL_SAMPLES;
     let finer = whole_part((needed / n_steps as f64).ceil()).max(1);
     let count = finer * n_steps;
+    // Complex modulus at the frequency of each harmonic, conjugate for negative ones.
     let order = |index: usize| index.min(count - index);
     let frequency = |order: usize| TAU * order as f64 / period;
     let modulus = |index: usize| {
@@ -281,6 +290,7 @@ fn harmonic_responses(
     };
     let moduli: Vec<Complex<f64>> = (0..count).map(modulus).collect::<Result<_, BemError>>()?;
     let (forward, inverse) = (f64::forward(count), f64::inverse(count));
+    // Response of a wave: transform, multiply by the moduli, and transform back.
     let of_wave = |q: &f64| {
         let at = |index: usize| {
             let quarter = (0.5 * TAU * index as f64 / count as f64).sin();

@@ -101,6 +101,7 @@ pub fn slide_memory(
 
 /// End of one march.
 struct MarchEnd {
+    /// Transient up to this end.
     transient: Transient,
     /// Friction coefficient at the end, or in the stationary state.
     friction: f64,
@@ -110,12 +111,19 @@ struct MarchEnd {
 
 /// A sliding simulation that can be solved on any number of elements.
 struct PlannedSlide<'a> {
+    /// Body that slides.
     surface: &'a dyn Surface,
+    /// Half space or layer under it.
     elastomer: &'a dyn Elastomer,
+    /// Load and sliding distance.
     load: &'a SlidingLoad,
+    /// Creep spectrum of the material in shear.
     creep: CreepSpectrum,
+    /// Footprint and approximate contact length.
     plan: GridPlan,
+    /// Sliding distance and lengths of elements and steps.
     planned: PlannedDistance,
+    /// Requested accuracy, and the receiver of the progress.
     request: Request<'a>,
 }
 
@@ -331,7 +339,7 @@ impl<'a> PlannedSlide<'a> {
         Ok(MarchEnd {
             transient: end.transient,
             friction: end.friction_coefficient,
-            truncation: Some(end.rest * end.friction_coefficient.abs()),
+            truncation: Some(end.truncation_error * end.friction_coefficient.abs()),
         })
     }
 }

@@ -26,7 +26,7 @@ const MIN_STEPS_OF_CHANGE: usize = 2 * MIN_STEPS;
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
 pub struct StationaryFriction {
-    /// μ_∞, extrapolated from the distances S, S/2 and S/4.
+    /// Friction coefficient μ_∞, extrapolated from the distances S, S/2 and S/4.
     pub friction_coefficient: f64,
     /// Estimated absolute error of the extrapolation: half the spread of the limits extrapolated from each step of the last two
     /// fifths of the distance. A remaining term 1/S³ changes these limits by 3.6 times its size at the end; the contact, and friction
@@ -67,8 +67,10 @@ impl Transient {
         if n < MIN_STEPS {
             return Err(not_stationary(1.0));
         }
+        // Change of the friction over the second half of the march.
         let halfway = self.rows[n / 2 - 1].friction_coefficient;
         let drift = ((value - halfway) / value).abs();
+        // Extrapolate if it is small.
         if drift <= drift_tolerance {
             return Ok(StationaryFriction {
                 friction_coefficient: extrapolated_limit(&self.rows),
@@ -132,7 +134,7 @@ pub struct StationarySlide {
     /// Largest change of the friction coefficient over [`StationaryOptions::over_distance`], relative to its value.
     pub change: f64,
     /// Estimated relative error by the finite sliding distance, from the change over the second half of that distance.
-    pub rest: f64,
+    pub truncation_error: f64,
 }
 
 /// Like [`slide_on_grid`](crate::motions::slide::slide_on_grid), but stops as soon as the friction coefficient is stationary. The
@@ -181,7 +183,7 @@ pub(super) fn slide_until_stationary(
                 transient,
                 friction_coefficient,
                 change,
-                rest: limits.largest_change(0.5 * stationary.over_distance, noise)
+                truncation_error: limits.largest_change(0.5 * stationary.over_distance, noise)
                     / CHANGE_OVER_REMAINDER,
             });
         }

@@ -53,13 +53,15 @@ const GCR_LIMITS: GcrLimits = GcrLimits {
     truncation_depth: 2,
 };
 
+/// The correction on one grid, with the weights of the present active set.
 pub(super) struct BlockCorrection {
+    /// Columns of the grid, and of the blocks.
     columns: usize,
     /// K on the grid of the blocks.
     kernel: PeriodicKernel,
     /// Displacement of an element under its own unit pressure, the unit of K, \[m/Pa].
     self_influence: f64,
-    /// W of each block, 0 for a block with a mean tension.
+    /// Response W of each block to the unit gap, 0 for a block with a mean tension.
     weights: Vec<f32>,
     /// Constant weight in the preconditioner of the block equation.
     mean_weight: f32,
@@ -111,6 +113,7 @@ impl BlockCorrection {
         weights: &[f32],
         unit_depth_response: &mut [f32],
     ) {
+        // Average the response over the blocks, and update the preconditioner.
         let means = self.means(near, weights);
         self.weights = means.iter().map(|mean| mean.max(0.0)).collect();
         let total = f64::from(sum([&self.weights], |[weight]| weight));
@@ -148,6 +151,7 @@ impl BlockCorrection {
             .for_each_part(list, |row_block, [pressures]| {
                 let weights = &weights[near.packed_range(row_block)];
                 for run in near.runs(row_block) {
+                    // Find the blocks of the run, and subtract their share.
                     let first = run.elements().start;
                     let block = first / columns / BLOCK_LENGTH * columns + first % columns;
                     let blocks = displacement[block..].iter().zip(&self.weights[block..]);
@@ -175,6 +179,7 @@ impl BlockCorrection {
             let first_row = near.row_blocks.rows(row_block).start;
             let list = &list[near.packed_range(row_block)];
             for run in near.runs(row_block) {
+                // Add each run to the blocks of its columns.
                 let first = run.elements().start;
                 let block =
                     (first / columns - first_row) / BLOCK_LENGTH * columns + first % columns;
@@ -218,11 +223,13 @@ impl BlockCorrection {
                 add_scaled(image, -1.0, &from[row_blocks.elements(row_block)]);
             });
         };
+        // Add the image of the guess to the residual.
         if norm(displacement) > 0.0 {
             let mut image = copies(0.0, means.len());
             find_image(displacement, &mut image);
             add_scaled(&mut residual, 1.0, &image);
         }
+        // Solve to the target: the preconditioned residual is the next direction.
         let find_direction = |state: GcrState<f32>, direction: &mut [f32], image: &mut [f32]| {
             let goes_on = state.residual_square.sqrt() > target;
             if goes_on {

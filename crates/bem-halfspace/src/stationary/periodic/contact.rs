@@ -20,7 +20,9 @@ const INEXACT_TOLERANCE: f64 = 0.01;
 /// A contact problem on one grid.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PeriodicContact<'a> {
+    /// Material and speed.
     pub(super) sliding: &'a Sliding,
+    /// Grid of one period.
     pub(super) grid: &'a Grid,
     /// Heights at the centres of the elements, \[m].
     pub(super) heights: &'a [f64],
@@ -52,6 +54,7 @@ pub(super) fn solve(
     let mean_height = mean(&heights);
     let squares = heights.iter().map(|h| (h - mean_height).powi(2));
     let variance = squares.sum::<f64>() / heights.len() as f64;
+    // Search the active set.
     let own = equations.self_influence;
     let depth = problem.prescribed_depth().map(|depth| mean_height + depth);
 
@@ -95,6 +98,7 @@ pub(super) fn solve(
     let found = search.run();
     let [residual, depth] = [search.residual, search.depth];
     *pressure = search.pressure;
+    // Return the pressure, and outside the contact the gap as a negative one.
     for ((pressure, gap), inside) in pressure.iter_mut().zip(search.gap).zip(search.active) {
         *pressure = if inside {
             pressure.max(0.0)
@@ -134,11 +138,14 @@ impl PeriodicContact<'_> {
 struct PeriodicFixedSetSolver<'a> {
     /// Prescribed value of h + u in the contact, \[m]; `None` under a mean pressure.
     depth: Option<f64>,
+    /// Contact problem.
     problem: PeriodicContact<'a>,
+    /// Equations on the present active set.
     equations: &'a mut Equations,
 }
 
 impl FixedSetSolver for PeriodicFixedSetSolver<'_> {
+    /// The period repeats along x.
     const PERIODIC_ALONG_X: bool = true;
     /// With `usual` = 0.1 there are up to a quarter more operator applications in light contact.
     ///

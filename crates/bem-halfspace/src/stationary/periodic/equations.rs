@@ -65,22 +65,24 @@ const ITERATIONS_IN_DIRECT_SOLVES: f64 = 4.0;
 
 /// The equations on one active set, with packed vectors over it.
 pub(super) struct Equations {
+    /// Kernel K on the grid.
     pub(super) kernel: PeriodicKernel,
     /// `None` if the grid cannot be divided into blocks.
     correction: Option<BlockCorrection>,
     active: ActiveSet,
     /// True if the mean pressure is given, false if the depth is.
     depth_is_free: bool,
-    /// \[Pa].
+    /// Pressure on the active set and its neighbours, \[Pa].
     pressure: Vec<f64>,
     /// Unit of the gaps, \[m]. The unit of the pressures displaces its own element by this unit.
     unit: f64,
     /// Gap, less its mean if the depth is free, in `unit`.
     gap: Vec<f32>,
-    /// S 1: response of S to the unit gap on the active set.
+    /// Response S 1 of S to the unit gap on the active set.
     weights: Vec<f32>,
     /// Response of the preconditioner, with its correction, to the unit gap on the active set.
     unit_depth_response: Vec<f32>,
+    /// Sum of that response over the active set.
     total_unit_depth_response: f64,
     /// Symbols of K on the whole grid.
     influence_symbols: Vec<Complex<f32>>,
@@ -141,6 +143,7 @@ impl Equations {
         self.active.assign(|element| active[element]);
         self.active.find_runs();
         self.scattered.fill(0.0);
+        // Gather pressure and gap.
         self.pressure = self.gather(pressure);
         self.set_gap(self.gather(gap));
         let mut weights = copies(1.0, self.active.len());
@@ -291,6 +294,7 @@ impl Equations {
             let depth = -self.total(direction) / self.total_unit_depth_response;
             add_scaled(direction, f32::rounded(depth), &self.unit_depth_response);
         }
+        // Find the gaps that the direction causes.
         self.apply_influence(direction, image);
     }
 

@@ -142,6 +142,7 @@ pub fn indent_on_coarse_grid(
     on_coarse_grid(surface, &spring, control, finer)
 }
 
+/// Solves on the first grid of an estimate, or on one with `finer` times the elements along both axes.
 fn on_coarse_grid(
     surface: &PeriodicSurface,
     sliding: &Sliding,

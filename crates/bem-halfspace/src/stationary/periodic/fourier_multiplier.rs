@@ -11,19 +11,24 @@ use crate::{Base, Grid};
 
 /// Plans and wave numbers of a grid, for products with symbols by the waves that it resolves.
 pub(crate) struct FourierMultiplier {
+    /// Rows and columns of the grid.
     shape: [usize; 2],
+    /// Transforms in double precision, planned at their first use.
     double: Option<Transforms<f64>>,
+    /// Transforms in single precision, planned at their first use.
     single: Option<Transforms<f32>>,
-    /// q_x of the rows of a transformed field, \[rad/m]; positive for the shortest wave.
+    /// Wave number q_x of each row of a transformed field, \[rad/m]; positive for the shortest wave.
     pub(crate) along_x: Vec<f64>,
-    /// |q|/M of all waves by column and row of the transform, \[rad/m]; for the mean that of the longest wave.
+    /// Stiffness |q|/M of all waves by column and row of the transform, \[rad/m]; for the mean that of the longest wave.
     stiffness: Vec<f64>,
 }
 
 impl FourierMultiplier {
+    /// The waves of a grid on a half space or a layer.
     pub(crate) fn new(grid: &Grid, base: &Base) -> Self {
         let [rows, columns] = grid.shape();
         let [dx, dy] = grid.spacing();
+        // Wave numbers of the rows; those of the second half are negative.
         let unit_x = 2.0 * PI / (rows as f64 * dx);
         let unit_y = 2.0 * PI / (columns as f64 * dy);
         let number = |row: usize| {
@@ -31,6 +36,7 @@ impl FourierMultiplier {
             (row as f64 - back) * unit_x
         };
         let along_x: Vec<f64> = (0..rows).map(number).collect();
+        // Stiffness of the base for each wave.
         let longest = unit_x.min(unit_y);
         let mut stiffness = copies(0.0, (columns / 2 + 1) * rows);
         for_each_row(&mut stiffness, rows, |column, values| {
@@ -130,7 +136,9 @@ impl FourierMultiplier {
 
 /// Transforms of whole fields with their buffers.
 struct Transforms<T> {
+    /// Plans of the transforms along both axes.
     plans: PlaneTransform<T>,
+    /// Buffers of the transforms.
     workspace: Workspace<T>,
 }
 

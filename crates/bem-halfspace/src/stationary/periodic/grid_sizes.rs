@@ -74,7 +74,7 @@ fn coarsest(surface: &PeriodicSurface) -> [usize; 2] {
         _ => (COARSE_EDGE_MULTIPLE * fast_length((number + 1).div_ceil(COARSE_EDGE_MULTIPLE)))
             .max(MIN_COARSEST_EDGE),
     });
-    match surface.told_by(first) {
+    match surface.resolved_on(first) {
         Some(_) => first,
         None => first.map(|edge| 2 * edge),
     }

@@ -24,14 +24,18 @@ use crate::{Base, BemError, Elastomer, Grid};
 /// A material under a surface that slides.
 #[derive(Debug, Clone)]
 pub(crate) struct Sliding {
+    /// Creep spectrum of the material in shear.
     pub(super) creep: CreepSpectrum,
-    /// 1 − ν, for the Poisson ratio ν.
+    /// Factor 1 − ν, for the Poisson ratio ν.
     pub(crate) factor: f64,
+    /// Sliding speed, \[m/s].
     velocity: f64,
+    /// Base of the material: a half space of the same material, or a substrate.
     base: Base,
 }
 
 impl Sliding {
+    /// The material at a speed \[m/s]; fails for one that flows.
     pub(crate) fn new(elastomer: &dyn Elastomer, velocity: f64) -> Result<Self, BemError> {
         check_spectra(&elastomer.material())?;
         let creep = elastomer.material().creep();
@@ -63,10 +67,12 @@ impl Sliding {
         })
     }
 
+    /// True if the material rests on a rigid base, so that a uniform pressure displaces it by a finite distance.
     pub(super) fn is_on_rigid_base(&self) -> bool {
         self.base.is_rigid()
     }
 
+    /// Base of the material: a half space of the same material, or a substrate.
     #[cfg(feature = "rough")]
     pub(super) const fn base(&self) -> &Base {
         &self.base
@@ -103,25 +109,29 @@ impl Sliding {
 ///
 /// A mean pressure compresses a layer, and leaves the mean of a half space where it is.
 pub(super) struct PeriodicKernel {
+    /// Waves of the grid.
     waves: FourierMultiplier,
     /// Displacement per mean pressure, \[m/Pa]; 0 for a half space.
     pub(super) mean_compliance: f64,
-    /// |q| û/(p̂ M) at the centre of an element, \[1/Pa].
+    /// Compliance |q| û/(p̂ M) of each row at the centre of an element, \[1/Pa].
     at_centre: Vec<Complex<f64>>,
     /// Phase shift from the centre to the point at which the gap is evaluated.
     shift: Vec<Complex<f64>>,
-    /// Product of both: |q| û/(p̂ M) at that point.
+    /// Product of both: the compliance at the point where the gap is evaluated.
     at_gap: Vec<Complex<f64>>,
 }
 
 impl PeriodicKernel {
+    /// The kernel of a material and its speed on a grid.
     pub(super) fn new(sliding: &Sliding, grid: &Grid) -> Result<Self, BemError> {
+        // Compliances of the rows, and the part θ of an element by which the shortest wave is shifted.
         let dx = grid.spacing()[0];
         let waves = FourierMultiplier::new(grid, &sliding.base);
         let along_x = &waves.along_x;
         let mut at_centre = sliding.compliances(along_x)?;
         let shortest = sliding.compliances(&[PI / dx])?[0];
         let theta = -shortest.arg() / PI;
+        // Shift the points of all waves by this distance.
         let turn = |q_x: &f64| Complex::from_polar(1.0, q_x * theta * dx);
         let mut shift: Vec<_> = along_x.iter().map(turn).collect();
         let mut at_gap: Vec<_> = at_centre.iter().zip(&shift).map(|(c, s)| c * s).collect();

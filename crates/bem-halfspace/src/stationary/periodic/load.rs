@@ -20,8 +20,11 @@ pub enum PeriodicControl {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PeriodicLoad {
+    /// Prescribed mean pressure or depth.
     control: PeriodicControl,
+    /// Sliding speed v, \[m/s].
     velocity: f64,
+    /// Sliding distance from rest, \[m]; `None` for the stationary state.
     sliding_distance: Option<f64>,
 }
 
@@ -32,7 +35,7 @@ impl PeriodicLoad {
     /// [`InvalidParameter`] for numbers out of these ranges.
     pub fn new(mean_pressure: f64, velocity: f64) -> Result<Self, InvalidParameter> {
         let pressure = positive("mean_pressure", mean_pressure)?;
-        Self::with(PeriodicControl::MeanPressure(pressure), velocity)
+        Self::stationary(PeriodicControl::MeanPressure(pressure), velocity)
     }
 
     /// The stationary state with the mean plane at a depth \[m], at a velocity ≥ 0 \[m/s] towards positive x.
@@ -44,10 +47,11 @@ impl PeriodicLoad {
     /// [`InvalidParameter`] for numbers that are not finite, and a negative velocity.
     pub fn at_depth(mean_depth: f64, velocity: f64) -> Result<Self, InvalidParameter> {
         in_range("mean_depth", mean_depth, mean_depth.is_finite(), "finite")?;
-        Self::with(PeriodicControl::MeanDepth(mean_depth), velocity)
+        Self::stationary(PeriodicControl::MeanDepth(mean_depth), velocity)
     }
 
-    fn with(control: PeriodicControl, velocity: f64) -> Result<Self, InvalidParameter> {
+    /// A stationary state at a velocity, which is checked.
+    fn stationary(control: PeriodicControl, velocity: f64) -> Result<Self, InvalidParameter> {
         Ok(Self {
             control,
             velocity: not_negative("velocity", velocity)?,

@@ -140,16 +140,19 @@ fn solve_from(guess: &mut Vec<f64>, problem: PeriodicContact) -> Result<Periodic
     in_pool(problem.grid.n_elements(), || solve_in_pool(guess, problem))
 }
 
+/// Solves a problem as [`solve_from`], on the threads of the caller, and evaluates the friction.
 fn solve_in_pool(
     guess: &mut Vec<f64>,
     problem: PeriodicContact,
 ) -> Result<PeriodicSliding, BemError> {
     let is_closed = |depth: f64| depth >= 0.0 && !problem.sliding.is_on_rigid_base();
     problem.check_depth(|depth| !is_closed(depth))?;
+    // Solve for the pressure.
     let mut equations = Equations::new(problem.sliding, problem.grid, problem.control)?;
     let solved = nested::solve(problem, &mut equations, guess)?;
     problem.check_depth(|_| guess.iter().any(|pressure| *pressure > 0.0))?;
     let pressure: Vec<f64> = guess.iter().map(|p| p.max(0.0)).collect();
+    // Compute the friction in both ways.
     let mut field = vec![0.0; pressure.len()];
     let weighted_mean = |field: &[f64]| dot(field, &pressure) / pressure.iter().sum::<f64>();
     equations.kernel.slopes(problem.heights, &mut field);
@@ -172,12 +175,14 @@ fn solve_in_pool(
 }
 
 impl PeriodicOptions {
+    /// Refuses numbers out of their ranges.
     fn validate(&self) -> Result<(), InvalidParameter> {
         numerics::between_zero_and_one("tolerance", self.tolerance)?;
         positive("max_products", self.max_products as f64).map(drop)
     }
 }
 
+/// Refuses heights that are not finite, too few, or all the same.
 pub(crate) fn check_surface(grid: &Grid, heights: &[f64]) -> Result<(), BemError> {
     let [rows, columns] = grid.shape();
     check_length("heights", heights.len(), grid.n_elements())?;

@@ -56,6 +56,7 @@ fn solve_on_coarser_grids(
     if !problem.grid.shape().iter().all(can_be_coarsened) {
         return Ok(());
     }
+    // Restrict the problem, and guess its pressure on still coarser grids.
     let grid = problem.grid.blocks();
     let heights = restrict(problem.grid, problem.heights);
     let coarse = PeriodicContact {
@@ -112,6 +113,7 @@ fn prolong(field: &[f64], shape: [usize; 2]) -> Vec<f64> {
     let in_contact = |field: &[f64]| field.iter().filter(|pressure| **pressure > 0.0).count();
     let columns = shape[1];
     let parent = |element: usize| field[element / (4 * columns) * columns + element / 2 % columns];
+    // Interpolate, and deactivate children of inactive elements where the set grows too much.
     let mut fine = interpolated(field, shape, shape.map(|n| 2 * n));
     if in_contact(&fine) > MAX_GROWTH_ON_PROLONGATION * in_contact(field) {
         for (element, pressure) in fine.iter_mut().enumerate() {
@@ -120,6 +122,7 @@ fn prolong(field: &[f64], shape: [usize; 2]) -> Vec<f64> {
             }
         }
     }
+    // Give the values to all children where the set would shrink too much.
     if in_contact(&fine) >= 2 * in_contact(field) {
         return fine;
     }
@@ -161,6 +164,7 @@ fn full_contact(
     let mean_height = mean(problem.heights);
     let heights = problem.heights.iter();
     let displacement: Vec<f64> = heights.map(|height| mean_height - height).collect();
+    // Find the pressure of these displacements, with the prescribed mean.
     let mut full = vec![0.0; displacement.len()];
     equations.kernel.invert_at_centre(&displacement, &mut full);
     let compliance = equations.kernel.mean_compliance;

@@ -30,10 +30,8 @@ pub(super) fn area_fraction(field: &PressureField, surface: &PeriodicSurface) ->
         Some([along_x, along_y]) => 0.5 / (EXCESS_PER_EDGE * (along_x + along_y) as f64),
         None => 0.0,
     };
-    Estimate::new(
-        found.area,
-        REMAINING_FRACTION.max(part) * found.perimeter_correction,
-    )
+    let error = REMAINING_FRACTION.max(part) * found.perimeter_correction;
+    Estimate::new(found.area, error)
 }
 
 /// Elements along x and y, without a common factor, that the lines of unidirectional roughness pass.

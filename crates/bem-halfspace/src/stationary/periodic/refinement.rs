@@ -66,9 +66,13 @@ pub(super) struct ConvergenceRate {
 
 /// Accuracy asked for, control, and assumed convergence.
 pub(super) struct RefinementGoal<'w> {
+    /// Accuracy asked for, and the receiver of the progress.
     pub(super) request: Request<'w>,
+    /// Prescribed mean pressure or depth.
     pub(super) control: PeriodicControl,
+    /// Assumed convergence of the friction.
     pub(super) friction: ConvergenceRate,
+    /// Assumed convergence of the area.
     pub(super) area: ConvergenceRate,
     /// Steps of a march per row of the grid; `None` for a stationary state.
     pub(super) steps_per_row: Option<f64>,
@@ -76,7 +80,9 @@ pub(super) struct RefinementGoal<'w> {
 
 /// Results on one grid.
 pub(super) struct GridResult {
+    /// Friction coefficient from slopes.
     pub(super) friction: f64,
+    /// Friction coefficient from the dissipated power; `None` for a march.
     pub(super) from_dissipation: Option<f64>,
     /// Area fraction with the error of its perimeter correction.
     pub(super) area_fraction: Estimate,
@@ -86,7 +92,9 @@ pub(super) struct GridResult {
     pub(super) has_all_waves: bool,
     /// Bound of the effect of gaps between elements that are all in contact.
     pub(super) subgrid_gaps: SubgridGapBound,
+    /// Mean pressure, \[Pa].
     pub(super) mean_pressure: f64,
+    /// Depth of the mean plane, \[m].
     pub(super) mean_depth: f64,
     /// Relative residual of the contact.
     pub(super) residual: f64,
@@ -94,6 +102,7 @@ pub(super) struct GridResult {
 
 /// A surface sampled on one grid.
 pub(super) struct SampledSurface {
+    /// Grid of one period.
     pub(super) grid: Grid,
     /// Heights of the resolved modes at the centres of the elements, \[m].
     pub(super) heights: Vec<f64>,
@@ -102,10 +111,11 @@ pub(super) struct SampledSurface {
 }
 
 impl SampledSurface {
+    /// Samples the waves that a grid of this shape resolves; fails if it resolves none.
     pub(super) fn new(surface: &PeriodicSurface, shape: [usize; 2]) -> Result<Self, BemError> {
         let spacing = [0, 1].map(|axis| surface.period()[axis] / shape[axis] as f64);
         let grid = Grid::new(shape, spacing)?;
-        let told = surface.told_by(shape);
+        let told = surface.resolved_on(shape);
         let heights = told.as_deref().unwrap_or(surface).heights(shape)?;
         check_surface(&grid, &heights)?;
         Ok(Self {
@@ -160,9 +170,9 @@ where
 
         // Give up if the next grid is too large, or too large for what it may reach.
         let missed = asked.and_then(|asked| found.missed(asked, shape[0].max(shape[1]) / 2));
-        let unfinished = missed.filter(|missed| goal.may_refine_to(shape, missed.excess()));
+        let unfinished = missed.filter(|missed| goal.may_refine_to(shape, missed.error_ratio()));
         if let Some(missed) = unfinished {
-            goal.check_march(missed.excess(), shape)?;
+            goal.check_march(missed.error_ratio(), shape)?;
         }
         let remaining_work = unfinished.map(|missed| goal.forecast(shape).remaining_work(&missed));
         Ok::<_, BemError>(Some(Level {
@@ -229,6 +239,7 @@ impl RefinementGoal<'_> {
         let [.., coarse, middle, fine] = grids else {
             return None;
         };
+        // Error of a quantity from its last two changes.
         let with_error = |quantity: &dyn Fn(&GridResult) -> f64, rate: ConvergenceRate| {
             let [coarse, middle, value] = [coarse, middle, fine].map(quantity);
             let previous_change = (middle - coarse).abs();

@@ -22,11 +22,13 @@ const SUBSAMPLES_PER_AXIS: usize = 4;
 /// Upper bounds of what sub-grid gaps change; zero if there are none.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct SubgridGapBound {
+    /// Bound of the change of the friction coefficient.
     pub(super) friction: f64,
+    /// Bound of the change of the area fraction.
     pub(super) area_fraction: f64,
-    /// \[Pa].
+    /// Bound of the change of the mean pressure, \[Pa].
     pub(super) mean_pressure: f64,
-    /// \[m].
+    /// Bound of the change of the mean depth, \[m].
     pub(super) mean_depth: f64,
 }
 
@@ -47,6 +49,7 @@ impl SubgridGapBound {
         if pressure.iter().any(|pressure| *pressure <= 0.0) {
             return Self::default();
         }
+        // Amplitude of the pressure between the centres, and the most by which it falls below the nearest sample.
         let n = pressure.len() as f64;
         let mean = mean(pressure);
         let deviations = pressure.iter().map(|pressure| (pressure - mean).abs());

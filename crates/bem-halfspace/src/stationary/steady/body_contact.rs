@@ -38,7 +38,7 @@ pub(super) fn solve(
 ) -> Result<Solution, BemError> {
     // Initial pressure on the mesh, and heights as initial gaps.
     if guess.is_empty() {
-        // Refuse: no element is as low as the contact is deep.
+        // No element lies below the depth of the contact: refuse the grid.
         check_contact_elements(0)?;
     }
     let elements = 0..mesh.n_elements();

@@ -56,6 +56,7 @@ pub(super) struct ContactEquations<'mesh> {
 }
 
 impl FixedSetSolver for ContactEquations<'_> {
+    /// A single body has ends along x.
     const PERIODIC_ALONG_X: bool = false;
     /// With ten times these values there are 1.4 times as many active sets, which take a tenth longer in total. A third of them hardly
     /// changes anything.

@@ -7,7 +7,7 @@
 //! D = h(a) = 2 (1 − ν) F_N J(a/v)/(4 a)
 //! ```
 //!
-//! which is F_N/(4ηv) for the dashpot, whatever the body, and has one solution for every body that rises, because
+//! which is F_N/(4ηv) for the dashpot and any body, and has one solution for every body that rises, because
 //! J(t)/t never increases. A profile that is infinite along y presses with a force F' per length, and
 //!
 //! ```text

@@ -91,7 +91,7 @@ fn lagrange(nodes: &[f64], index: usize, x: f64) -> f64 {
     factors.product()
 }
 
-/// rate · ∫_0^1 e^(−rate·s) P_n(2s − 1) ds = (−1)ⁿ 2z e^(−z) i_n(z), z = rate/2.
+/// Moments rate · ∫_0^1 e^(−rate·s) P_n(2s − 1) ds = (−1)ⁿ 2z e^(−z) i_n(z), z = rate/2.
 fn legendre_moments(rate: f64, count: usize) -> [f64; MAX_POINTS] {
     let z = 0.5 * rate;
     let first = -(-rate).exp_m1();
@@ -118,7 +118,7 @@ fn legendre_moments(rate: f64, count: usize) -> [f64; MAX_POINTS] {
             moments[n] = moments[n - 1] * ratios[n];
         }
     }
-    // Signs (−1)ⁿ.
+    // Moments of odd order n have the sign (−1)ⁿ = −1.
     for moment in moments.iter_mut().skip(1).step_by(2) {
         *moment = -*moment;
     }

@@ -128,6 +128,7 @@ pub(super) fn refine<E: Into<Reached>>(
 ) -> Result<E, BemError> {
     between_zero_and_one("relative_error", options.relative_error)?;
     positive("aspect", options.aspect)?;
+    // Start with no grid solved.
     let mut grids = ShiftedGrids {
         problem,
         options,
@@ -138,6 +139,7 @@ pub(super) fn refine<E: Into<Reached>>(
         subgrid_friction_fraction: 0.0,
         hides_edge: false,
     };
+    // Solve on finer and finer grids.
     let initial_work = (0..MIN_REFINEMENTS).map(work_of_level).sum();
     let finest = refine_levels(problem.watch, initial_work, |_, progress| {
         grids.solve_next(progress).map(Some)
@@ -302,7 +304,7 @@ impl ShiftedGrids<'_> {
     /// error.
     fn friction(&self) -> Estimate {
         let loading = &self.problem.loading;
-        // Orders to try.
+        // Choose the convergence orders that are tried.
         let is_small = self.reuse.solution.as_ref().is_some_and(|last| {
             last.friction_coefficient.abs() < SMALL_FRICTION_RATIO * last.mean_slope
         });
@@ -334,14 +336,14 @@ impl ShiftedGrids<'_> {
 
     /// The given normal force, or its limit at a given depth.
     fn force(&self) -> Estimate {
-        let [given, _] = bars::given(self.problem.loading.control);
+        let [given, _] = bars::prescribed_estimates(self.problem.loading.control);
         given.unwrap_or_else(|| self.limit(self.order, |level| level.normal_force))
     }
 
     /// The given depth, or its limit under a given force. `None` in plane strain on a half space, where depth has no meaning.
     fn depth(&self) -> Option<Estimate> {
         let Loading { creep, strip, .. } = &self.problem.loading;
-        let [_, given] = bars::given(self.problem.loading.control);
+        let [_, given] = bars::prescribed_estimates(self.problem.loading.control);
         let has_depth = strip.is_none() || creep.base().is_rigid();
         given.or_else(|| has_depth.then(|| self.limit(self.order, |level| level.indentation_depth)))
     }
@@ -355,6 +357,7 @@ impl ShiftedGrids<'_> {
         options: SteadyOptions,
     ) -> SteadyEstimate {
         let iteration = finest.iteration_error();
+        // Each quantity is the limit of its averages.
         let peak_pressure = || self.limit(self.order, |level| level.peak_pressure);
         let [dx, dy] = options.spacing;
         SteadyEstimate {
@@ -486,6 +489,7 @@ impl ShiftedGrids<'_> {
             };
             solve(surface, loading, &options, &mut self.reuse)
         };
+        // Solve on the given grid, and on similar ones while the search does not end.
         let mut solution = solve_on(options.spacing);
         for factor in CYCLING_SPACING_FACTORS {
             let failed = matches!(

@@ -155,7 +155,7 @@ pub fn steady_line<'w>(
         return refine(&problem, &options, finish);
     }
 
-    // Solve on the grids that the error estimate of given elements asks for.
+    // Solve on all grids that the error estimate for this number of elements needs.
     let loading = &problem.loading;
     let mut resolution = resolution(request, loading.control, problem.has_peak);
     resolution.goal.order = PROFILE_ORDER;

@@ -220,7 +220,7 @@ impl GridLoading {
     }
 }
 
-/// ln(2s/L): the depth after the sliding distance s in units of F_N/(4πηv), for a kernel with lengths in units of L.
+/// Sinking ln(2s/L): the depth after the sliding distance s in units of F_N/(4πηv), for a kernel with lengths in units of L.
 pub(super) fn sinking_in_e_folds(sliding_distance: f64, unit_length: f64) -> f64 {
     (2.0 * (sliding_distance / unit_length)).ln()
 }

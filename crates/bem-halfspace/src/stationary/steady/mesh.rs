@@ -337,6 +337,7 @@ impl Mesh {
     /// Load-weighted means of the slopes.
     pub(super) fn mean_slopes(&self, loads: &[(usize, f64)]) -> LoadWeightedSlopes {
         let (mut sums, mut total_load) = ([0.0; 3], 0.0);
+        // Sum the slopes, weighted with load and images.
         for &(element, load) in loads {
             let Element {
                 slope,

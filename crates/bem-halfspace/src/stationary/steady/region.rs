@@ -53,10 +53,7 @@ impl Region {
 
     /// Gathers a vector over the set from a field over the box.
     pub(super) fn gather(&self, field: &[f64]) -> Vec<f64> {
-        self.indices
-            .iter()
-            .map(|[index, _]| field[*index])
-            .collect()
+        self.indices.iter().map(|[from, _]| field[*from]).collect()
     }
 
     /// Position of each element between the rear (0) and the front (1) of its run of contiguous elements along x.

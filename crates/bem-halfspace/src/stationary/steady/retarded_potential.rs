@@ -404,7 +404,7 @@ mod tests {
     use crate::stationary::steady::sliding_creep::RetardationElement;
     use crate::{Elastomer, Layer};
 
-    /// q ∫ e^(−q s) V(x + s) ds by the double-exponential rule, between all points where the integrand has a scale; on a track
+    /// Retarded potential q ∫ e^(−q s) V(x + s) ds by the double-exponential rule, between all points where the integrand has a scale; on a track
     /// once around it, with V of the nearest image, over 1 − e^(−q L).
     fn reference(rate: f64, [x, y]: [f64; 2], base: &Base, scene: &Scene) -> f64 {
         let track = scene.track.unwrap_or(f64::INFINITY);

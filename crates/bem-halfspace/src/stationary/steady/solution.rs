@@ -80,6 +80,7 @@ impl SteadySliding {
         options: SteadyOptions,
         sliding_distance: Option<f64>,
     ) -> OnGrid<Self, SteadyOptions> {
+        // Estimate the friction of details that the elements do not resolve.
         let fraction = self.subgrid_friction_fraction(creep, kinks);
         let subgrid_friction = fraction * self.friction_coefficient.abs();
         OnGrid {

@@ -76,6 +76,7 @@ impl WakeTable {
             values: vec![0.0; n_values],
             creep_within_element: vec![0.0; n_values],
         };
+        // Add the parts of the creep.
         if creep.flow > 0.0 {
             table.add_flow(smaller);
         }

@@ -37,7 +37,7 @@ const MAX_FOLDED_LENGTH: usize = 512;
 pub(super) struct CosineTransform<T> {
     /// Real Fourier transform of L numbers, or of the period of 2 L.
     plan: Arc<dyn RealToComplex<T>>,
-    /// sin(πn/L) for n = 0 … L/2; `None` if the whole period is transformed.
+    /// Sines sin(πn/L) for n = 0 … L/2; `None` if the whole period is transformed.
     sines: Option<Vec<T>>,
 }
 

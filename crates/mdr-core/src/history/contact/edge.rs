@@ -13,9 +13,9 @@ pub(super) struct Edge {
     pub(super) n_rings: usize,
     /// Contact radius, \[m].
     pub(super) radius: f64,
-    /// σ_k at the edge, \[Pa m].
+    /// Stresses σ_k at the edge, \[Pa m].
     pub(super) stresses: Vec<f64>,
-    /// When the element at the edge came into contact, in a ring of new elements; `None` in other rings.
+    /// Time at which the element at the edge came into contact, in a ring of new elements; `None` in other rings.
     pub(super) since: Option<SegmentTime>,
 }
 
@@ -42,7 +42,7 @@ impl Contact<'_> {
             n_rings: self.rings.len(),
             radius: ring.outer,
             stresses: if is_first {
-                self.path.lag(ring.to, at).stresses
+                self.path.decayed_history(ring.to, at).stresses
             } else {
                 self.stresses_in(ring, ring.outer, at)
             },
@@ -67,7 +67,7 @@ impl Contact<'_> {
     fn edge_in_first_contact(&self, ring: &EdgeMove, at: SegmentTime) -> Option<Edge> {
         let path = &self.path;
         let since = |part: f64| SegmentTime { part, ..ring.from };
-        let load = |part: f64| path.load(&path.lag(since(part), at).stresses, at);
+        let load = |part: f64| path.load(&path.decayed_history(since(part), at).stresses, at);
         let ends = [ring.from.part, ring.to.part];
         if load(ends[0]) < 0.0 {
             return None;
@@ -78,7 +78,7 @@ impl Contact<'_> {
             radius: self
                 .radii
                 .radius_and_slope([ring.from, since].map(|at| path.depth(at)))[0],
-            stresses: path.lag(since, at).stresses,
+            stresses: path.decayed_history(since, at).stresses,
             since: Some(since),
         })
     }
@@ -99,16 +99,16 @@ impl Contact<'_> {
         })
     }
 
-    /// σ_k of an element in a ring of elements that came into contact again, \[Pa m].
+    /// Stresses σ_k of an element in a ring of elements that came into contact again, \[Pa m].
     pub(super) fn stresses_in(&self, ring: &EdgeMove, radius: f64, at: SegmentTime) -> Vec<f64> {
-        let radius = radius.max(ring.inner.next_up());
+        let inside = radius.max(ring.inner.next_up());
         match self
             .elements()
-            .follow(radius, &self.edge_moves[..=ring.n_earlier])
+            .follow(inside, &self.edge_moves[..=ring.n_earlier])
         {
             ElementState::Loaded(loaded) => self.elements().stresses(&loaded, at),
-            // By rounding an element of no extent may lie beside the ring.
-            _ => self.path.lag(ring.to, at).stresses,
+            // By rounding an element at the end of the ring may lie outside it.
+            _ => self.path.decayed_history(ring.to, at).stresses,
         }
     }
 }

@@ -13,7 +13,7 @@ const MAX_PANEL_DIVISIONS: u32 = 12;
 const QUADRATURE_ERROR_OVER_CHANGE: f64 = 4.0;
 
 impl Contact<'_> {
-    /// Φ_k of the present rings at a time, \[Pa m²].
+    /// Integrals Φ_k over the present rings at a time, \[Pa m²].
     pub(super) fn sums_at(&mut self, at: SegmentTime) -> Vec<f64> {
         let n_branches = self.path.n_branches();
         let Some(ring) = self.rings.last().copied() else {
@@ -24,33 +24,33 @@ impl Contact<'_> {
 
         // A ring of new elements has grown, and may have been held since.
         if ring.direction == EdgeDirection::FirstContact {
-            self.before_shrinking(&ring, &mut sums);
+            self.add_growth(&ring, &mut sums);
             if ring.to != at {
-                let lag = self.path.lag(ring.to, at);
-                held(&mut sums, ring.outer, &lag);
+                let lag = self.path.decayed_history(ring.to, at);
+                hold_sums(&mut sums, ring.outer, &lag);
                 self.edge_modulus = Some(self.path.modulus(&lag));
             }
             return sums;
         }
 
         // Elements that came into contact again are summed by quadrature, those inside as held.
-        let lag = self.path.lag(ring.from, at);
-        held(&mut sums, ring.inner, &lag);
+        let lag = self.path.decayed_history(ring.from, at);
+        hold_sums(&mut sums, ring.inner, &lag);
         self.edge_modulus = Some(self.path.modulus(&lag));
-        let around = self.ring_sums(&ring, at);
-        let pairs = sums.iter_mut().zip(around);
-        pairs.for_each(|(sum, around)| *sum += around);
+        let in_ring = self.ring_sums(&ring, at);
+        let pairs = sums.iter_mut().zip(in_ring);
+        pairs.for_each(|(sum, in_ring)| *sum += in_ring);
         sums
     }
 
     /// Advances Φ_k over the growth of a ring of new elements.
-    fn before_shrinking(&self, ring: &EdgeMove, sums: &mut [f64]) {
+    fn add_growth(&self, ring: &EdgeMove, sums: &mut [f64]) {
         let path = &self.path;
         let step = path.time(ring.to) - path.time(ring.from);
         let depths = [ring.from, ring.to].map(|at| path.depth(at));
-        let radius = self.radii.along(depths);
-        let mut row = [0.0; N_COEFFICIENTS];
-        let row = &mut row[..radius.terms().len()];
+        let radius = self.radii.polynomial_between(depths);
+        let mut buffer = [0.0; N_COEFFICIENTS];
+        let row = &mut buffer[..radius.terms().len()];
         for ((sum, rate), modulus) in sums.iter_mut().zip(&path.rates).zip(&path.moduli) {
             moments(rate * step, row);
             let terms = radius.terms().iter().zip(&*row);
@@ -60,15 +60,15 @@ impl Contact<'_> {
         }
     }
 
-    /// ∫ σ_k dx over a ring of elements that came into contact again, by adaptive Gauss–Lobatto quadrature.
+    /// Integrals ∫ σ_k dx over a ring of elements that came into contact again, by adaptive Gauss–Lobatto quadrature.
     fn ring_sums(&mut self, ring: &EdgeMove, at: SegmentTime) -> Vec<f64> {
         let mut radii = vec![ring.inner, ring.outer];
         // Panels end where earlier moves of the edge began or ended; such kinks are small, and matter only for exact sums.
         let is_exact = self.tolerance <= EXACT_QUADRATURE_TOLERANCE;
         let inside = |radius: &f64| is_exact && *radius > ring.inner && *radius < ring.outer;
-        let known = self.edge_moves[..ring.n_earlier].iter();
+        let earlier = self.edge_moves[..ring.n_earlier].iter();
         radii.extend(
-            known
+            earlier
                 .flat_map(|edge_move| [edge_move.inner, edge_move.outer])
                 .filter(inside),
         );
@@ -100,7 +100,7 @@ impl Contact<'_> {
         sums
     }
 
-    /// ∫ σ_k dx over one panel of a ring.
+    /// Integrals ∫ σ_k dx over one panel of a ring.
     fn panel(&self, ring: &EdgeMove, [inner, outer]: [f64; 2], at: SegmentTime) -> Vec<f64> {
         let mut sums = vec![0.0; self.path.n_branches()];
         let half = 0.5 * (outer - inner);
@@ -115,7 +115,7 @@ impl Contact<'_> {
 }
 
 /// Advances Φ_k inside a radius in which all elements stay in contact.
-fn held(sums: &mut [f64], radius: f64, lag: &DecayedHistory) {
+fn hold_sums(sums: &mut [f64], radius: f64, lag: &DecayedHistory) {
     for ((sum, decay), stress) in sums.iter_mut().zip(&lag.decays).zip(&lag.stresses) {
         *sum = decay * *sum + radius * stress;
     }

@@ -10,6 +10,7 @@ use crate::march::elements::ElementState;
 pub(crate) struct SavedRecovery {
     /// Position of its first element, \[m].
     first: f64,
+    /// Spacing of the elements, \[m].
     spacing: f64,
     /// Amplitudes, element by element, \[m].
     history: Vec<f64>,
@@ -32,18 +33,20 @@ impl WinklerFoundation<'_> {
         let n_history = self.elements.n_history;
         let last = saved.history.len() / n_history;
         for element in 0..self.elements.states.len() {
+            // Find the two saved elements around this one.
             let x = (self.first + element as f64) * spacing;
-            let place = ((x - saved.first) / saved.spacing).max(0.0);
-            let (at, part) = (whole_part(place), place.fract());
-            if at + 1 >= last {
+            let position = ((x - saved.first) / saved.spacing).max(0.0);
+            let (index, part) = (whole_part(position), position.fract());
+            if index + 1 >= last {
                 continue;
             }
+            // Interpolate their history, and mark an element with any as free.
             let history = self.elements.history_of(element);
-            let (rear, front) = saved.history[at * n_history..].split_at(n_history);
-            for (slot, (rear, front)) in history.iter_mut().zip(rear.iter().zip(front)) {
-                *slot = rear + part * (front - rear);
+            let (rear, front) = saved.history[index * n_history..].split_at(n_history);
+            for (amplitude, (rear, front)) in history.iter_mut().zip(rear.iter().zip(front)) {
+                *amplitude = rear + part * (front - rear);
             }
-            if history.iter().any(|slot| *slot != 0.0) {
+            if history.iter().any(|amplitude| *amplitude != 0.0) {
                 self.elements.states[element] = ElementState::Free { limit: 0.0, since };
             }
         }

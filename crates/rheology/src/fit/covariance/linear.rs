@@ -32,6 +32,7 @@ pub(super) fn moduli(spectrum: &RelaxationSpectrum) -> Vec<f64> {
 }
 
 impl Linear {
+    /// Linearises the weighted data around a series; `None` if the normal equations are singular.
     pub(super) fn new(rows: &[Measurement], spectrum: &RelaxationSpectrum) -> Option<Self> {
         let spring = Some(spectrum.equilibrium_modulus()).filter(|modulus| *modulus > 0.0);
         let first = usize::from(spring.is_some());
@@ -58,8 +59,8 @@ impl Linear {
         // Prior of a modulus that is not negative: its relative change is 0 ± 1.
         let scatter = residuals.norm_squared() / degrees;
         let ridge = scatter.max(TRACE_ROUNDING * normal.trace());
-        let normal = normal + DMatrix::identity(n_columns, n_columns) * ridge;
-        let gain = normal.cholesky()?.solve(&columns.transpose());
+        let regularised = normal + DMatrix::identity(n_columns, n_columns) * ridge;
+        let gain = regularised.cholesky()?.solve(&columns.transpose());
         Some(Self {
             columns,
             gain,
@@ -89,11 +90,14 @@ impl Linear {
 ///
 /// It is stored as 1 less the product of two narrow matrices.
 pub(super) struct Residuals {
+    /// Matrix (D, X), by which shifts and moduli change the data.
     left: DMatrix<f64>,
+    /// Matrix (B, A T), by which the data change shifts and moduli.
     right: DMatrix<f64>,
 }
 
 impl Residuals {
+    /// The operator of a fit and its shifts.
     pub(super) fn new(fit: &Linear, effects: &ShiftEffects) -> Self {
         let [n_shifts, n_moduli] = [effects.shift_gain.nrows(), fit.gain.nrows()];
         let gain = &fit.gain - (&fit.gain * &effects.slopes) * &effects.shift_gain;

@@ -60,7 +60,7 @@ impl ModuliCovariance {
     }
 
     /// Description of the method and of the scatter, as a sentence.
-    pub fn in_words(&self) -> String {
+    pub fn description(&self) -> String {
         let percent = |part: f64| format!("{:.2} %", 100.0 * part);
         let noise: Vec<String> = self.noise.iter().copied().map(percent).collect();
         let noise = match &noise[..] {

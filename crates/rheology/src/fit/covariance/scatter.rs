@@ -28,6 +28,7 @@ pub(super) struct Scatter {
 }
 
 impl Scatter {
+    /// Estimates all components: first the noise, then the factors, then the temperatures.
     pub(super) fn new(
         fit: &Linear,
         rows: &[Measurement],
@@ -40,12 +41,15 @@ impl Scatter {
             factor: 0.0,
             temperature: 0.0,
         };
+        // Scatter of single points.
         scatter.set_noise(fit, rows, effects, residuals);
+        // Scatter of the factors of isotherms.
         if effects.factors.ncols() > 1 {
             let in_residuals =
                 EffectInResiduals::new(&effects.factors, fit, effects, residuals, &scatter);
             scatter.factor = in_residuals.mean_square(FACTOR_SCALE);
         }
+        // Scatter of the temperatures, from deviations of the shifts from a law, or from the residuals.
         scatter.temperature = match &effects.law {
             Some(law) => {
                 let by_temperature = &law.left * &law.by_temperature;
@@ -162,8 +166,11 @@ const MAX_CORRELATION: f64 = 0.9;
 
 /// Sums of residuals to which an effect of unknown scale s contributes: their covariance is `others` + s² `own`.
 struct EffectInResiduals {
+    /// Sums of the residuals.
     sum: DVector<f64>,
+    /// Covariance of the sums by everything else.
     others: DMatrix<f64>,
+    /// Covariance of the sums by the effect, for s = 1.
     own: DMatrix<f64>,
 }
 

@@ -41,12 +41,14 @@ pub(super) struct LawDeviations {
 }
 
 impl ShiftEffects {
+    /// Effects of the shifts of joined isotherms; without columns for a single curve.
     pub(super) fn new(
         fit: &Linear,
         rows: &[Measurement],
         isotherms: Option<&JoinedIsotherms>,
     ) -> Self {
         let n = isotherms.map_or(0, |joined| joined.temperatures.len());
+        // Effects on the data by the factors of the isotherms, and by their shifts.
         let of_isotherm = |value: &dyn Fn(usize) -> f64| {
             DMatrix::from_fn(rows.len(), n, |row, isotherm| {
                 let is_own = rows[row].isotherm == isotherm;
@@ -67,6 +69,7 @@ impl ShiftEffects {
             undecided: DMatrix::zeros(rows.len(), 0),
             law: None,
         };
+        // Effects of the data on the shifts, of the temperatures, and of undecided factors.
         if let Some(isotherms) = isotherms {
             joined.set_shift_gain(fit, rows, &isotherms.links);
             joined.set_temperature_effects(fit, isotherms);
@@ -78,6 +81,7 @@ impl ShiftEffects {
         joined
     }
 
+    /// True if the temperatures change the shifted data.
     pub(super) fn has_temperature_effect(&self) -> bool {
         !self.by_temperature.is_empty()
     }
@@ -238,6 +242,7 @@ fn pair_gain(fit: &Linear, rows: &[Measurement], link: &Link) -> [RowDVector<f64
 
 /// Normal equations of the residuals in the overlap of two isotherms, for ln a and ln b.
 struct LeastSquares {
+    /// Normal matrix.
     normal: Matrix2<f64>,
     /// Derivatives of the right-hand side by the weighted data.
     by_data: [RowDVector<f64>; 2],
@@ -312,6 +317,7 @@ struct FittedLaw {
 
 /// Fits the WLF law to the shifts, or a straight line if no WLF law describes them.
 fn fit_law(isotherms: &JoinedIsotherms, reference: usize) -> FittedLaw {
+    // Measure temperatures and shifts from the reference isotherm.
     let [about, origin] = [
         isotherms.temperatures[reference],
         isotherms.log_factors[reference],
@@ -322,7 +328,8 @@ fn fit_law(isotherms: &JoinedIsotherms, reference: usize) -> FittedLaw {
     let of_all = |columns: usize, value: &dyn Fn([f64; 2], usize) -> f64| {
         DMatrix::from_fn(pairs.len(), columns, |k, column| value(pairs[k], column))
     };
-    let constants = WlfShift::through(&in_decades, 0.0).map(|law| law.constants());
+    // Use the WLF law if it has no pole between the temperatures.
+    let constants = WlfShift::fit(&in_decades, 0.0).map(|law| law.constants());
     let is_everywhere = |c2: f64| pairs.iter().all(|[t, _]| c2 + t > 0.0);
     if let Ok([c1, c2]) = constants
         && is_everywhere(c2)
@@ -337,6 +344,7 @@ fn fit_law(isotherms: &JoinedIsotherms, reference: usize) -> FittedLaw {
             }),
         };
     }
+    // Otherwise fit a straight line through the reference.
     let products: f64 = pairs.iter().map(|[t, log]| t * log).sum();
     let squares: f64 = pairs.iter().map(|[t, _]| t * t).sum();
     let slope = if squares > 0.0 {

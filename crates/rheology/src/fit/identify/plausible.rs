@@ -3,7 +3,7 @@
 //! Its G' never decreases with frequency, and its G(t) never increases with time. Moreover, a series of many branches
 //! approximates the moduli of every relaxing material.
 
-use super::{Ending, Identification, IdentifyOptions, series_of};
+use super::{Identification, IdentifyOptions, LongTimeLimit, series_of};
 use crate::RheologyError;
 use crate::fit::curve::MeasuredCurve;
 use crate::fit::system::Quantity;
@@ -28,15 +28,16 @@ const CONSTANCY_TOLERANCE: f64 = 1e-6;
 /// A badly fitting `found` series of few branches is no reason: it is compared with a dense one.
 pub(super) fn check(
     curve: &MeasuredCurve,
-    ending: Ending,
+    long_time_limit: LongTimeLimit,
     found: Option<&Identification>,
 ) -> Result<(), RheologyError> {
     let trend = wrong_trend(curve);
     if trend.is_none() && found.is_some_and(|found| !is_bad(found)) {
         return Ok(());
     }
+    // Compare the fit with one of swapped moduli.
     let options = IdentifyOptions {
-        ending,
+        long_time_limit,
         ..IdentifyOptions::default()
     };
     let best = |curve: &MeasuredCurve| series_of(curve, &options).ok();
@@ -48,6 +49,7 @@ pub(super) fn check(
             return Err(RheologyError::SwappedModuli { given, swapped });
         }
     }
+    // Report a trend that no material has, or an error that is too large.
     if let Some(what) = trend {
         return Err(RheologyError::WrongTrend { what });
     }
@@ -64,6 +66,7 @@ pub(super) fn check(
     }
 }
 
+/// True if the error of the fit, or that of one modulus, is too large.
 fn is_bad(found: &Identification) -> bool {
     let exceeds =
         |error: Option<super::RelativeError>, most| error.is_some_and(|one| one.rms > most);
@@ -92,6 +95,7 @@ fn wrong_trend(curve: &MeasuredCurve) -> Option<&'static str> {
     rises(relaxation, 1.0).then_some("the relaxation modulus rises with time")
 }
 
+/// True if all values are the same, within a tolerance.
 fn is_constant(points: &[[f64; 2]]) -> bool {
     let first = points.first().map_or(0.0, |point| point[1]);
     points

@@ -49,11 +49,11 @@ pub(super) struct Gradient {
 
 /// The change of a kernel: of the displacements of the centres of all elements.
 pub(super) struct KernelChange {
-    /// Under the pressures less their mean, \[m].
+    /// Change of the displacements under the pressures less their mean, \[m].
     pub(super) displacement: Vec<f64>,
-    /// Under a unit pressure on the first element.
+    /// Change of the displacements under a unit pressure on the first element.
     pub(super) unit_response: Vec<f64>,
-    /// Of a layer under the mean pressure, \[m].
+    /// Change of the displacement of a layer under the mean pressure, \[m].
     pub(super) uniform_displacement: f64,
     /// Change of the logarithm of the wave numbers along x.
     pub(super) log_wave_numbers: f64,
@@ -61,15 +61,19 @@ pub(super) struct KernelChange {
 
 /// The adjoint problem of a contact.
 pub(super) struct Adjoint<'a> {
+    /// Equations of the reversed contact.
     equations: Equations,
     /// The active set, reversed along x.
     contact: Vec<bool>,
+    /// Waves of the grid.
     pub(super) waves: FourierMultiplier,
+    /// Material and speed.
     sliding: &'a Sliding,
+    /// Grid of one period.
     grid: &'a Grid,
     /// Heights at the centres of the elements, \[m].
     heights: &'a [f64],
-    /// \[Pa].
+    /// Pressure of the elements, \[Pa].
     pressure: &'a [f64],
     /// Sum of the pressures, \[Pa].
     total: f64,
@@ -93,6 +97,7 @@ impl Gradient {
 }
 
 impl<'a> Adjoint<'a> {
+    /// The adjoint problem of a contact, which is reversed along x.
     pub(super) fn new(
         sliding: &'a Sliding,
         grid: &'a Grid,
@@ -114,6 +119,7 @@ impl<'a> Adjoint<'a> {
 
     /// Derivatives of friction, depth, and logarithm of the area.
     pub(super) fn gradients(&mut self) -> Result<Change<Gradient>, BemError> {
+        // Displacements and fields that the gradients share.
         let (pressure, total) = (self.pressure, self.total);
         let shares: Vec<f64> = pressure.iter().map(|pressure| pressure / total).collect();
         let lifted = self.unit_compliance_response(pressure);
@@ -341,12 +347,14 @@ fn row_sums(left: &[f64], right: &[f64], grid: &Grid) -> Vec<Complex<f64>> {
     let transform = f64::forward(rows);
     let mut scratch = vec![Complex::default(); transform.get_inplace_scratch_len()];
     let mut sums = vec![Complex::default(); rows];
+    // Transform of one column along x.
     let mut column = |field: &[f64], index: usize| {
         let values = field[index..].iter().step_by(columns);
         let mut values: Vec<Complex<f64>> = values.map(|value| Complex::from(*value)).collect();
         transform.process_with_scratch(&mut values, &mut scratch);
         values
     };
+    // Add the products of both transforms.
     for index in 0..columns {
         let pairs = column(left, index).into_iter().zip(column(right, index));
         for (sum, (left, right)) in sums.iter_mut().zip(pairs) {

@@ -51,22 +51,28 @@ const LIMIT: TwoGridExtrapolation = TwoGridExtrapolation {
 #[derive(Debug)]
 #[must_use]
 pub struct PeriodicSensitivity {
+    /// Contact on the grid of the state.
     fine: State,
+    /// Contact on half as many elements along each axis.
     coarse: State,
 }
 
 /// The contact on one grid, with the gradients of its quantities under a constant mean pressure.
 #[derive(Debug)]
 struct State {
+    /// Grid of one period.
     grid: Grid,
+    /// Material and speed.
     sliding: Sliding,
+    /// Prescribed mean pressure or depth.
     control: PeriodicControl,
-    /// \[Pa].
+    /// Mean pressure, \[Pa].
     mean_pressure: f64,
     /// Pressure of the elements less its mean, \[Pa].
     pressure: Vec<f64>,
-    /// q_x of the rows of a transformed field, \[rad/m].
+    /// Wave number q_x of each row of a transformed field, \[rad/m].
     along_x: Vec<f64>,
+    /// Gradients of friction, depth and area.
     gradients: Change<Gradient>,
 }
 
@@ -109,6 +115,7 @@ impl PeriodicSensitivity {
         let sliding = Sliding::new(elastomer, load.velocity())?;
         let control = load.require_stationary()?;
         let grid = pressure.grid;
+        // Check the grid and the guess.
         let names = ["elements along x", "elements along y"];
         for (name, edge) in names.into_iter().zip(grid.shape()) {
             in_range(name, edge as f64, edge.is_multiple_of(2), "even")?;

@@ -80,7 +80,7 @@ impl CollocationPoints {
         self.heights_at(body, self.collocation_shift)
     }
 
-    /// ∂μ/∂h at fixed pressure: the part of the slope that depends on the body explicitly, in units of [`slope_unit`](Self::slope_unit).
+    /// Derivatives ∂μ/∂h at fixed pressure: the part of the slope that depends on the body explicitly, in units of [`slope_unit`](Self::slope_unit).
     pub(super) fn explicit_slope_terms(&self, body: Height) -> Result<Vec<f64>, BemError> {
         let rise = |from: f64, to: f64| -> Result<Vec<f64>, BemError> {
             let rear = self.heights_at(body, from)?;
@@ -90,12 +90,9 @@ impl CollocationPoints {
             FrictionSlope::Body => rise(-0.5, 0.5),
             FrictionSlope::SurfaceAtCollocationPoints => Ok(vec![0.0; self.centres.len()]),
             FrictionSlope::Surface => {
-                let between_neighbours =
-                    rise(self.collocation_shift - 1.0, self.collocation_shift + 1.0)?;
-                let pairs = rise(-0.5, 0.5)?.into_iter().zip(between_neighbours);
-                Ok(pairs
-                    .map(|(own, neighbours)| own - 0.5 * neighbours)
-                    .collect())
+                let outer = rise(self.collocation_shift - 1.0, self.collocation_shift + 1.0)?;
+                let pairs = rise(-0.5, 0.5)?.into_iter().zip(outer);
+                Ok(pairs.map(|(own, outer)| own - 0.5 * outer).collect())
             }
         }
     }

@@ -59,7 +59,7 @@ pub(super) struct GridKernel {
     max_offsets: [usize; 2],
     /// Creep of the material on its base, at its velocity.
     material: SlidingCreep,
-    /// The same creep as compliances and memory lengths.
+    /// Compliances and memory lengths of this creep.
     creep: CreepOverDistance,
     /// The creep over an element without its compliances: collocation shift, track and base.
     bare: ElementCreep,
@@ -152,11 +152,8 @@ impl GridKernel {
 
     /// Contracts the correlations with the kernels of the instantaneous compliance and of all retardation elements.
     fn contract_viscoelastic(&self, gradients: &mut [&mut KernelGradient]) {
-        let memory_lengths = self
-            .creep
-            .retardations
-            .iter()
-            .map(|element| element.memory_length);
+        let retardations = self.creep.retardations.iter();
+        let memory_lengths = retardations.map(|element| element.memory_length);
         let with_step = memory_lengths.flat_map(|length| [length, length * (1.0 + LENGTH_STEP)]);
         let unit_retardation = |length: f64| {
             let rate = self.spacing / length;
@@ -175,7 +172,7 @@ impl GridKernel {
             return;
         }
 
-        // With them the recursion along rows gives all kernels at once, row by row from ahead.
+        // With retardations, the recursion along rows gives all kernels at once, beginning ahead.
         let rows = self.max_offsets[0].cast_signed();
         let columns = self.max_offsets[1] + 1;
         let position = |offset: isize| offset as f64 + part.collocation_shift;

@@ -50,7 +50,7 @@ impl<'a> LoadedContact<'a> {
         let n_touching = elements.len();
         if !mesh.loading.has_edges {
             let mut outside = mesh.with_neighbours(&elements);
-            // Both are in the order of the mesh.
+            // Both lists are sorted as the mesh is, so that a binary search finds equal elements.
             outside.retain(|element| elements.binary_search(element).is_err());
             elements.extend(outside);
             loads.resize(elements.len(), 0.0);

@@ -72,6 +72,7 @@ impl TwoGridExtrapolation {
         fine: Change<MeanAndSpread>,
         coarse: Change<MeanAndSpread>,
     ) -> Change<Estimate> {
+        // Extrapolate the mean; the error contains the difference of the grids and the spread.
         let estimate = |correction: f64| {
             move |(fine, coarse): (MeanAndSpread, MeanAndSpread)| {
                 let difference = fine.mean - coarse.mean;

@@ -20,7 +20,7 @@ impl PeriodicSurface {
     ///
     /// # Errors
     /// [`IndenterError::InvalidParameter`] for equal heights, and for a `shortest_wavelength` that leaves no wave.
-    pub fn through(map: &HeightMap, shortest_wavelength: f64) -> Result<Self, IndenterError> {
+    pub fn from_map(map: &HeightMap, shortest_wavelength: f64) -> Result<Self, IndenterError> {
         not_negative("shortest_wavelength", shortest_wavelength)?;
         let heights = map.heights().iter();
         let highest = positive(
