@@ -130,6 +130,23 @@ fn links_of_all_pages_lead_somewhere() {
 }
 
 #[test]
+fn the_book_has_every_page_of_the_docs() {
+    let docs = repository().join("docs");
+    let summary = fs::read_to_string(docs.join("SUMMARY.md")).expect("the contents");
+    let named: Vec<PathBuf> = summary
+        .lines()
+        .flat_map(targets)
+        .map(|target| docs.join(target))
+        .collect();
+    let mut missing = pages(&docs);
+    missing.retain(|page| !named.contains(page) && !page.ends_with("SUMMARY.md"));
+    assert!(
+        missing.is_empty(),
+        "docs/SUMMARY.md does not name {missing:?}: links to them would be dead in the book"
+    );
+}
+
+#[test]
 fn what_leads_nowhere_is_found() {
     let page = repository().join("docs/scenes.md");
     for (target, expected) in [
