@@ -2,6 +2,7 @@
 //!
 //! All builds use the profile `ci`, so that everything is compiled once.
 
+mod book;
 mod cargo;
 mod dependencies;
 mod release;

@@ -9,7 +9,7 @@ use anyhow::{Context, Result, ensure};
 
 use super::cargo::{Cargo, cargo, run, workspace_root};
 use super::workspace::{Package, Workspace};
-use super::{PACKAGES, step};
+use super::{PACKAGES, book, step};
 
 /// What a user of the Python package does first.
 const PROGRAM: &str = "import viscofriction as vf; friction = vf.slide(vf.Cone(0.1), vf.Viscous(1e4), normal_force=1.0, velocity=0.01); \
@@ -120,10 +120,7 @@ impl Release {
             println!("mdbook is not installed: there is no book");
             return Ok(());
         }
-        let mut mdbook = Command::new("mdbook");
-        mdbook.args(["build", "docs", "--dest-dir"]);
-        mdbook.arg(self.out.join("book"));
-        run(mdbook.current_dir(workspace_root()))
+        book::build(&self.out.join("trial/docs"), &self.out.join("book"))
     }
 }
 
