@@ -30,7 +30,9 @@ mod native {
     #[pymodule_export]
     use super::roughness::{check_height_map, surface_numbers};
     #[pymodule_export]
-    use super::solving::{shared_warnings, solve_loads, sweep_plan, sweep_points, sweep_problem};
+    use super::solving::{
+        printed, quantities, shared_warnings, solve_loads, sweep_plan, sweep_points, sweep_problem,
+    };
     #[pymodule_export]
     use super::tables::check_table;
 }

@@ -13,7 +13,9 @@ use viscofriction::solve::{
     with_fields, with_sensitivity,
 };
 use viscofriction::sweep::{Plan, SweepRow, Varied, Vary, each_once, header};
-use viscofriction::{Answer, Files, Motion, Problem, ReadFile, Scene, SolveError, plan, solve};
+use viscofriction::{
+    Answer, Estimate, Files, Motion, Problem, QUANTITIES, ReadFile, Scene, SolveError, plan, solve,
+};
 
 use crate::background;
 use crate::reading::read_file;
@@ -237,6 +239,7 @@ fn other(py: Python<'_>, answer: Answer) -> PyResult<Bound<'_, PyDict>> {
     let dictionary = PyDict::new(py);
     dictionary.set_item("method", answer.method.name())?;
     dictionary.set_item("model", answer.model.name())?;
+    dictionary.set_item("is_per_length", answer.is_per_length)?;
     dictionary.set_item("unknowns", answer.unknowns)?;
     dictionary.set_item("iterations", answer.iterations)?;
     dictionary.set_item("warnings", &answer.warnings)?;
@@ -312,11 +315,9 @@ fn derivatives<'py>(
     let by_number = PyDict::new(py);
     for sensitivity in sensitivities {
         let by_quantity = PyDict::new(py);
-        for (name, known) in sensitivity.named() {
-            if let Some(known) = known {
-                by_quantity.set_item(name, known.value)?;
-                by_quantity.set_item(format!("{name}_error"), known.error)?;
-            }
+        for (key, known) in sensitivity.derivatives.iter() {
+            by_quantity.set_item(key, known.value)?;
+            by_quantity.set_item(format!("{key}_error"), known.error)?;
         }
         by_number.set_item(&sensitivity.parameter, by_quantity)?;
     }
@@ -325,19 +326,36 @@ fn derivatives<'py>(
 
 /// Uncertainties by source and quantity, with the total.
 fn budget<'py>(py: Python<'py>, budget: &Budget) -> PyResult<Bound<'py, PyDict>> {
-    let entries = budget.entries.iter();
-    let entries = entries.map(|(source, known)| (source.name(), *known));
     let sources = PyDict::new(py);
-    for (source, known) in entries.chain([("total", budget.total())]) {
+    for (source, known) in budget.rows() {
         let of_source = PyDict::new(py);
-        for (name, known) in known.named() {
-            if let Some(known) = known {
-                of_source.set_item(name, known)?;
-            }
+        for (key, known) in known.iter() {
+            of_source.set_item(key, known)?;
         }
         sources.set_item(source, of_source)?;
     }
     Ok(sources)
+}
+
+/// Key, label at an axis, unit of a body and unit of a cylinder of each quantity of an answer.
+#[pyfunction]
+pub(crate) fn quantities() -> Vec<(&'static str, String, &'static str, &'static str)> {
+    let quantities = QUANTITIES.iter().map(|quantity| {
+        let unit = quantity.unit;
+        (
+            quantity.key,
+            quantity.label(),
+            unit.of_body,
+            unit.of_cylinder,
+        )
+    });
+    quantities.collect()
+}
+
+/// A value with its error as the program prints it.
+#[pyfunction]
+pub(crate) fn printed(value: f64, error: f64) -> String {
+    Estimate::new(value, error).to_string()
 }
 
 /// Each warning of many answers once, with the number of answers that share it.

@@ -42,7 +42,7 @@ def test_a_history_is_that_of_the_program(program: Callable[..., str], tmp_path:
     # Lost on the way back, and exact up to rounding.
     assert got.normal_force[-1] == 0.0 and got.normal_force_error < 1e-11 * got.normal_force.max()
     axes = got.plot()
-    assert (axes.get_xlabel(), axes.get_ylabel()) == ("depth d [µm]", "normal force F [nN]")
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("indentation depth d [µm]", "normal force F [nN]")
 
 
 def test_a_history_on_a_thick_layer_is_that_on_the_half_space() -> None:
@@ -117,7 +117,7 @@ def test_a_fit_finds_the_material_within_its_intervals() -> None:
     assert fit.correlation.shape == (len(fit.findings),) * 2
     assert repr(fit).startswith("fit of a curve\n  G_inf: 2040 ± 73 Pa, 95 % within")
     # Young's modulus, 3 G of an incompressible material.
-    assert "\n  E_inf: 6.12e+03 ± 2.2e+02 Pa, 95 % within" in repr(fit)
+    assert "\n  E_inf: (6.12 ± 0.22)e3 Pa, 95 % within" in repr(fit)
     assert fit.plot().get_xlabel() == "time t [s]"
     plain = json.loads(json.dumps(fit.to_dict()))
     assert plain["findings"]["G_inf"]["value"] == fit.findings["G_inf"].value

@@ -41,15 +41,15 @@ def test_arrays_have_the_answers_of_single_loads() -> None:
     every = vf.slide(vf.Sphere(5e-3), rubber, normal_force=2.0, velocity=speeds, relative_error=1e-2)
     for index in (0, 3, 5):
         one = vf.slide(vf.Sphere(5e-3), rubber, normal_force=2.0, velocity=speeds[index], relative_error=1e-2)
-        assert every.mu is not None and every.mu[index] == one.mu
-        assert every.area is not None and every.area[index] == one.area
+        assert every.mu[index] == one.mu
+        assert every.area[index] == one.area
 
 
 def test_layers_are_arrays_of_thicknesses() -> None:
     rubber = vf.Prony(1e6, [(1e7, 1e-3), (3e6, 1e-1)])
     layers = vf.slide(vf.Cylinder(0.05), rubber, normal_force=2e3, velocity=1.0, thickness=[1e-3, 1e-2])
     one = vf.slide(vf.Cylinder(0.05), rubber, normal_force=2e3, velocity=1.0, thickness=1e-2)
-    assert layers.mu is not None and layers.mu[0] < layers.mu[1] == one.mu
+    assert layers.mu[0] < layers.mu[1] == one.mu
     with pytest.raises(ValueError, match="layer.thickness must be finite and greater than 0, but is -1"):
         vf.press(vf.Sphere(0.01), vf.Elastic(1e6), normal_force=1.0, thickness=-1.0)
 

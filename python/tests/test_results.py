@@ -20,8 +20,30 @@ SOLID = vf.StandardSolid(1e6, 1e7, 1e4)
 
 def test_a_single_scene_reads_well_in_text_and_notebook() -> None:
     answer = vf.slide(vf.Cone(0.1), vf.Viscous(1e4), normal_force=1.0, velocity=0.01)
-    assert repr(answer).splitlines()[:2] == ["analytic, half-space", "  friction_coefficient: 0.0891298 ± 7.3e-06"]
-    assert "<td>friction_coefficient</td><td>0.0891298</td><td>7.3e-06</td>" in answer._repr_html_()
+    assert repr(answer).splitlines()[:2] == ["analytic, half-space", "  friction_coefficient: 0.0891298 ± 0.0000073"]
+    assert "<td>friction_coefficient</td><td>0.0891298 ± 0.0000073</td>" in answer._repr_html_()
+
+
+def test_every_printed_quantity_is_an_attribute() -> None:
+    answer = vf.slide(vf.Cone(0.1), SOLID, normal_force=2.0, velocity=0.1, relative_error=0.1)
+    printed = [line.split(":")[0].strip() for line in repr(answer).splitlines()[1:]]
+    assert {"friction_coefficient", "contact_area", "tangential_force"} <= set(printed)
+    for name in printed:
+        value, error = getattr(answer, name), getattr(answer, f"{name}_error")
+        assert (value, error) == (answer[name], answer[f"{name}_error"]) and error >= 0.0, name
+        assert name in dir(vf.Answer) and getattr(vf.Answer, name).__doc__
+    assert (answer.mu, answer.mu_error) == (answer.friction_coefficient, answer.friction_coefficient_error)
+    assert (answer.area, answer.area_error) == (answer.contact_area, answer.contact_area_error)
+    assert answer.mean_pressure is None and math.isnan(answer["mean_pressure"])
+    with pytest.raises(KeyError, match="there is no column 'friction'"):
+        answer["friction"]
+    with pytest.raises(AttributeError):
+        _ = answer.friction
+
+
+def test_units_of_a_cylinder_are_per_length() -> None:
+    answer = vf.press(vf.Cylinder(0.05), vf.Elastic(1e6), normal_force=[1e3, 2e3])
+    assert "<th>normal_force [N/m]</th>" in answer._repr_html_() and "<th>contact_area [m²/m]</th>" in answer._repr_html_()
 
 
 def test_friction_is_drawn_over_speed_with_its_bars() -> None:
@@ -30,7 +52,7 @@ def test_friction_is_drawn_over_speed_with_its_bars() -> None:
     assert (axes.get_xlabel(), axes.get_ylabel(), axes.get_xscale()) == ("speed v [m/s]", "friction coefficient μ", "log")
     (line, *_), *_ = axes.containers
     assert (line.get_xdata() == SPEEDS).all()
-    assert answer.mu is not None and (line.get_ydata() == answer.mu).all()
+    assert (line.get_ydata() == answer.mu).all()
 
 
 def test_families_and_grids_are_drawn() -> None:
@@ -140,7 +162,6 @@ def test_fractional_elements_are_power_laws_in_their_range() -> None:
         vf.Springpot(2e6, 0.3, time_range=(1e3, 1e-3)).loss_modulus(1.0)
     ball, load = vf.Sphere(5e-3), {"normal_force": 2.0, "relative_error": 1e-2}
     friction = vf.slide(ball, pot, velocity=[0.01, 0.1], **load)
-    assert friction.mu is not None and friction.mu_error is not None
     assert (friction.mu > 0.0).all() and (friction.mu_error <= 1e-2 * friction.mu).all()
     with pytest.raises(vf.NotReached, match="time_range"):
         vf.slide(ball, pot, velocity=100.0, **load)
@@ -220,7 +241,7 @@ def test_what_was_reached_is_held_with_its_bars() -> None:
     with pytest.raises(vf.NotReached, match="was not reached to the relative error 1e-6") as raised:
         vf.slide(vf.Cone(0.1), vf.Viscous(1e4), **far, relative_error=1e-6)
     answer = raised.value.answer
-    assert answer.mu is not None and answer.mu_error is not None and 1e-6 * answer.mu < answer.mu_error < 0.1 * answer.mu
+    assert 1e-6 * answer.mu < answer.mu_error < 0.1 * answer.mu
     assert answer.pressure.size > 0 and answer.to_dict()["not_reached"] == str(raised.value)
     assert "not reached: the friction coefficient" in repr(answer)
     assert pickle.loads(pickle.dumps(answer)) == answer

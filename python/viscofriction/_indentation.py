@@ -17,7 +17,6 @@ from ._bodies import HeightMap, Pyramid
 from ._kinds import Cylinder, HeightMapFile, SelfAffine, Spectrum
 from ._materials import Prony
 from ._tables import Body, Material
-from ._results import rounded
 from ._solving import ask, given
 
 Numbers = NDArray[np.float64]
@@ -59,7 +58,8 @@ class Indentation(Compared):
 
         axes = _plotting.axes(ax)
         axes.plot(self.indentation_depth, self.normal_force, marker=".")
-        return _plotting.tidy(axes, "depth d [m]", "normal force F [N]", (None, None))
+        depth, force = map(_plotting.label, ("indentation_depth", "normal_force"))
+        return _plotting.tidy(axes, depth, force, (None, None))
 
 
 @dataclass(frozen=True)
@@ -83,7 +83,7 @@ class Finding:
     def __str__(self) -> str:
         known = "not determined"
         if self.value is not None and self.error is not None:
-            known = " ± ".join(rounded(self.value, self.error)) + f" {self.unit}".rstrip()
+            known = f"{_native.printed(self.value, self.error)} {self.unit}".rstrip()
         low, high = ("…" if end is None else f"{end:.4g}" for end in self.interval)
         return f"{known}, 95 % within {low} and {high}"
 

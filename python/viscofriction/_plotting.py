@@ -8,20 +8,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ._results import QUANTITIES
+
 Numbers = NDArray[np.float64]
 Values = NDArray[Any]
 
-LABELS = {
+# Numbers of a scene, and the quantities of an answer.
+LABELS = {name: label for name, (label, _) in QUANTITIES.items()} | {
     "velocity": "speed v [m/s]",
-    "normal_force": "normal force F [N]",
-    "mean_pressure": "mean pressure p [Pa]",
-    "tangential_force": "friction force [N]",
-    "indentation_depth": "depth d [m]",
-    "contact_area": "contact area [m²]",
-    "peak_pressure": "peak pressure [Pa]",
-    "friction_coefficient": "friction coefficient μ",
-    "peak_friction": "peak friction coefficient",
-    "dissipated_energy": "dissipated energy per cycle [J]",
     "stroke": "stroke [m]",
     "frequency": "frequency f [1/s]",
     "track": "track L [m]",

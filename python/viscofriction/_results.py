@@ -5,8 +5,8 @@ from __future__ import annotations
 import html
 import json
 import math
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,20 +18,10 @@ __all__ = ["Answer", "NotReached"]
 
 Values = np.float64 | NDArray[np.float64]
 
-# Quantities by their names in JSON and CSV, each with its unit; of each there is the error too.
-QUANTITIES = {
-    "friction_coefficient": "",
-    "normal_force": "N",
-    "tangential_force": "N",
-    "indentation_depth": "m",
-    "contact_area": "m²",
-    "peak_pressure": "Pa",
-    "mean_pressure": "Pa",
-    "area_fraction": "",
-    "friction_from_dissipation": "",
-    "peak_friction": "",
-    "dissipated_energy": "J",
-}
+#: Of each quantity, by its name in JSON and CSV: the label at an axis, and the units of a body and of a cylinder.
+QUANTITIES = {key: (label, units) for key, label, *units in _native.quantities()}
+#: Attributes of an answer, with the quantities that they are.
+ATTRIBUTES = {name: name for name in QUANTITIES} | {"mu": "friction_coefficient", "area": "contact_area"}
 # Rows at the beginning and at the end of a table in a notebook.
 SHOWN = 10
 EDGES = ("x_min", "x_max", "y_min", "y_max")
@@ -55,9 +45,17 @@ class NotReached(RuntimeError):
 class Answer(Compared):
     """Answers to one scene, or to an array of loads; all numbers in SI.
 
-    Quantities have the shape that the loads have together, and are None where the method does not know them: a line has no
-    area, the front of a viscous contact no peak pressure. Errors are absolute, 0 of what was given or is exact.
+    Every quantity is an attribute of its printed name, ``contact_area``, beside its absolute error, ``contact_area_error``, 0 of
+    what was given or is exact; ``mu`` and ``area`` are short for friction coefficient and contact area. Quantities have the shape
+    that the loads have together, and are None where the method does not know them: a line has no area, the front of a viscous
+    contact no peak pressure. ``answer["contact_area"]`` is the same with NaN in place of None.
     """
+
+    if TYPE_CHECKING:
+        normal_force: Values
+        normal_force_error: Values
+
+        def __getattr__(self, name: str) -> Values | None: ...
 
     def __init__(self, found: dict[str, Any], loads: dict[str, NDArray[np.float64]], shape: tuple[int, ...]) -> None:
         self._columns: dict[str, NDArray[np.float64]] = found["columns"]
@@ -74,120 +72,29 @@ class Answer(Compared):
         column = self._columns[name]
         return None if np.isnan(column).all() else column.reshape(self.shape)[()]
 
-    @property
-    def mu(self) -> Values | None:
-        """Friction coefficient; None where nothing slides."""
-        return self._values("friction_coefficient")
-
-    @property
-    def mu_error(self) -> Values | None:
-        """Its absolute error."""
-        return self._values("friction_coefficient_error")
-
-    @property
-    def normal_force(self) -> Values | None:
-        """Normal force [N], or [N/m] of a cylinder."""
-        return self._values("normal_force")
-
-    @property
-    def normal_force_error(self) -> Values | None:
-        """Its absolute error."""
-        return self._values("normal_force_error")
-
-    @property
-    def tangential_force(self) -> Values | None:
-        """Friction force [N], or [N/m] of a cylinder."""
-        return self._values("tangential_force")
-
-    @property
-    def tangential_force_error(self) -> Values | None:
-        """Its absolute error."""
-        return self._values("tangential_force_error")
-
-    @property
-    def indentation_depth(self) -> Values | None:
-        """Depth of the lowest point below the undeformed surface [m]."""
-        return self._values("indentation_depth")
-
-    @property
-    def indentation_depth_error(self) -> Values | None:
-        """Its absolute error [m]."""
-        return self._values("indentation_depth_error")
-
-    @property
-    def area(self) -> Values | None:
-        """Contact area [m²], or width [m] of a cylinder's contact."""
-        return self._values("contact_area")
-
-    @property
-    def area_error(self) -> Values | None:
-        """Its absolute error."""
-        return self._values("contact_area_error")
-
-    @property
-    def peak_pressure(self) -> Values | None:
-        """Largest pressure [Pa], where it has a limit on refinement."""
-        return self._values("peak_pressure")
-
-    @property
-    def peak_pressure_error(self) -> Values | None:
-        """Its absolute error [Pa]."""
-        return self._values("peak_pressure_error")
-
-    @property
-    def peak_friction(self) -> Values | None:
-        """The largest friction coefficient of a motion to and fro or through points."""
-        return self._values("peak_friction")
-
-    @property
-    def peak_friction_error(self) -> Values | None:
-        """Its absolute error."""
-        return self._values("peak_friction_error")
-
-    @property
-    def dissipated_energy(self) -> Values | None:
-        """Energy that is dissipated in a cycle of a motion to and fro [J]."""
-        return self._values("dissipated_energy")
-
-    @property
-    def dissipated_energy_error(self) -> Values | None:
-        """Its absolute error [J]."""
-        return self._values("dissipated_energy_error")
-
-    @property
-    def area_fraction(self) -> Values | None:
-        """Part of a periodic surface in contact."""
-        return self._values("area_fraction")
-
-    @property
-    def area_fraction_error(self) -> Values | None:
-        """Its absolute error."""
-        return self._values("area_fraction_error")
+    def __getitem__(self, column: str) -> Values:
+        """The numbers of a column by the name that it has in the CSV, NaN where they are not known."""
+        if column not in self._columns:
+            raise KeyError(f"there is no column {column!r}; there are {', '.join(self._columns)}")
+        return self._columns[column].reshape(self.shape)[()]
 
     @property
     def standard_error(self) -> dict[str, Values]:
         """Standard errors of ``friction_coefficient`` and ``area_fraction`` as means over random surfaces, beside their numerical
         errors; empty of one surface."""
-        names = ("friction_coefficient", "area_fraction")
-        known = {name: self._values(f"{name}_standard_error") for name in names}
-        return {name: values for name, values in known.items() if values is not None}
+        return self._between("", "_standard_error")
 
     @property
     def persson(self) -> dict[str, Values]:
         """``area_fraction`` and ``friction_coefficient`` of Persson (2001), ``area_fraction_xu`` of Xu and others (2024) and
         ``friction_coefficient_2006`` of Persson (2006), of periodic surfaces."""
-        names = ("area_fraction", "area_fraction_xu", "friction_coefficient", "friction_coefficient_2006")
-        theory = {name: self._values(f"persson_{name}") for name in names}
-        return {name: values for name, values in theory.items() if values is not None}
+        return self._between("persson_")
 
     @property
     def dissipation(self) -> dict[str, Values]:
         """Parts of the friction, 0 to 1, where they are known: ``outside_window`` from frequencies at which the material was not
         measured, ``below_window`` and ``above_window``; ``shortest_octave`` from the shortest waves of a rough surface."""
-        prefix = "dissipation_"
-        names = [name for name in self._columns if name.startswith(prefix)]
-        shares = {name.removeprefix(prefix): self._values(name) for name in names}
-        return {name: values for name, values in shares.items() if values is not None}
+        return self._between("dissipation_")
 
     @property
     def contact_box(self) -> dict[str, Values]:
@@ -199,6 +106,12 @@ class Answer(Compared):
     def contact_box_error(self) -> Values | None:
         """Absolute error of each edge [m]."""
         return self._values("contact_box_error")
+
+    def _between(self, prefix: str, suffix: str = "") -> dict[str, Values]:
+        """The columns with this beginning and end of which something is known, by the rest of their names."""
+        names = [name for name in self._columns if name.startswith(prefix) and name.endswith(suffix)]
+        known = {name.removeprefix(prefix).removesuffix(suffix): self._values(name) for name in names}
+        return {name: values for name, values in known.items() if values is not None}
 
     @property
     def method(self) -> str | list[str | None]:
@@ -349,42 +262,44 @@ class Answer(Compared):
             entries[name] = self._one_or_all(name)
         return entries
 
-    def _rows(self) -> list[tuple[str, str, str, str]]:
-        """Name, value, error and unit of what a single scene knows."""
-        rows = []
-        for name, unit in QUANTITIES.items():
-            value, error = (self._values(name + end) for end in ("", "_error"))
-            if value is not None and error is not None:
-                rows.append((name, *rounded(float(value), float(error)), unit))
-        return rows
+    def _rows(self) -> list[tuple[str, str, str]]:
+        """Name, value with its error, and unit of what a single scene knows."""
+        return [(name, self._printed(name)[0], self._unit(name)) for name in self._known()]
+
+    def _known(self) -> list[str]:
+        return [name for name in QUANTITIES if self._values(name) is not None]
+
+    def _printed(self, name: str) -> list[str]:
+        return with_bars(self._columns[name], self._columns[f"{name}_error"])
+
+    def _unit(self, name: str) -> str:
+        of_body, of_cylinder = QUANTITIES[name][1]
+        return of_cylinder if any(answer and answer["is_per_length"] for answer in self._answers) else of_body
 
     def __repr__(self) -> str:
         if self.shape != ():
-            known = [name for name in QUANTITIES if self._values(name) is not None]
             loads = ", ".join(self.loads)
             failed = sum(failure is not None for failure in self.failures)
             failures = f", {failed} without an answer" if failed else ""
             warnings = "".join(f"\n{text}" for text in noted(self.warnings))
-            return f"<answers of shape {self.shape} over {loads}: {', '.join(known)}{failures}{warnings}>"
+            return f"<answers of shape {self.shape} over {loads}: {', '.join(self._known())}{failures}{warnings}>"
         if self._answers[0] is None:
             return f"<no answer: {self.failures[0]}>"
         notes = [f"  not reached: {failure}" for failure in self.failures if failure]
         notes += noted(self.warnings)
-        rows = [f"  {name}: {value} {'± ' + error if error else ''} {unit}".rstrip() for name, value, error, unit in self._rows()]
+        rows = [f"  {name}: {value} {unit}".rstrip() for name, value, unit in self._rows()]
         return "\n".join([f"{self.method}, {self.model}", *rows, *notes])
 
     def _repr_html_(self) -> str:
         failed = [f"not reached: {failure}" for failure in dict.fromkeys(self.failures) if failure]
         notes = [*self.warnings, *failed]
         if self.shape == ():
-            head = ["quantity", "value", "error", "unit"]
+            head = ["quantity", "value", "unit"]
             return html_table(f"{self.method}, {self.model}", head, self._rows(), notes)
-        known = [name for name in QUANTITIES if self._values(name) is not None]
-        head = [*self.loads, *map(with_unit, known)]
-        columns = [[f"{load:g}" for load in np.ravel(values)] for values in self.loads.values()]
-        for name in known:
-            pairs = zip(self._columns[name], self._columns[f"{name}_error"], strict=True)
-            columns.append([" ± ".join(filter(None, rounded(*map(float, pair)))) for pair in pairs])
+        known = self._known()
+        head = [*self.loads, *(with_unit(name, self._unit(name)) for name in known)]
+        columns = [[_native.printed(load, 0.0) for load in np.ravel(values)] for values in self.loads.values()]
+        columns += map(self._printed, known)
         return html_table(f"{len(self.failures)} answers", head, list(zip(*columns, strict=True)), notes)
 
     def plot(self, ax: Any = None) -> Any:
@@ -392,6 +307,19 @@ class Answer(Compared):
         from . import _plotting
 
         return _plotting.plot(self, ax)
+
+
+if TYPE_CHECKING:
+
+    class SlidingAnswer(Answer):
+        """Answers whose friction is always known."""
+
+        mu: Values
+        mu_error: Values
+        friction_coefficient: Values
+        friction_coefficient_error: Values
+        tangential_force: Values
+        tangential_force_error: Values
 
 
 def noted(warnings: list[str]) -> list[str]:
@@ -405,21 +333,26 @@ def plain(values: NDArray[np.float64]) -> list[float | None]:
     return [None if math.isnan(value) else value for value in values.tolist()]
 
 
-def rounded(value: float, error: float) -> tuple[str, str]:
-    """Value and error to the digits that the error leaves; nothing of what is not known."""
-    if math.isnan(value):
-        return "", ""
-    if error == 0.0:
-        return f"{value:.10g}", ""
-    if value == 0.0:
-        return "0", f"{error:.2g}"
-    digits = max(1, 2 + math.floor(math.log10(abs(value))) - math.floor(math.log10(error)))
-    return f"{value:.{min(digits, 17)}g}", f"{error:.2g}"
+def with_bars(values: Iterable[float], errors: Iterable[float]) -> list[str]:
+    """Values with their errors as the program prints them; nothing of what is not known."""
+    pairs = zip(values, errors, strict=True)
+    return ["" if math.isnan(value) else _native.printed(value, error) for value, error in pairs]
 
 
-def with_unit(name: str) -> str:
+def with_unit(name: str, unit: str) -> str:
     """The name of a quantity, with its unit where it has one."""
-    return f"{name} [{QUANTITIES[name]}]" if QUANTITIES[name] else name
+    return f"{name} [{unit}]" if unit else name
+
+
+def _attribute(name: str, end: str) -> property:
+    what = "absolute error of the " if end else ""
+    doc = f"{what}{QUANTITIES[name][0]}; None where it is not known."
+    return property(lambda answer: answer._values(name + end), doc=doc[0].upper() + doc[1:])
+
+
+for _attribute_name, _name in ATTRIBUTES.items():
+    for _end in ("", "_error"):
+        setattr(Answer, _attribute_name + _end, _attribute(_name, _end))
 
 
 def html_table(caption: str, head: Sequence[str], rows: Sequence[Sequence[str]], notes: Sequence[str]) -> str:

@@ -7,7 +7,7 @@ import tomllib
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, cast
 
 from numpy.typing import ArrayLike
 
@@ -18,6 +18,9 @@ from ._bodies import HeightMap
 from ._kinds import Elastic
 from ._results import Answer, not_reached
 from ._tables import Body, Material
+
+if TYPE_CHECKING:
+    from ._results import SlidingAnswer
 
 __all__ = ["move", "press", "slide", "solve"]
 
@@ -47,7 +50,7 @@ def slide(
     sensitivity: bool = False,
     spectral_sensitivity: bool = False,
     progress: Progress = None,
-) -> Answer:
+) -> SlidingAnswer:
     """Friction of a body that slides over a half space of the material, or a layer of it bonded to a rigid base.
 
     Speed > 0 [m/s], and either normal force [N] or depth [m], or of a periodic surface mean pressure [Pa], are numbers or arrays that fit together; so are a sliding
@@ -74,7 +77,7 @@ def slide(
         model=model, method=method, relative_error=relative_error, elements=elements, threads=threads
     )
     derivatives = {"sensitivity": sensitivity, "spectral_sensitivity": spectral_sensitivity}
-    return _solved(body, material, loads, options, progress, derivatives)
+    return cast("SlidingAnswer", _solved(body, material, loads, options, progress, derivatives))
 
 
 def move(
@@ -95,7 +98,7 @@ def move(
     elements: int | None = None,
     threads: int | None = None,
     progress: Progress = None,
-) -> Answer:
+) -> SlidingAnswer:
     """Friction of a body that moves to and fro, or through positions [m] at times [s] that increase.
 
     Either a ``stroke`` [m] from end to end and a ``frequency`` [1/s], numbers or arrays that fit together, with ``shape`` "sinusoidal"
@@ -112,7 +115,7 @@ def move(
         load["motion"] = [{"time": t, "position": x} for t, x in zip(times.tolist(), places.tolist(), strict=True)]
     options = given(model=model, method=method, relative_error=relative_error, elements=elements, threads=threads)
     scene = {"indenter": body, "material": material, "load": load, "solve": options}
-    return ask(scene, *together(loads), progress)
+    return cast("SlidingAnswer", ask(scene, *together(loads), progress))
 
 
 def press(

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._arrays import Compared, numbers, text_of
-from ._results import QUANTITIES, html_table, noted, rounded, with_unit
+from ._results import QUANTITIES, html_table, noted, with_bars, with_unit
 from ._solving import Progress, Scene, read, shown
 
 __all__ = ["Sweep", "sweep"]
@@ -88,9 +88,9 @@ class Sweep(Compared):
 
     def _repr_html_(self) -> str:
         known = [name for name in QUANTITIES if any(self._cells(name))]
-        head = [*self.keys, *map(with_unit, known)]
+        head = [*self.keys, *(with_unit(name, QUANTITIES[name][1][0]) for name in known)]
         columns = [self._cells(key) for key in self.keys]
-        columns += [_with_bars(self._cells(name), self._cells(f"{name}_error")) for name in known]
+        columns += [with_bars(self[name], self[f"{name}_error"]) for name in known]
         rows = list(zip(*columns, strict=True))
         failed = [f"not reached: {failure}" for failure in dict.fromkeys(self.failures) if failure]
         return html_table(f"{len(self)} points", head, rows, [*self.warnings, *failed])
@@ -257,11 +257,6 @@ def _sort(path: Path, text: str) -> None:
     part.write_text(text, encoding="utf-8", newline="")
     shutil.copymode(path, part)
     part.replace(path)
-
-
-def _with_bars(values: Row, errors: Row) -> Row:
-    pairs = zip(values, errors, strict=True)
-    return [" ± ".join(filter(None, rounded(float(value), float(error)))) if value else "" for value, error in pairs]
 
 
 def _text(*rows: Row) -> str:

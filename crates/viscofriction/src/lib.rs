@@ -30,6 +30,7 @@ mod files;
 #[cfg(feature = "fit")]
 pub mod friction_fit;
 pub mod npy;
+pub mod quantity;
 pub mod scene;
 pub mod solve;
 pub mod sweep;
@@ -52,6 +53,7 @@ struct ReadMe;
 pub use bem_halfspace::slide::PressureField;
 pub use files::{Files, ReadFile};
 pub use numerics::{ErrorParts, Estimate, Progress};
+pub use quantity::{ByQuantity, QUANTITIES, Quantity};
 pub use scene::Scene;
 pub use solve::{
     Answer, Body, ContactBox, Fields, HistoryRow, Motion, NotOffered, Omission, Plan, Problem,

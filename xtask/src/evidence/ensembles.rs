@@ -1,10 +1,12 @@
 //! Do the standard errors of means over random surfaces hold? Two means over other surfaces of one spectrum are compared.
 
 use anyhow::Result;
-use numerics::{Estimate, MaxElements};
+use numerics::MaxElements;
 use serde::Serialize;
+use viscofriction::Quantity;
+use viscofriction::quantity::scattered;
 use viscofriction::scene::{Indenter, Scene};
-use viscofriction::solve::{Answer, Problem, Scatter, SolveError, plan};
+use viscofriction::solve::{Answer, Problem, SolveError, plan};
 
 use super::sample::{NumberedScene, Options, Source};
 use super::{Outcomes, Report, Share};
@@ -68,9 +70,7 @@ pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
         Ok(compared(*number, scene).map_err(refusal))
     })?;
     let found: Outcomes<Row, Refusal> = found.into_iter().collect();
-    let failures = QUANTITIES
-        .iter()
-        .filter_map(|(name, _)| failure(name, &found.rows));
+    let failures = scattered().filter_map(|quantity| failure(quantity.key, &found.rows));
     let failures: Vec<String> = failures.collect();
     let table = table(&found.rows);
     Ok(Report {
@@ -81,19 +81,6 @@ pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
         ..Report::default()
     })
 }
-
-type OfAnswer = fn(&Answer) -> Option<(Estimate, Scatter)>;
-
-const QUANTITIES: [(&str, OfAnswer); 2] = [
-    ("friction_coefficient", |answer| {
-        let scatter = answer.ensemble.as_ref()?.friction_coefficient?;
-        Some((answer.friction_coefficient?, scatter))
-    }),
-    ("area_fraction", |answer| {
-        let scatter = answer.ensemble.as_ref()?.area_fraction?;
-        Some((answer.rough?.area_fraction, scatter))
-    }),
-];
 
 /// Friction and area of a spectrum; a mean that has not the standard error asked for has one all the same.
 fn compared(scene: usize, given: &Scene) -> Result<Vec<Row>> {
@@ -117,7 +104,11 @@ fn compared(scene: usize, given: &Scene) -> Result<Vec<Row>> {
         ensemble.map_or([0; 2], |all| [all.realisations.len(), all.on_coarse_grid])
     };
     let [counted, compared] = [&one, &other].map(counts);
-    let row = |(quantity, of): &(&'static str, OfAnswer)| {
+    let row = |quantity: &Quantity| {
+        let of = |answer: &Answer| {
+            let scatter = answer.ensemble.as_ref()?.scatter.of(quantity.key)?;
+            Some(((quantity.of)(answer)?, scatter))
+        };
         let [(value, error), (reference, reference_error)] = [of(&one)?, of(&other)?];
         let deviation = value.value - reference.value;
         let of_both = error.standard_error.hypot(reference_error.standard_error);
@@ -125,7 +116,7 @@ fn compared(scene: usize, given: &Scene) -> Result<Vec<Row>> {
         let nothing = deviation.abs() <= value.error + reference.error && of_both == 0.0;
         Some(Row {
             scene,
-            quantity,
+            quantity: quantity.key,
             surfaces: counted[0],
             on_coarse_grid: counted[1],
             compared_surfaces: compared[0],
@@ -136,7 +127,7 @@ fn compared(scene: usize, given: &Scene) -> Result<Vec<Row>> {
             relative_deviation: if nothing { 0.0 } else { deviation / of_both },
         })
     };
-    Ok(QUANTITIES.iter().filter_map(row).collect())
+    Ok(scattered().filter_map(row).collect())
 }
 
 fn of<'a>(quantity: &str, rows: &'a [Row]) -> Vec<&'a Row> {
@@ -161,7 +152,8 @@ fn failure(quantity: &str, rows: &[Row]) -> Option<String> {
 
 /// One line for each quantity, of all and of those with surfaces on a coarse grid.
 fn table(rows: &[Row]) -> comfy_table::Table {
-    let lines = QUANTITIES.iter().flat_map(|(quantity, _)| {
+    let lines = scattered().flat_map(|quantity| {
+        let quantity = quantity.key;
         let all = of(quantity, rows);
         let coarse = all.iter().copied().filter(|row| row.on_coarse_grid > 0);
         let coarse: Vec<&Row> = coarse.collect();

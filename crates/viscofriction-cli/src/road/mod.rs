@@ -6,12 +6,11 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
 use clap::Args;
-use serde::Serialize;
-use viscofriction::WrongInput;
-use viscofriction::numerics::InvalidParameter;
+use viscofriction::numerics::{InvalidParameter, Rounded};
 use viscofriction::scene::{Indenter, SceneError, Source};
-use viscofriction::solve::{CutOff, Problem, cut_offs, plan_of, scene_of};
+use viscofriction::solve::{Answer, CutOff, Problem, cut_offs, plan_of, scene_of};
 use viscofriction::sweep::each_once;
+use viscofriction::{Estimate, WrongInput};
 
 use crate::input::{half_of_free_memory, read_input, read_scene};
 use crate::output::{
@@ -43,22 +42,41 @@ pub(crate) struct Road {
     overwrite: bool,
 }
 
-/// One row of the CSV file; unknown numbers are empty.
-#[derive(Debug, Default, Serialize)]
+/// Columns of the CSV file that are numbers of an answer.
+const NUMBERS: [&str; 8] = [
+    "friction_coefficient",
+    "friction_coefficient_error",
+    "friction_coefficient_standard_error",
+    "area_fraction",
+    "area_fraction_error",
+    "area_fraction_standard_error",
+    "persson_friction_coefficient_2006",
+    "persson_area_fraction_xu",
+];
+
+/// One row of the CSV file.
 struct Row {
     shortest_wavelength: f64,
     rms_slope: f64,
-    friction_coefficient: Option<f64>,
-    friction_coefficient_error: Option<f64>,
-    friction_coefficient_standard_error: Option<f64>,
-    area_fraction: Option<f64>,
-    area_fraction_error: Option<f64>,
-    area_fraction_standard_error: Option<f64>,
-    persson_friction_coefficient_2006: Option<f64>,
-    persson_area_fraction_xu: Option<f64>,
+    /// The [`NUMBERS`]; `None` if a number is not known.
+    numbers: [Option<f64>; 8],
     persson_friction_of_shorter_waves: Option<f64>,
     warnings: String,
     failure: String,
+}
+
+impl Row {
+    /// A number by its name; `None` if it is not known.
+    fn number(&self, name: &str) -> Option<f64> {
+        let place = NUMBERS.iter().position(|known| *known == name);
+        place.and_then(|place| self.numbers[place])
+    }
+
+    /// A quantity with its error; `None` if it is not known.
+    fn quantity(&self, key: &str) -> Option<Estimate> {
+        let error = self.number(&format!("{key}_error"))?;
+        Some(Estimate::new(self.number(key)?, error))
+    }
 }
 
 /// Runs the command: solves the cut-off series and reports it.
@@ -147,62 +165,43 @@ impl Road {
 
 /// The row of a cut-off; `all` is the surface with all its waves.
 fn row(one: &CutOff, all: &CutOff) -> Row {
-    let empty = Row {
+    let known = one.known();
+    let numbers = known.map(Answer::numbers).unwrap_or_default();
+    let number = |name: &str| numbers.iter().find(|(known, _)| known == name)?.1;
+    let failure = one.answer.as_ref().err().map(ToString::to_string);
+    Row {
         shortest_wavelength: one.shortest_wavelength,
         rms_slope: one.rms_slope,
-        failure: one
-            .answer
-            .as_ref()
-            .err()
-            .map(ToString::to_string)
-            .unwrap_or_default(),
-        ..Row::default()
-    };
-    let Some(answer) = one.known() else {
-        return empty;
-    };
-    let area = answer.rough.map(|rough| rough.area_fraction);
-    let [friction_scatter, area_scatter] = answer
-        .scatters()
-        .map(|(_, scatter)| scatter.map(|known| known.standard_error));
-    let theory = one.persson();
-    Row {
-        friction_coefficient: answer.friction_coefficient.map(|known| known.value),
-        friction_coefficient_error: answer.friction_coefficient.map(|known| known.error),
-        friction_coefficient_standard_error: friction_scatter,
-        area_fraction: area.map(|known| known.value),
-        area_fraction_error: area.map(|known| known.error),
-        area_fraction_standard_error: area_scatter,
-        persson_friction_coefficient_2006: theory.map(|theory| theory.friction_coefficient_2006),
-        persson_area_fraction_xu: theory.map(|theory| theory.area_fraction_xu),
+        numbers: NUMBERS.map(number),
         persson_friction_of_shorter_waves: one.still_to_come(all),
-        warnings: answer.warnings.join(" | "),
-        ..empty
+        warnings: known.map_or_else(String::new, |answer| answer.warnings.join(" | ")),
+        failure: failure.unwrap_or_default(),
     }
 }
 
 /// The rows as a printed table.
 fn table(rows: &[Row]) -> comfy_table::Table {
     let mut table = markdown(
-        "shortest wavelength [m] | rms slope | friction | error | standard error | area fraction | error | standard error | \
+        "shortest wavelength [m] | rms slope | friction coefficient | standard error | area fraction | standard error | \
          friction of shorter waves, estimated",
     );
     for row in rows {
-        let number =
-            |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:.4}"));
-        let error =
-            |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:.1e}"));
-        table.add_row([
-            format!("{:.3e}", row.shortest_wavelength),
-            format!("{:.3}", row.rms_slope),
-            number(row.friction_coefficient),
-            error(row.friction_coefficient_error),
-            error(row.friction_coefficient_standard_error),
-            number(row.area_fraction),
-            error(row.area_fraction_error),
-            error(row.area_fraction_standard_error),
-            number(row.persson_friction_of_shorter_waves),
-        ]);
+        let quantity = |key| row.quantity(key).map(|known| known.to_string());
+        let error = |key: &str| {
+            let known = row.number(&format!("{key}_standard_error"));
+            known.map(|error| format!("{error:.1e}"))
+        };
+        let later = row.persson_friction_of_shorter_waves;
+        let cells = [
+            Some(Rounded(row.shortest_wavelength).to_string()),
+            Some(Rounded(row.rms_slope).to_string()),
+            quantity("friction_coefficient"),
+            error("friction_coefficient"),
+            quantity("area_fraction"),
+            error("area_fraction"),
+            later.map(|friction| format!("{:.1e}", friction)),
+        ];
+        table.add_row(cells.map(Option::unwrap_or_default));
     }
     table
 }
@@ -228,7 +227,16 @@ impl Files {
     /// Replaces the files in an order that never leaves a picture beside the rows of another run.
     fn write(&self, rows: &[Row]) -> Result<()> {
         let (svg, png) = drawn(&picture::figure(rows))?;
-        let csv = self.csv.part(&to_csv("", rows)?)?;
+        let names = format!(
+            "shortest_wavelength rms_slope {} persson_friction_of_shorter_waves warnings failure",
+            NUMBERS.join(" ")
+        );
+        let records = rows.iter().map(|row| {
+            let later = row.persson_friction_of_shorter_waves;
+            let lengths = [row.shortest_wavelength, row.rms_slope];
+            (lengths, row.numbers, later, &row.warnings, &row.failure)
+        });
+        let csv = self.csv.part(&to_csv(&names, records)?)?;
         let [svg_part, png_part] = [self.svg.part(svg.as_bytes())?, self.png.part(&png)?];
         self.svg.remove()?;
         self.png.remove()?;

@@ -1,6 +1,7 @@
 //! Picture of friction and area over the cut-off wavelength with error bars, compared with the theories of Persson (2006) for the
 //! friction and of Xu and others (2024) for the area.
 
+use viscofriction::Quantity;
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series, Shape};
 
 use super::Row;
@@ -8,37 +9,28 @@ use crate::run::around;
 
 /// The figure of a cut-off series.
 pub(super) fn figure(rows: &[Row]) -> Figure {
-    let friction = chart(["friction coefficient μ", "Persson (2006)"], rows, |row| {
-        let theory = row.persson_friction_coefficient_2006;
-        [
-            row.friction_coefficient,
-            row.friction_coefficient_error,
-            theory,
-        ]
-    });
-    let area = chart(["area fraction", "Xu (2024)"], rows, |row| {
-        let theory = row.persson_area_fraction_xu;
-        [row.area_fraction, row.area_fraction_error, theory]
-    });
-    Figure::new([friction, area], 2)
+    let friction = ("persson_friction_coefficient_2006", "Persson (2006)");
+    let area = ("persson_area_fraction_xu", "Xu (2024)");
+    let friction = chart("friction_coefficient", friction, rows);
+    Figure::new([friction, chart("area_fraction", area, rows)], 2)
 }
 
-/// A chart of one quantity; `of` gives value, error and theory of a row.
-fn chart([label, name]: [&str; 2], rows: &[Row], of: impl Fn(&Row) -> [Option<f64>; 3]) -> Chart {
-    let known = |index: usize| {
-        let points = rows.iter();
-        points
-            .filter_map(|row| Some([row.shortest_wavelength, of(row)[index]?]))
-            .collect()
-    };
-    let points: Vec<[f64; 2]> = known(0);
-    let errors: Vec<f64> = known(1)
+/// A chart of one quantity, with the column and the name of its theory.
+fn chart(key: &str, (theory, name): (&str, &str), rows: &[Row]) -> Chart {
+    let label = Quantity::named(key)
+        .map(Quantity::label)
+        .unwrap_or_default();
+    let known = rows.iter();
+    let known = known.filter_map(|row| Some((row.shortest_wavelength, row.quantity(key)?)));
+    let (points, errors): (Vec<[f64; 2]>, Vec<f64>) = known
+        .map(|(length, known)| ([length, known.value], known.error))
+        .unzip();
+    let theory = rows
         .iter()
-        .map(|[_, error]: &[f64; 2]| *error)
-        .collect();
+        .filter_map(|row| Some([row.shortest_wavelength, row.number(theory)?]));
+    let theory: Vec<[f64; 2]> = theory.collect();
     let ends = points.iter().zip(&errors);
     let ends = ends.flat_map(|([_, value], error)| [value - error, value + error]);
-    let theory: Vec<[f64; 2]> = known(2);
     let all: Vec<f64> = ends.chain(theory.iter().map(|[_, value]| *value)).collect();
     let computed = Series {
         marker: Some(Marker::filled(Shape::Circle)),

@@ -12,6 +12,7 @@ use super::{Timed, pictures, report, spectrum};
 use viscofriction_plot::Figure;
 
 use crate::output::{NewFiles, OutputFolder, to_csv};
+use crate::sweep::labelled;
 
 /// Names of all files that an answer may have.
 pub(super) const NAMES: &str = "result.json report.html realisations.csv history.csv history.svg history.png history_over_time.svg history_over_time.png \
@@ -42,7 +43,16 @@ pub(super) fn write(
         pictures.push(("spectral_sensitivity", figure));
     }
     if let Some(ensemble) = &answer.ensemble {
-        out.write("realisations.csv", &to_csv("", &ensemble.realisations)?)?;
+        let first = ensemble.realisations.first().into_iter();
+        let keys = first.flat_map(|one| one.quantities.iter());
+        let names = keys.map(|(key, _)| format!(" {key} {key}_error"));
+        let rows = ensemble.realisations.iter().map(|one| {
+            let numbers = one.quantities.iter();
+            let numbers = numbers.flat_map(|(_, known)| [known.value, known.error]);
+            (one.seed, numbers.collect::<Vec<f64>>())
+        });
+        let names = format!("seed{}", names.collect::<String>());
+        out.write("realisations.csv", &to_csv(&names, rows)?)?;
     }
     write_pressure(answer, (&out, &mut pictures))?;
     write_line(answer, (&out, &mut pictures))?;
@@ -119,14 +129,14 @@ fn write_columns(curve: &Curve, out: &NewFiles<'_>) -> Result<()> {
 fn write_motion(answer: &Answer, (out, pictures): (&NewFiles<'_>, &mut Pictures)) -> Result<()> {
     write_columns(&answer.fields.curve, out)?;
     let steps = &answer.fields.motion_steps;
-    let force = "tangential force F_t [N]";
+    let force = labelled("tangential_force");
     let over = |x: &str, axis: usize| {
         // Close the loop of a cycle over the position, but not over time.
         let closes = axis == 1 && answer.dissipated_energy.is_some();
         let first = steps.first().filter(|_| closes);
         let points = steps.iter().chain(first);
         let points = points.map(|step| [step[axis], step[2]]);
-        pictures::curve(x, force, points.collect())
+        pictures::curve(x, &force, points.collect())
     };
     pictures.push(("motion", over("position x [m]", 1)));
     pictures.push(("motion_over_time", over("time t [s]", 0)));
@@ -138,15 +148,15 @@ fn write_curve(curve: &Curve, (out, pictures): (&NewFiles<'_>, &mut Pictures)) -
     write_columns(curve, out)?;
     let times = &curve.times;
     let known = |name| curve.column(name).map_or(&[][..], |column| &column.values);
-    let [force, depth] = ["normal_force", "indentation_depth"].map(known);
-    let labels = ["normal force F [N]", "depth d [m]"];
+    let names = ["normal_force", "indentation_depth"];
+    let ([force, depth], labels) = (names.map(known), names.map(labelled));
     let varies = |values: &[Estimate]| values.windows(2).any(|pair| pair[0] != pair[1]);
     if varies(force) && varies(depth) {
         let points = depth
             .iter()
             .zip(force)
             .map(|(depth, force)| [depth.value, force.value]);
-        let figure = pictures::points(labels[1], labels[0], points.collect());
+        let figure = pictures::points(&labels[1], &labels[0], points.collect());
         pictures.push(("history", figure));
     }
     let is_found = depth.iter().any(|depth| depth.error > 0.0);
@@ -157,7 +167,7 @@ fn write_curve(curve: &Curve, (out, pictures): (&NewFiles<'_>, &mut Pictures)) -
         .map(|(time, found)| [*time, found.value]);
     let figure = pictures::points(
         "time t [s]",
-        labels[usize::from(is_found)],
+        &labels[usize::from(is_found)],
         points.collect(),
     );
     pictures.push(("history_over_time", figure));
@@ -179,7 +189,8 @@ fn write_history(answer: &Answer, (out, pictures): (&NewFiles<'_>, &mut Pictures
     out.write("history.csv", &to_csv("", rows)?)?;
     let point = |row: &HistoryRow| [row.sliding_distance_m, row.friction_coefficient];
     let points = rows.iter().map(point).collect();
-    let figure = pictures::curve("sliding distance s [m]", "friction coefficient μ", points);
+    let friction = labelled("friction_coefficient");
+    let figure = pictures::curve("sliding distance s [m]", &friction, points);
     pictures.push(("history", figure));
     Ok(())
 }

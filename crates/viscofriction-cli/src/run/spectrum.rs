@@ -19,22 +19,15 @@ const POINTS_PER_DECADE: f64 = 20.0;
 
 /// Colours of storage and loss modulus.
 const COLOURS: [Colour; 2] = [Colour::Blue, Colour::Red];
-/// Names of the quantities, in the order of [`derivatives`].
-const QUANTITIES: [&str; 3] = ["friction coefficient", "normal force", "indentation depth"];
 
-/// Derivatives of each quantity in a band, by G' and by G''.
-fn derivatives(band: &ByFrequency) -> [[Option<Estimate>; 2]; 3] {
-    let both = [&band.storage_modulus, &band.loss_modulus];
-    [
-        both.map(|one| one.friction_coefficient),
-        both.map(|one| one.normal_force),
-        both.map(|one| one.indentation_depth),
-    ]
+/// Derivatives of a quantity in a band, by G' and by G''; `None` if they are not known.
+fn derivatives(band: &ByFrequency, key: &str) -> [Option<Estimate>; 2] {
+    [&band.storage_modulus, &band.loss_modulus].map(|one| one.derivatives.of(key))
 }
 
 /// Derivatives of the friction by G' and by G''; 0 if they are not known.
 fn of_friction(band: &ByFrequency) -> [Estimate; 2] {
-    derivatives(band)[0].map(|known| known.unwrap_or(Estimate::exact(0.0)))
+    derivatives(band, "friction_coefficient").map(|known| known.unwrap_or(Estimate::exact(0.0)))
 }
 
 /// Sum of the absolute derivatives of the friction in a band.
@@ -56,20 +49,16 @@ fn with_part(spectral: &SpectralSensitivity, part: f64) -> impl Iterator<Item = 
 
 /// Table of the significant bands, and a sentence about the fraction of all others.
 pub(super) fn table(spectral: &SpectralSensitivity) -> (Table, String) {
-    let known = spectral.bands.first().map(derivatives).unwrap_or_default();
-    let columns: Vec<usize> = (0..known.len())
-        .filter(|&quantity| known[quantity][0].is_some())
-        .collect();
-    let heads = columns.iter().flat_map(|&quantity| {
-        ["G′", "G″"].map(|modulus| format!("d ln {} by {modulus}", QUANTITIES[quantity]))
+    let first = spectral.bands.first().into_iter();
+    let known = first.flat_map(|band| band.storage_modulus.derivatives.iter());
+    let keys: Vec<&str> = known.map(|(key, _)| key).collect();
+    let heads = keys.iter().flat_map(|key| {
+        ["G′", "G″"].map(|modulus| format!(" | d ln {} by {modulus}", key.replace('_', " ")))
     });
-    let heads: Vec<String> = iter::once("ω [rad/s]".to_owned()).chain(heads).collect();
-    let mut table = markdown(&heads.join(" | "));
+    let mut table = markdown(&format!("ω [rad/s]{}", heads.collect::<String>()));
     for band in with_part(spectral, IN_TABLE) {
         let [from, to] = band.frequencies;
-        let cells = columns
-            .iter()
-            .flat_map(|&quantity| derivatives(band)[quantity]);
+        let cells = keys.iter().flat_map(|key| derivatives(band, key));
         let cells = cells.map(|known| known.map_or_else(String::new, |known| known.to_string()));
         table.add_row(iter::once(format!("{from:.3e} to {to:.3e}")).chain(cells));
     }

@@ -3,61 +3,46 @@
 use std::iter;
 
 use comfy_table::Table;
+use viscofriction::quantity::differentiated;
 use viscofriction::scene::Model;
-use viscofriction::solve::{Answer, Problem, Scatter, Uncertainties};
-use viscofriction::{ErrorParts, Estimate};
+use viscofriction::solve::{Answer, Problem};
+use viscofriction::{ErrorParts, Estimate, QUANTITIES, Quantity};
 
 use crate::output::markdown;
 
 /// A printed quantity of the answer.
 struct Line {
-    name: &'static str,
+    name: String,
     /// Value, error and unit.
     value: String,
     /// Standard error due to the covariance of the material; `None` if it is not known.
     material_error: Option<f64>,
 }
 
-/// All known quantities of the answer.
+/// All known quantities of the answer, and what theory gives for some.
 fn lines(answer: &Answer) -> Vec<Line> {
-    let [force, area] = if answer.is_per_length {
-        ["N/m", "m²/m"]
-    } else {
-        ["N", "m²"]
+    let material_errors = answer.budget.material();
+    let line = |quantity: &Quantity| {
+        let known = (quantity.of)(answer)?;
+        let value = format!("{known} {}", quantity.unit_in(answer));
+        Some(Line {
+            name: quantity.name(),
+            value: value.trim_end().to_owned(),
+            material_error: material_errors.of(quantity.key),
+        })
     };
-    let rows = [
-        ("friction coefficient", answer.friction_coefficient, ""),
-        ("peak friction", answer.peak_friction, ""),
-        ("dissipated energy", answer.dissipated_energy, "J"),
-        ("normal force", Some(answer.normal_force), force),
-        ("tangential force", answer.tangential_force(), force),
-        ("indentation depth", answer.indentation_depth, "m"),
-        ("contact area", answer.contact_area, area),
-        ("peak pressure", answer.peak_pressure, "Pa"),
-    ];
-    let of_rough = answer.rough.map(|rough| {
-        let theory = rough.persson;
-        let friction = theory.map(|theory| Estimate::exact(theory.friction_coefficient_2006));
-        let area = theory.map(|theory| Estimate::exact(theory.area_fraction_xu));
-        let dissipation = rough.friction_from_dissipation;
+    let theories = answer.persson.iter().flat_map(|theory| {
         [
-            ("friction by dissipation", dissipation, ""),
-            ("mean pressure", Some(rough.mean_pressure), "Pa"),
-            ("area fraction", Some(rough.area_fraction), ""),
-            ("friction, Persson (2006)", friction, ""),
-            ("area fraction, Xu (2024)", area, ""),
+            ("friction, Persson (2006)", theory.friction_coefficient_2006),
+            ("area fraction, Xu (2024)", theory.area_fraction_xu),
         ]
     });
-    let rows = rows.into_iter().chain(of_rough.into_iter().flatten());
-    let material_errors = answer.budget.material();
-    rows.filter_map(|(name, known, unit)| {
-        Some(Line {
-            name,
-            value: format!("{} {unit}", known?).trim_end().to_owned(),
-            material_error: material_errors.of(&name.replace(' ', "_")),
-        })
-    })
-    .collect()
+    let theories = theories.map(|(name, number)| Line {
+        name: name.to_owned(),
+        value: Estimate::exact(number).to_string(),
+        material_error: None,
+    });
+    QUANTITIES.iter().filter_map(line).chain(theories).collect()
 }
 
 /// Quantities as aligned lines.
@@ -67,7 +52,7 @@ pub(super) fn listed(answer: &Answer) -> String {
         let widths = lines.iter().map(|line| text(line).chars().count());
         widths.max().unwrap_or(0)
     };
-    let [names, values] = [width(|line| line.name), width(|line| &line.value)];
+    let [names, values] = [width(|line| &line.name), width(|line| &line.value)];
     let line = |line: &Line| {
         let Line { name, value, .. } = line;
         match line.material_error {
@@ -85,29 +70,28 @@ pub(super) fn table(answer: &Answer) -> Table {
     let mut table = markdown("quantity | value | error by the material");
     for line in lines(answer) {
         let error = line.material_error.map(|error| format!("{error:.1e}"));
-        table.add_row([line.name.to_owned(), line.value, error.unwrap_or_default()]);
+        table.add_row([line.name, line.value, error.unwrap_or_default()]);
     }
     table
 }
 
-/// One row per number of the scene with the known derivatives; the contact area has a column if it is known itself.
+/// One row per number of the scene with the known derivatives; a computed quantity has a column if it has none of them too.
 pub(super) fn sensitivity(answer: &Answer) -> Table {
     let all = &answer.sensitivity;
-    let names = all
-        .first()
-        .map_or([""; 4], |first| first.named().map(|(name, _)| name));
-    let is_shown = |column: &usize| {
-        let is_known = all.iter().any(|one| one.named()[*column].1.is_some());
-        is_known || names[*column] == "contact_area" && answer.contact_area.is_some()
+    let is_shown = |quantity: &&Quantity| {
+        let is_computed = (quantity.of)(answer).is_some_and(|known| known.error > 0.0);
+        is_computed
+            || all
+                .iter()
+                .any(|one| one.derivatives.of(quantity.key).is_some())
     };
-    let columns: Vec<usize> = (0..names.len()).filter(is_shown).collect();
+    let columns: Vec<&Quantity> = differentiated().filter(is_shown).collect();
     let heads = columns
         .iter()
-        .map(|&column| format!("d ln {}", names[column].replace('_', " ")));
-    let heads: Vec<String> = iter::once("by d ln".to_owned()).chain(heads).collect();
-    let mut table = markdown(&heads.join(" | "));
+        .map(|column| format!(" | d ln {}", column.name()));
+    let mut table = markdown(&format!("by d ln{}", heads.collect::<String>()));
     for one in all {
-        let known = columns.iter().map(|&column| one.named()[column].1);
+        let known = columns.iter().map(|column| one.derivatives.of(column.key));
         let cells = known
             .map(|known| known.map_or_else(|| "not known".to_owned(), |known| known.to_string()));
         table.add_row(iter::once(one.parameter.clone()).chain(cells));
@@ -117,31 +101,20 @@ pub(super) fn sensitivity(answer: &Answer) -> Table {
 
 /// One row per source of uncertainty, relative to each quantity.
 pub(super) fn budget(answer: &Answer) -> Table {
-    let total = ("total", answer.budget.total());
-    let entries = answer.budget.entries.iter();
-    let entries = entries.map(|(source, known)| (source.name(), *known));
-    let rows: Vec<(&str, Uncertainties)> = entries.chain([total]).collect();
-    let quantities = [
-        ("friction coefficient", answer.friction_coefficient),
-        ("normal force", Some(answer.normal_force)),
-        ("indentation depth", answer.indentation_depth),
-        ("contact area", answer.contact_area),
-    ];
-    let known = |name: &str| {
-        rows.iter()
-            .any(|(_, known)| known.of(&name.replace(' ', "_")).is_some())
+    let rows = answer.budget.rows();
+    let column = |quantity: &'static Quantity| {
+        let value = (quantity.of)(answer)?.value.abs();
+        let mut known = rows.iter().filter_map(|(_, known)| known.of(quantity.key));
+        known.next().map(|_| (quantity, value))
     };
-    let columns = quantities.into_iter().filter(|(name, _)| known(name));
-    let columns: Vec<(&str, f64)> = columns
-        .filter_map(|(name, value)| Some((name, value?.value)))
-        .collect();
-    let heads = columns.iter().map(|(name, _)| format!(" | u of {name}"));
+    let columns: Vec<(&Quantity, f64)> = differentiated().filter_map(column).collect();
+    let heads = columns
+        .iter()
+        .map(|(column, _)| format!(" | u of {}", column.name()));
     let mut table = markdown(&format!("source{}", heads.collect::<String>()));
     for (source, known) in &rows {
-        let cells = columns.iter().map(|(name, value)| {
-            let part = known
-                .of(&name.replace(' ', "_"))
-                .map(|known| 100.0 * known / value.abs());
+        let cells = columns.iter().map(|(column, value)| {
+            let part = known.of(column.key).map(|known| 100.0 * known / value);
             part.map_or_else(String::new, |part| format!("{part:.3} %"))
         });
         table.add_row(iter::once((*source).to_owned()).chain(cells));
@@ -161,14 +134,13 @@ pub(super) fn parts(parts: &ErrorParts) -> Option<String> {
 
 /// Sentence about the ensemble; `None` for a single surface.
 pub(super) fn scatter(answer: &Answer) -> Option<String> {
-    let known = answer.scatters().into_iter();
-    let known = known.filter_map(|(name, scatter)| Some((name.replace('_', " "), scatter?)));
-    let words = known.map(|(name, one): (String, Scatter)| {
+    let ensemble = answer.ensemble.as_ref()?;
+    let words = ensemble.scatter.iter().map(|(key, one)| {
         let [error, scatter] = [one.standard_error, one.standard_deviation];
+        let name = key.replace('_', " ");
         format!("of the {name} {error:.1e}, with a scatter of {scatter:.1e}")
     });
     let words: Vec<String> = words.collect();
-    let ensemble = answer.ensemble.as_ref()?;
     let more = match ensemble.on_coarse_grid {
         0 => String::new(),
         more => format!(" and {more} more on a coarse grid"),

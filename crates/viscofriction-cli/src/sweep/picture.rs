@@ -4,9 +4,9 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
-use viscofriction::WrongInput;
 use viscofriction::numerics::MessageNumber;
 use viscofriction::scene::units;
+use viscofriction::{Quantity, WrongInput};
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Field, Figure, Line, Marker, Series, Shape};
 
 use super::file::RowTable;
@@ -17,12 +17,8 @@ use crate::input::read_rows;
 use crate::output::{OutputFile, folder_of, name_of, picture, remove_parts, say};
 use crate::run::around;
 
-/// Quantities that may be drawn, as column and axis label, in order of preference: friction, depth, force.
-pub(super) const QUANTITIES: [(&str, &str); 3] = [
-    (FRICTION, "friction coefficient μ"),
-    ("indentation_depth", "depth d [m]"),
-    ("normal_force", "normal force F [N]"),
-];
+/// Keys of the quantities that may be drawn, in order of preference.
+const DRAWN: [&str; 3] = [FRICTION, "indentation_depth", "normal_force"];
 /// Column of the friction coefficient.
 pub(super) const FRICTION: &str = "friction_coefficient";
 /// Largest relative deviation of equal steps or factors (chosen, above rounding).
@@ -157,14 +153,15 @@ fn figure(table: &RowTable, measured: Option<&Measured>) -> Result<Figure> {
         }
         _ => true,
     };
-    let mut quantities = QUANTITIES.into_iter();
-    let drawn = quantities.find(|(name, _)| is_known(name) && is_drawn(name));
-    let (name, label) = drawn.context("no point has a result")?;
+    let mut quantities = drawable();
+    let drawn = quantities.find(|quantity| is_known(quantity.key) && is_drawn(quantity.key));
+    let quantity = drawn.context("no point has a result")?;
+    let name = quantity.key;
     if measured.is_some() && name != FRICTION {
         bail!("no point has a friction coefficient, which was measured");
     }
     let drawn = Drawn {
-        label,
+        label: quantity.label(),
         values: values(name),
         errors: values(&format!("{name}_error")),
         of_material: values(&format!("{name}_material_error")),
@@ -207,6 +204,11 @@ pub(super) fn abscissa(keys: &[Key<'_>]) -> Option<usize> {
     let n_numbers = |key: &usize| keys[*key].n_numbers();
     let most = (0..keys.len()).rev().max_by_key(n_numbers);
     most.filter(|key| n_numbers(key) > 0)
+}
+
+/// Quantities that may be drawn, in order of preference.
+pub(super) fn drawable() -> impl Iterator<Item = &'static Quantity> {
+    DRAWN.into_iter().filter_map(Quantity::named)
 }
 
 /// Smallest number of decimals of a number in a legend, in scientific notation (chosen).
@@ -294,8 +296,8 @@ impl Curves {
 }
 
 /// The drawn quantity, by row.
-struct Drawn<'a> {
-    label: &'a str,
+struct Drawn {
+    label: String,
     values: Vec<Option<f64>>,
     errors: Vec<Option<f64>>,
     /// Standard error due to the covariance of the material.
@@ -304,7 +306,7 @@ struct Drawn<'a> {
     theory: Vec<Option<f64>>,
 }
 
-impl Drawn<'_> {
+impl Drawn {
     /// Computed values and theory of the given rows, over their abscissae.
     fn series(&self, rows: &[(f64, usize)]) -> [Series; 2] {
         let at = |values: &[Option<f64>], row: usize| values.get(row).copied().flatten();
@@ -413,7 +415,7 @@ fn chart(over: &Key, curves: &Curves, drawn: &Drawn, measured: Vec<Series>) -> F
         points.map(move |(place, point)| (point, length(place)))
     });
     let ends = ends.flat_map(|(point, error)| [point[1] - error, point[1] + error]);
-    let y = Axis::linear(drawn.label, around(ends));
+    let y = Axis::linear(&*drawn.label, around(ends));
     let has_band = series.iter().any(|one| !one.band.is_empty());
     Figure::single(Chart {
         title: has_band.then(|| "bars: computation; band: 95 % by the moduli".to_owned()),
@@ -456,12 +458,9 @@ const COLOURS: [Colour; 5] = [
 /// Markers of successive curves.
 const SHAPES: [Shape; 3] = [Shape::Circle, Shape::Square, Shape::Diamond];
 
-/// Last part of a key, with name, symbol and unit of a quantity that has a symbol.
-const NAMES: [(&str, &str); 18] = [
+/// Last part of a key, with name, symbol and unit of a number of the scene that has a symbol and is no quantity of an answer.
+const NAMES: [(&str, &str); 15] = [
     ("velocity", "speed v [m/s]"),
-    ("normal_force", "normal force F [N]"),
-    ("mean_pressure", "mean pressure p [Pa]"),
-    ("indentation_depth", "depth d [m]"),
     ("radius", "radius R [m]"),
     ("hurst_exponent", "Hurst exponent H"),
     ("direction", "direction [°]"),
@@ -481,6 +480,9 @@ const NAMES: [(&str, &str); 18] = [
 /// Axis label of a key: its quantity and unit, or the key itself if it is unknown, or one of a list.
 pub(crate) fn labelled(key: &str) -> String {
     let name = key.rsplit('.').next().unwrap_or(key);
+    if let Some(quantity) = Quantity::named(name) {
+        return quantity.label();
+    }
     if let Some((_, label)) = NAMES.iter().find(|(known, _)| *known == name) {
         return (*label).to_owned();
     }
@@ -494,7 +496,7 @@ pub(crate) fn labelled(key: &str) -> String {
 }
 
 /// A colour map over two keys.
-fn map([one, other]: [&Key<'_>; 2], drawn: &Drawn<'_>) -> Result<Figure> {
+fn map([one, other]: [&Key<'_>; 2], drawn: &Drawn) -> Result<Figure> {
     let over = [one, other].map(Key::numbers);
     let places = [0, 1].map(|axis: usize| sorted(over[axis].iter().copied().flatten()));
     let place = |x: f64, y: f64| [x, y].map(f64::to_bits);
@@ -504,7 +506,7 @@ fn map([one, other]: [&Key<'_>; 2], drawn: &Drawn<'_>) -> Result<Figure> {
             found.insert(place(*x, *y), *value);
         }
     }
-    let colours = Axis::linear(drawn.label, ends_of(&sorted(found.values().copied())));
+    let colours = Axis::linear(&*drawn.label, ends_of(&sorted(found.values().copied())));
     let shape = [places[0].len(), places[1].len()];
     let field = Field::new(shape, colours, |column, row| {
         let place = place(places[0][column], places[1][row]);

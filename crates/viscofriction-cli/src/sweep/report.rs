@@ -2,6 +2,7 @@
 
 use anyhow::Result;
 use viscofriction::sweep::each_once;
+use viscofriction::{Estimate, QUANTITIES};
 use viscofriction_plot::Figure;
 
 use super::file::RowTable;
@@ -10,14 +11,6 @@ use super::samples::Samples;
 use crate::output::markdown;
 use crate::page::Page;
 
-/// Columns shown with their errors, and their labels.
-const COLUMNS: [(&str, &str); 5] = [
-    ("friction_coefficient", "friction coefficient"),
-    ("normal_force", "normal force [N]"),
-    ("indentation_depth", "depth [m]"),
-    ("contact_area", "contact area [m²]"),
-    ("peak_pressure", "peak pressure [Pa]"),
-];
 /// Name of the column of failures.
 const FAILURE: &str = "failure";
 
@@ -57,25 +50,26 @@ pub(super) fn page(
 fn rows(table: &RowTable, keys: std::ops::Range<usize>) -> comfy_table::Table {
     let place = |name: &str| table.place(name);
     let is_known = |column: usize| table.rows.iter().any(|row| !row.fields[column].is_empty());
-    let columns = COLUMNS.into_iter().filter_map(|(name, label)| {
-        let column = place(name).filter(|&column| is_known(column))?;
-        Some((column, place(&format!("{name}_error")), label))
+    let columns = QUANTITIES.iter().filter_map(|quantity| {
+        let column = place(quantity.key).filter(|&column| is_known(column))?;
+        Some((
+            column,
+            place(&format!("{}_error", quantity.key)),
+            quantity.label(),
+        ))
     });
-    let columns: Vec<(usize, Option<usize>, &str)> = columns.collect();
+    let columns: Vec<(usize, Option<usize>, String)> = columns.collect();
     let failure = place(FAILURE).filter(|&column| is_known(column));
     let heads = keys.clone().map(|key| labelled(&table.header[key]));
-    let heads = heads.chain(columns.iter().map(|(_, _, label)| (*label).to_owned()));
+    let heads = heads.chain(columns.iter().map(|(_, _, label)| label.clone()));
     let heads = heads.chain(failure.map(|_| "no answer, because".to_owned()));
     let mut shown = markdown(&heads.collect::<Vec<_>>().join(" | "));
     for row in &table.rows {
         let number = |column: usize| row.fields[column].parse::<f64>().ok();
-        let known = columns.iter().map(|&(column, error, _)| {
-            let error = error.and_then(number).filter(|error| *error > 0.0);
-            match (number(column), error) {
-                (None, _) => String::new(),
-                (Some(value), None) => format!("{value:.6e}"),
-                (Some(value), Some(error)) => format!("{value:.6e} ± {error:.1e}"),
-            }
+        let known = columns.iter().map(|(column, error, _)| {
+            let error = error.and_then(number).unwrap_or(0.0);
+            let known = number(*column).map(|value| Estimate::new(value, error));
+            known.map_or_else(String::new, |known| known.to_string())
         });
         let cells = keys.clone().map(|key| row.fields[key].clone()).chain(known);
         shown.add_row(cells.chain(failure.map(|column| row.fields[column].clone())));

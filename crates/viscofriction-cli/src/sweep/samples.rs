@@ -3,17 +3,19 @@
 use std::f64::consts::TAU;
 
 use comfy_table::Table;
+use viscofriction::Quantity;
+use viscofriction::numerics::Rounded;
 use viscofriction::sweep::SAMPLE;
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Series};
 
 use super::file::RowTable;
-use super::picture::{OF_95_PERCENT, QUANTITIES};
+use super::picture::{OF_95_PERCENT, drawable};
 use crate::output::markdown;
 use crate::run::around;
 
 /// The answers of a sweep over samples only.
 pub(super) struct Samples {
-    label: &'static str,
+    label: String,
     /// Value for the scene itself, and its standard uncertainty to first order.
     nominal: [f64; 2],
     /// Values of the samples in increasing order.
@@ -29,12 +31,13 @@ impl Samples {
         let is_nominal = |row: &usize| number(*row, key) == Some(0.0);
         let row = (0..table.rows.len()).find(is_nominal)?;
         // A given quantity has no uncertainty.
-        let known = |(name, label): (&str, &'static str)| {
-            let uncertainty = number(row, place(&format!("{name}_uncertainty"))?)?;
-            let column = place(name)?;
-            Some((label, column, [number(row, column)?, uncertainty]))
+        let known = |quantity: &Quantity| {
+            let uncertainty = number(row, place(&format!("{}_uncertainty", quantity.key))?)?;
+            let column = place(quantity.key)?;
+            let nominal = [number(row, column)?, uncertainty];
+            Some((quantity.label(), column, nominal))
         };
-        let (label, column, nominal) = QUANTITIES.into_iter().find_map(known)?;
+        let (label, column, nominal) = drawable().find_map(known)?;
         let others = (0..table.rows.len()).filter(|row| !is_nominal(row));
         let mut sorted: Vec<f64> = others.filter_map(|row| number(row, column)).collect();
         sorted.sort_by(f64::total_cmp);
@@ -71,7 +74,7 @@ impl Samples {
         ];
         let mut table = markdown("of the | mean | standard deviation | 2.5 % | 50 % | 97.5 %");
         for (name, numbers) in rows {
-            let numbers = numbers.map(|number| format!("{number:.6e}"));
+            let numbers = numbers.map(|number| Rounded(number).to_string());
             table.add_row(std::iter::once(name).chain(numbers));
         }
         table
@@ -108,7 +111,7 @@ impl Samples {
             .iter()
             .flat_map(|one| &one.points)
             .map(|point| point[0]);
-        let x = Axis::linear(self.label, around(ends));
+        let x = Axis::linear(&*self.label, around(ends));
         let y = Axis::linear("part of the samples below", [0.0, 1.0]);
         Figure::single(Chart::new(x, y, series.into()))
     }

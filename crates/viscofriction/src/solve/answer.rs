@@ -15,6 +15,7 @@ use super::omission::Omission;
 use super::problem::{Motion, Problem};
 use super::realisations::Ensemble;
 use super::sensitivity::{Budget, Sensitivity, SpectralSensitivity};
+use crate::quantity::{ByQuantity, QUANTITIES, Quantity, scattered};
 use crate::scene::{Method, Model};
 
 /// The answer to one problem, in SI units; quantities that the method does not compute are `None`.
@@ -45,8 +46,17 @@ pub struct Answer {
     pub contact_area: Option<Estimate>,
     /// Largest pressure, \[Pa]; `None` if it is not known or grows without limit as the grid is refined.
     pub peak_pressure: Option<Estimate>,
-    /// Additional quantities of a periodic surface; `None` for other bodies.
-    pub rough: Option<RoughAnswer>,
+    /// Mean pressure of a periodic surface, \[Pa]; `None` for other bodies. [`normal_force`](Self::normal_force) and
+    /// [`contact_area`](Self::contact_area) are those of one period.
+    pub mean_pressure: Option<Estimate>,
+    /// Contact area as a fraction of the period; `None` if the body is not periodic.
+    pub area_fraction: Option<Estimate>,
+    /// Friction coefficient of a periodic surface from the power that the material dissipates; `None` if the state is not stationary.
+    pub friction_from_dissipation: Option<Estimate>,
+    /// Persson's theory for the same waves; `None` unless the state is stationary sliding on a half space without a fitted series.
+    pub persson: Option<Persson>,
+    /// Answer without the shortest octave of a periodic surface; `None` for transients, and if no wave remains.
+    pub without_shortest_octave: Option<WithoutShortestOctave>,
     /// Bounding rectangle of the contact; `None` if nothing touches or it is not known.
     pub contact_box: Option<ContactBox>,
     /// Fractions of the dissipated power by their origin.
@@ -83,22 +93,6 @@ pub struct Answer {
     pub fields: Fields,
 }
 
-/// Additional quantities of a periodic surface; [`Answer::normal_force`] and [`Answer::contact_area`] are those of one period.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
-pub struct RoughAnswer {
-    /// Mean pressure, \[Pa].
-    pub mean_pressure: Estimate,
-    /// Contact area as a fraction of the period.
-    pub area_fraction: Estimate,
-    /// Friction coefficient from the power that the material dissipates; `None` if the state is not stationary.
-    pub friction_from_dissipation: Option<Estimate>,
-    /// Persson's theory for the same waves; `None` unless the state is stationary sliding on a half space without a fitted series.
-    pub persson: Option<Persson>,
-    /// Answer without the shortest octave; `None` for transients, and if no wave remains.
-    pub without_shortest_octave: Option<WithoutShortestOctave>,
-}
-
 /// Persson's theory for the waves of a surface, summed exactly.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Persson {
@@ -110,6 +104,37 @@ pub struct Persson {
     pub friction_coefficient: f64,
     /// Friction coefficient with S = (1 + P²)/2 (Persson 2006).
     pub friction_coefficient_2006: f64,
+}
+
+impl Persson {
+    /// The numbers by their names in JSON; the CSV prefixes them with `persson_`.
+    fn named(theory: Option<&Self>) -> [(&'static str, Option<f64>); 4] {
+        [
+            ("area_fraction", theory.map(|one| one.area_fraction)),
+            ("area_fraction_xu", theory.map(|one| one.area_fraction_xu)),
+            (
+                "friction_coefficient",
+                theory.map(|one| one.friction_coefficient),
+            ),
+            (
+                "friction_coefficient_2006",
+                theory.map(|one| one.friction_coefficient_2006),
+            ),
+        ]
+    }
+
+    /// Mean over several surfaces; `None` if the theory is missing for one.
+    pub(crate) fn mean(theories: impl IntoIterator<Item = Option<Self>>) -> Option<Self> {
+        let theories: Vec<Self> = theories.into_iter().collect::<Option<_>>()?;
+        let mean =
+            |of: fn(&Self) -> f64| theories.iter().map(of).sum::<f64>() / theories.len() as f64;
+        Some(Self {
+            area_fraction: mean(|one| one.area_fraction),
+            area_fraction_xu: mean(|one| one.area_fraction_xu),
+            friction_coefficient: mean(|one| one.friction_coefficient),
+            friction_coefficient_2006: mean(|one| one.friction_coefficient_2006),
+        })
+    }
 }
 
 /// Bounding rectangle of the contact, relative to the lowest point of the body, \[m].
@@ -190,7 +215,11 @@ impl Answer {
             error_parts: ErrorParts::NONE,
             contact_area: None,
             peak_pressure: None,
-            rough: None,
+            mean_pressure: None,
+            area_fraction: None,
+            friction_from_dissipation: None,
+            persson: None,
+            without_shortest_octave: None,
             contact_box: None,
             dissipation: Dissipation::default(),
             unknowns: 0,
@@ -223,63 +252,37 @@ impl Answer {
     pub fn requested_quantity(&self) -> Estimate {
         let (force, depth) = (self.normal_force, self.indentation_depth);
         let depth = depth.filter(|_| force.error == 0.0);
-        let area = self.rough.map(|rough| rough.area_fraction);
         self.friction_coefficient
-            .or(area)
+            .or(self.area_fraction)
             .or(depth)
             .unwrap_or(force)
-    }
-
-    /// Quantities by their names in JSON and CSV, in the order of the output.
-    fn quantities(&self) -> [(&str, Option<Estimate>); 11] {
-        let rough = |of: fn(RoughAnswer) -> Estimate| self.rough.map(of);
-        let dissipation = self.rough.and_then(|rough| rough.friction_from_dissipation);
-        [
-            ("friction_coefficient", self.friction_coefficient),
-            ("normal_force", Some(self.normal_force)),
-            ("tangential_force", self.tangential_force()),
-            ("indentation_depth", self.indentation_depth),
-            ("contact_area", self.contact_area),
-            ("peak_pressure", self.peak_pressure),
-            ("mean_pressure", rough(|rough| rough.mean_pressure)),
-            ("area_fraction", rough(|rough| rough.area_fraction)),
-            ("friction_from_dissipation", dissipation),
-            ("peak_friction", self.peak_friction),
-            ("dissipated_energy", self.dissipated_energy),
-        ]
     }
 
     /// All numbers by their names in CSV; `None` if a number is not known.
     pub fn numbers(&self) -> Vec<(String, Option<f64>)> {
         let mut numbers = Vec::new();
-        for (name, known) in self.quantities() {
-            numbers.push((name.to_owned(), known.map(|known| known.value)));
-            numbers.push((format!("{name}_error"), known.map(|known| known.error)));
+        for quantity in &QUANTITIES {
+            let (key, known) = (quantity.key, (quantity.of)(self));
+            numbers.push((key.to_owned(), known.map(|known| known.value)));
+            numbers.push((format!("{key}_error"), known.map(|known| known.error)));
         }
         let parts = self.error_parts.named();
         numbers.extend(parts.map(|(name, part)| (format!("error_{name}"), part)));
         let contact = self.contact_box.as_ref();
         let edges = contact.map_or([None; 4], ContactBox::edges);
-        let theory = self.rough.and_then(|rough| rough.persson);
-        let friction = theory.map(|one| one.friction_coefficient);
-        let friction_2006 = theory.map(|one| one.friction_coefficient_2006);
-        let others = [
-            ("contact_box_error", contact.map(|contact| contact.error)),
-            ("persson_area_fraction", theory.map(|one| one.area_fraction)),
-            (
-                "persson_area_fraction_xu",
-                theory.map(|one| one.area_fraction_xu),
-            ),
-            ("persson_friction_coefficient", friction),
-            ("persson_friction_coefficient_2006", friction_2006),
-        ];
-        let others = EDGES.into_iter().zip(edges).chain(others);
-        numbers.extend(others.map(|(name, number)| (name.to_owned(), number)));
-        for (name, scatter) in self.scatters() {
-            let known = scatter.map(|one| one.standard_error);
-            numbers.push((format!("{name}_standard_error"), known));
-            let known = scatter.map(|one| one.standard_deviation);
-            numbers.push((format!("{name}_scatter"), known));
+        let edges = EDGES.into_iter().zip(edges);
+        let error = ("contact_box_error", contact.map(|contact| contact.error));
+        let edges = edges.chain([error]);
+        numbers.extend(edges.map(|(name, edge)| (name.to_owned(), edge)));
+        let theory = Persson::named(self.persson.as_ref()).into_iter();
+        numbers.extend(theory.map(|(name, number)| (format!("persson_{name}"), number)));
+        let scatter = self.ensemble.as_ref().map(|ensemble| &ensemble.scatter);
+        for Quantity { key, .. } in scattered() {
+            let known = scatter.and_then(|scatter| scatter.of(key));
+            let error = known.map(|known| known.standard_error);
+            numbers.push((format!("{key}_standard_error"), error));
+            let deviation = known.map(|known| known.standard_deviation);
+            numbers.push((format!("{key}_scatter"), deviation));
         }
         let shares = self.dissipation.shares().into_iter();
         numbers.extend(shares.map(|(name, share)| (format!("dissipation_{name}"), share)));
@@ -318,21 +321,21 @@ impl Answer {
         }
         // Reject underflow. Exactly 0 is allowed for friction on an elastic material, and with an error that does not underflow.
         let is_elastic = problem.simple() == Some(&Simple::Elastic);
-        let is_lost = |name: &str, known: Estimate| {
-            let is_exact = is_elastic && (name.contains("friction") || name == "tangential_force");
-            let is_zero = known.value == 0.0 && (is_exact || known.error >= f64::MIN_POSITIVE);
+        let is_lost = |known: Estimate, may_vanish: bool| {
+            let is_zero = known.value == 0.0 && (may_vanish || known.error >= f64::MIN_POSITIVE);
             known.value.abs() < f64::MIN_POSITIVE && !is_zero
         };
-        let quantities = self.quantities().into_iter();
-        let known = quantities.filter_map(|(name, known)| Some((name, known?)));
+        let lost = QUANTITIES.iter().find_map(|quantity| {
+            let known = (quantity.of)(&self)?;
+            let may_vanish = is_elastic && quantity.is_dissipative;
+            is_lost(known, may_vanish).then_some((quantity.key, known.value))
+        });
         let width = self.contact_box.as_ref().map(|one| one.x[1] - one.x[0]);
-        let width = width.map(|width| ("contact_box", Estimate::exact(width)));
-        let mut known = known.chain(width);
-        if let Some((name, known)) = known.find(|(name, known)| is_lost(name, *known)) {
-            let (quantity, value) = (name.to_owned(), known.value);
+        let width = width.filter(|width| is_lost(Estimate::exact(*width), false));
+        if let Some((quantity, value)) = lost.or(width.map(|width| ("contact_box", width))) {
+            let quantity = quantity.to_owned();
             return Err(SolveError::OutOfRange { quantity, value });
         }
-        drop(known);
         Ok(self)
     }
 
@@ -381,15 +384,9 @@ impl Serialize for Answer {
         let mut map = serializer.serialize_map(None)?;
         map.serialize_entry("method", &self.method)?;
         map.serialize_entry("model", &self.model)?;
-        let of_material = self.budget.material();
-        for (name, known) in self.quantities() {
-            if let Some(known) = known {
-                map.serialize_entry(name, &known.value)?;
-                map.serialize_entry(&format!("{name}_error"), &known.error)?;
-            }
-            if let Some(error) = of_material.of(name) {
-                map.serialize_entry(&format!("{name}_material_error"), &error)?;
-            }
+        ByQuantity::new(|quantity| (quantity.of)(self)).serialize_into(&mut map)?;
+        for (key, error) in self.budget.material().iter() {
+            map.serialize_entry(&format!("{key}_material_error"), &error)?;
         }
         self.serialize_rough(&mut map)?;
         if let Some(contact) = &self.contact_box {

@@ -6,7 +6,7 @@ use numerics::{Accuracy, CappedProgress, Estimate, Request};
 use serde::Serialize;
 use serde::ser::{SerializeMap as _, Serializer};
 
-use super::answer::RoughAnswer;
+use super::answer::Answer;
 
 /// Relative change of friction or area by the shortest octave above which a warning is given (chosen).
 const MOST: f64 = 0.1;
@@ -70,19 +70,11 @@ impl WithoutShortestOctave {
     }
 
     /// A warning if friction or area changes by more than [`MOST`] and by more than the error estimates.
-    pub(super) fn warning(
-        &self,
-        friction: Option<Estimate>,
-        rough: RoughAnswer,
-        slope: f64,
-    ) -> Option<String> {
+    pub(super) fn warning(&self, answer: &Answer, slope: f64) -> Option<String> {
+        let (friction, area) = (answer.friction_coefficient, answer.area_fraction);
         let changes = [
             ("the friction", friction, self.friction_coefficient),
-            (
-                "the area",
-                Some(rough.area_fraction),
-                Some(self.area_fraction),
-            ),
+            ("the area", area, Some(self.area_fraction)),
         ];
         let known = changes
             .into_iter()

@@ -54,7 +54,7 @@ impl Serialize for Dissipation {
 /// The known fractions of an answer.
 pub(super) fn dissipation(problem: &Problem, answer: &Answer) -> Dissipation {
     let outside = outside_window(problem, answer);
-    let without = answer.rough.and_then(|rough| rough.without_shortest_octave);
+    let without = answer.without_shortest_octave;
     Dissipation {
         outside_window: outside.map(|parts| parts.below + parts.above),
         below_window: outside.map(|parts| parts.below),

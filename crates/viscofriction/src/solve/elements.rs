@@ -14,7 +14,7 @@ use indenters::{
 };
 use numerics::{ErrorParts, Estimate, Request};
 
-use super::answer::{Answer, ContactBox, Grid, HistoryRow, Persson, RoughAnswer, StationaryGrid};
+use super::answer::{Answer, ContactBox, Grid, HistoryRow, Persson, StationaryGrid};
 use super::body::Body;
 use super::curve::{AREA, Curve, DEPTH, FORCE, OfPoint};
 use super::cut_off::WithoutShortestOctave;
@@ -126,10 +126,7 @@ fn of_periodic(
 ) -> Result<Answer> {
     let mut answer = of_rough(problem, rough, Method::BemSteady, &estimate);
     answer.iterations = estimate.finest.products;
-    let theory = Persson::of(problem)?;
-    if let Some(rough) = &mut answer.rough {
-        rough.persson = theory;
-    }
+    answer.persson = Persson::of(problem)?;
     Ok(answer.under(estimate.finest.pressure))
 }
 
@@ -166,9 +163,7 @@ fn of_pressed(
     answer.iterations = estimate.finest.products;
     answer.friction_coefficient = None;
     answer.error_parts = ErrorParts::discretisation_only(answer.requested_quantity().error);
-    if let Some(rough) = &mut answer.rough {
-        rough.friction_from_dissipation = None;
-    }
+    answer.friction_from_dissipation = None;
     let mut answer = answer.under(estimate.finest.pressure);
     if !matches!(problem.simple(), Some(Simple::Elastic)) {
         // The pressure of a viscoelastic contact depends on how it has grown, which a single state does not represent.
@@ -238,13 +233,9 @@ fn of_rough<S>(
         error_parts: ErrorParts::discretisation_only(estimate.friction_coefficient.error),
         indentation_depth: is_layer.then_some(estimate.mean_depth),
         contact_area: Some(estimate.area_fraction * area),
-        rough: Some(RoughAnswer {
-            mean_pressure,
-            area_fraction: estimate.area_fraction,
-            friction_from_dissipation: estimate.friction_from_dissipation,
-            persson: None,
-            without_shortest_octave: None,
-        }),
+        mean_pressure: Some(mean_pressure),
+        area_fraction: Some(estimate.area_fraction),
+        friction_from_dissipation: estimate.friction_from_dissipation,
         ..Answer::new(method, Model::HalfSpace, mean_pressure * area)
     }
 }
@@ -300,11 +291,11 @@ impl Persson {
 impl Answer {
     /// Adds the answer without the shortest octave, without its friction if nothing slides.
     fn cut_off(&mut self, without: Option<WithoutShortestOctave>) {
-        if let (Some(rough), Some(mut without)) = (&mut self.rough, without) {
-            let slides = self.friction_coefficient.is_some();
-            without.friction_coefficient = without.friction_coefficient.filter(|_| slides);
-            rough.without_shortest_octave = Some(without);
-        }
+        let slides = self.friction_coefficient.is_some();
+        self.without_shortest_octave = without.map(|without| WithoutShortestOctave {
+            friction_coefficient: without.friction_coefficient.filter(|_| slides),
+            ..without
+        });
     }
 
     /// Adds the pressure field of a period; the elements in contact are the unknowns.

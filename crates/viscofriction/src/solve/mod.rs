@@ -29,7 +29,7 @@ mod validity;
 mod with_fields;
 pub(crate) mod work;
 
-pub use answer::{Answer, ContactBox, Fields, HistoryRow, Persson, RoughAnswer};
+pub use answer::{Answer, ContactBox, Fields, HistoryRow, Persson};
 pub use body::{Body, BodyOfScene, Revolution, body};
 pub use curve::{Curve, CurveColumn};
 pub use cut_off::WithoutShortestOctave;
@@ -44,13 +44,14 @@ pub use omission::Omission;
 pub use parts::Parts;
 pub use plan::{Plan, plan, plan_of, problem_of, scene_of};
 pub use problem::{Motion, Problem};
+pub(crate) use realisations::Coarse;
 pub use realisations::{Ensemble, Realisation, Scatter};
 pub use road::{CutOff, cut_offs};
-pub(crate) use sensitivity::check_uncertainties;
 pub use sensitivity::{
-    Budget, ByFrequency, Sensitivity, Source, SpectralSensitivity, Uncertainties,
-    check_sensitivity, check_spectral_sensitivity, sampled, spectral_sensitivity, with_sensitivity,
+    Budget, ByFrequency, Sensitivity, Source, SpectralSensitivity, check_sensitivity,
+    check_spectral_sensitivity, sampled, spectral_sensitivity, with_sensitivity,
 };
+pub(crate) use sensitivity::{check_uncertainties, relative_change};
 pub use shared_memory::share_memory;
 pub use with_fields::with_fields;
 

@@ -1,6 +1,6 @@
 //! Propagation of the modulus error of an approximating Prony series into all error estimates.
 
-use numerics::ValueWithError;
+use numerics::{Estimate, ValueWithError};
 
 use super::answer::Answer;
 use super::body::Body;
@@ -9,6 +9,7 @@ use super::error::{Result, SolveError};
 use super::expansion::Expansion;
 use super::problem::{Motion, Problem};
 use super::validity::mean_slope;
+use crate::quantity::{QUANTITIES, Quantity, Unit};
 use crate::scene::{Accuracy, Method, Model};
 
 /// Fraction of the requested relative error that is left to the method (chosen); the rest is for the error of the series.
@@ -140,22 +141,29 @@ impl Problem {
 }
 
 impl Answer {
-    /// Widens the errors by a relative error of the moduli. The error of friction is relative to the mean slope in contact, of
-    /// which friction is a small fraction on a nearly elastic material.
+    /// Widens the errors by a relative error of the moduli. The errors of friction coefficients are relative to the mean slope in
+    /// contact, of which friction is a small fraction on a nearly elastic material; a dissipated energy is in proportion to friction.
     fn widened(mut self, relative: f64, slope: f64) -> Self {
-        let given_or_found = [
-            Some(&mut self.normal_force),
-            self.indentation_depth.as_mut(),
-        ];
-        let given_or_found = given_or_found.into_iter().flatten();
-        // A quantity with error 0 was given.
-        let found = given_or_found.filter(|found| found.error > 0.0);
-        let others = [self.contact_area.as_mut(), self.peak_pressure.as_mut()];
-        for quantity in found.chain(others.into_iter().flatten()) {
-            *quantity = quantity.widened(relative * quantity.value.abs());
+        let friction = self.friction_coefficient.map(|known| known.value.abs());
+        let friction = friction.filter(|friction| *friction > 0.0);
+        let slope_over_friction = friction.map_or(1.0, |friction| (slope / friction).max(1.0));
+        let scale = |quantity: &Quantity, value: f64| match (quantity.is_dissipative, quantity.unit)
+        {
+            (false, _) => value,
+            (true, Unit::NUMBER) => value.max(slope),
+            (true, _) => value * slope_over_friction,
+        };
+        let found = |known: &&mut Estimate| known.error > 0.0; // An error of 0 marks a given quantity.
+        for quantity in &QUANTITIES {
+            let known = quantity.field.and_then(|field| field(&mut self).as_mut());
+            if let Some(known) = known.filter(found) {
+                *known = known.widened(relative * scale(quantity, known.value.abs()));
+            }
         }
-        if let Some(friction) = &mut self.friction_coefficient {
-            *friction = friction.widened(relative * slope.max(friction.value.abs()));
+        if self.normal_force.error > 0.0 {
+            self.normal_force = self
+                .normal_force
+                .widened(relative * self.normal_force.value.abs());
         }
         if let Some(contact) = &mut self.contact_box {
             contact.error += relative * (contact.x[1] - contact.x[0]);
@@ -181,8 +189,6 @@ impl Answer {
 #[cfg(test)]
 mod tests {
     use rheology::Springpot;
-
-    use numerics::Estimate;
 
     use super::*;
     use crate::scene::Scene;
@@ -225,6 +231,37 @@ mod tests {
         ];
         let friction = answer.friction_coefficient.map_or(0.0, |mu| mu.value);
         (friction, found.into_iter().flatten().collect())
+    }
+
+    /// Given quantities, with the error 0, stay as they are; friction coefficients have the error of the slope.
+    #[test]
+    fn every_computed_quantity_has_the_error_of_the_series() {
+        let [computed, given] = [Estimate::new(0.25, 1e-9), Estimate::exact(0.25)];
+        let mut answer = Answer::new(Method::BemSteady, Model::HalfSpace, computed);
+        let fields = || QUANTITIES.iter().filter_map(|quantity| quantity.field);
+        fields().for_each(|field| *field(&mut answer) = Some(computed));
+        answer.mean_pressure = Some(given);
+        let widened = answer.widened(0.01, 0.5);
+        assert_eq!(widened.mean_pressure, Some(given), "a given pressure");
+        for quantity in QUANTITIES
+            .iter()
+            .filter(|quantity| quantity.key != "mean_pressure")
+        {
+            let known = (quantity.of)(&widened).expect("a quantity");
+            let factor = if quantity.is_dissipative { 2.0 } else { 1.0 };
+            let expected = 0.01 * factor * known.value;
+            assert!(
+                known.error >= expected,
+                "{}: {known:?} for {expected}",
+                quantity.key
+            );
+            // A force along the surface has the errors of its two factors.
+            assert!(
+                known.error < 2.0 * expected,
+                "{}: {known:?} for {expected}",
+                quantity.key
+            );
+        }
     }
 
     /// The creep of long waves under a line contact never ends, so its friction depends on times beyond every range.

@@ -28,7 +28,7 @@ impl CutOff {
 
     /// Persson's theory for the remaining waves; `None` if it does not apply.
     pub fn persson(&self) -> Option<Persson> {
-        self.known()?.rough?.persson
+        self.known()?.persson
     }
 
     /// Estimated friction of the omitted waves: their friction in Persson's theory (2006), scaled by the ratio of solved to

@@ -80,11 +80,11 @@ fn held_outside(problem: &Problem) -> Option<String> {
 
 /// Warning about an answer that depends on the shortest waves of a rough surface.
 fn cut_off(body: &Body, answer: &Answer) -> Option<String> {
-    let (Body::Periodic(surface), Some(rough)) = (body, answer.rough) else {
+    let Body::Periodic(surface) = body else {
         return None;
     };
-    let without = rough.without_shortest_octave?;
-    without.warning(answer.friction_coefficient, rough, surface.rms_slope())
+    let without = answer.without_shortest_octave?;
+    without.warning(answer, surface.rms_slope())
 }
 
 /// Effects in a measurement that no method models for this kind of scene.

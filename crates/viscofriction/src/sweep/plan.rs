@@ -10,10 +10,10 @@ use super::cache::PartsCache;
 use super::row::{BETWEEN_WARNINGS, CHECKS, EMPTY, SweepRow, canonical, digits, hashed};
 use super::vary::{MOST_POINTS, SAMPLE, Varied, Vary};
 use crate::files::{Files, ReadFile};
+use crate::quantity::differentiated;
 use crate::scene::{PATH_KEYS, Scene, SceneError, Source, scene_file, split_index};
 use crate::solve::{
-    Answer, Problem, Uncertainties, check_uncertainties, plan_of, sampled, share_memory, solve,
-    with_sensitivity,
+    Answer, Problem, check_uncertainties, plan_of, sampled, share_memory, solve, with_sensitivity,
 };
 use crate::text::WrongInput;
 
@@ -229,11 +229,11 @@ impl Plan {
 
     /// Names of the columns of results.
     fn columns(&self) -> Vec<String> {
-        let uncertainties = Uncertainties::default().named().into_iter();
-        let uncertainties = uncertainties.flat_map(|(name, _)| {
+        let uncertainties = differentiated().flat_map(|quantity| {
+            let key = quantity.key;
             [
-                format!("{name}_material_error"),
-                format!("{name}_uncertainty"),
+                format!("{key}_material_error"),
+                format!("{key}_uncertainty"),
             ]
         });
         let asked = uncertainties.filter(|_| self.sensitivity);
@@ -248,8 +248,8 @@ impl Plan {
         let names = [answer.method.name(), answer.model.name()].map(str::to_owned);
         let numbers = answer.numbers().into_iter().map(|(_, value)| value);
         let [material, total] = [answer.budget.material(), answer.budget.total()];
-        let uncertainties = material.named().into_iter().zip(total.named());
-        let uncertainties = uncertainties.flat_map(|((_, one), (_, other))| [one, other]);
+        let uncertainties =
+            differentiated().flat_map(|quantity| [&material, &total].map(|of| of.of(quantity.key)));
         let numbers = numbers.chain(uncertainties.filter(|_| self.sensitivity));
         let numbers = numbers.map(|value| value.map_or(String::new(), written));
         let warnings = one_line(&answer.warnings.join(BETWEEN_WARNINGS));

@@ -64,7 +64,10 @@ fn a_pressed_sphere_has_the_powers_of_its_closed_form() {
         ("solve.duration", [0.0, 0.0]),
     ] {
         let one = of(&known, parameter);
-        for (known, expected) in [(one.indentation_depth, depth), (one.contact_area, area)] {
+        for (known, expected) in [
+            (one.derivatives.of("indentation_depth"), depth),
+            (one.derivatives.of("contact_area"), area),
+        ] {
             let known = known.expect("a derivative");
             let off = (known.value - expected / 3.0).abs();
             assert!(
@@ -90,7 +93,7 @@ fn a_nearly_viscous_cylinder_has_derivatives() {
         "material.kelvin-voigt.shear_modulus",
     ]
     .map(|parameter| {
-        let one = of(&known, parameter).friction_coefficient;
+        let one = of(&known, parameter).derivatives.of("friction_coefficient");
         one.expect("a derivative")
     });
     // The friction depends on η v and on F/G with η v/G.
@@ -109,7 +112,10 @@ fn areas_with_a_singular_front_follow_the_gap_ahead() {
                     load = { normal_force = 100.0, velocity = 0.3 }\nsolve.relative_error = 1e-4";
     let (_, known) = answered(cylinder);
     let load = of(&known.expect("derivatives"), "load.normal_force").clone();
-    let area = load.contact_area.expect("of the gap ahead");
+    let area = load
+        .derivatives
+        .of("contact_area")
+        .expect("of the gap ahead");
     // By widths to 1e-5 of forces that differ by e^0.4 and e^0.8, to the fourth order.
     let (expected, error) = (1.0557, 0.0141);
     let is_near = (area.value - expected).abs() <= area.error + error;
@@ -120,14 +126,20 @@ fn areas_with_a_singular_front_follow_the_gap_ahead() {
         .replace("1e-4", "1e-3");
     let (_, known) = answered(&slow);
     let load = of(&known.expect("derivatives"), "load.normal_force").clone();
-    let area = load.contact_area.expect("of Hertz, nearly");
+    let area = load
+        .derivatives
+        .of("contact_area")
+        .expect("of Hertz, nearly");
     assert!((area.value - 0.5).abs() < 0.02, "{area:?}");
 
     let cone = "indenter.cone.slope = 0.1\nmaterial.viscous.viscosity = 3e3\n\
                 load = { normal_force = 1.0, velocity = 0.1 }\nsolve.method = \"bem-steady\"";
     let (_, known) = answered(cone);
     let load = of(&known.expect("derivatives"), "load.normal_force").clone();
-    let area = load.contact_area.expect("of a cone, by its one length");
+    let area = load
+        .derivatives
+        .of("contact_area")
+        .expect("of a cone, by its one length");
     assert!((area.value - 2.0).abs() <= area.error, "{area:?}");
 }
 
@@ -140,7 +152,7 @@ fn areas_of_a_sphere_are_those_of_its_closed_form() {
                   load = { normal_force = 1.0, velocity = 0.3 }\nsolve.relative_error = 1e-3";
     let (_, known) = answered(sphere);
     let load = of(&known.expect("derivatives"), "load.normal_force").clone();
-    let area = load.contact_area.expect("an area");
+    let area = load.derivatives.of("contact_area").expect("an area");
     let off = (area.value - 0.659_762_3).abs();
     assert!(off <= area.error && area.error < 1e-3, "{area:?}");
 }
@@ -185,8 +197,12 @@ fn derivatives_are_the_slopes_between_answers() {
                 let of_answers = (from.error / from.value + to.error / to.value) / STEP;
                 let derivatives = found.map(|(_, known)| {
                     let one = of(known.as_ref().expect("derivatives"), parameter);
-                    let other = one.indentation_depth.or(one.normal_force);
-                    [one.friction_coefficient, other][index].expect("a derivative")
+                    let other = one
+                        .derivatives
+                        .of("indentation_depth")
+                        .or(one.derivatives.of("normal_force"));
+                    [one.derivatives.of("friction_coefficient"), other][index]
+                        .expect("a derivative")
                 });
                 let mean = 0.5 * (derivatives[0].value + derivatives[1].value);
                 let bars = 0.5 * (derivatives[0].error + derivatives[1].error);
@@ -210,7 +226,9 @@ fn the_bar_of_a_friction_holds_what_is_not_known_of_the_size_of_its_contact() {
                 solve = { method = \"bem-steady\", model = \"half-space\", relative_error = 1e-3 }";
     let (_, known) = answered(text);
     let known = known.expect("derivatives");
-    let by_velocity = of(&known, "load.velocity").friction_coefficient;
+    let by_velocity = of(&known, "load.velocity")
+        .derivatives
+        .of("friction_coefficient");
     let by_velocity = by_velocity.expect("a derivative");
     // By `xtask evidence derivatives`, from answers to 3e-5.
     let (expected, error) = (-0.460_73, 2.6e-4);
@@ -229,7 +247,9 @@ fn the_error_of_a_series_is_in_the_bars_of_derivatives() {
                 material.springpot = { coefficient = 3.5e4, exponent = 0.336, time_range = [6.6e-5, 66.0] }";
     let (_, known) = answered(text);
     let known = known.expect("derivatives");
-    let by_force = of(&known, "load.normal_force").friction_coefficient;
+    let by_force = of(&known, "load.normal_force")
+        .derivatives
+        .of("friction_coefficient");
     let by_force = by_force.expect("a derivative");
     let is_small = by_force.error < 1e-5;
     assert!(
@@ -248,7 +268,9 @@ fn a_number_that_is_the_least_allowed_one_has_a_derivative() {
         );
         let (_, known) = answered(&text);
         let known = known.expect("derivatives");
-        let known = of(&known, "material.springpot.exponent").friction_coefficient;
+        let known = of(&known, "material.springpot.exponent")
+            .derivatives
+            .of("friction_coefficient");
         known.expect("a derivative")
     };
     let [least, beside] = [0.01, 0.0101].map(at);
@@ -306,13 +328,16 @@ fn derivatives_by_frequencies_are_those_by_the_numbers_of_the_material() {
                 .iter()
                 .zip([&band.storage_modulus, &band.loss_modulus])
             {
-                let by = by.friction_coefficient.expect("a derivative");
+                let by = by
+                    .derivatives
+                    .of("friction_coefficient")
+                    .expect("a derivative");
                 sum += share * by.value;
                 error += share * by.error;
             }
         }
         let name = format!("material.prony.branches[{index}].modulus");
-        let expected = of(&known, &name).friction_coefficient;
+        let expected = of(&known, &name).derivatives.of("friction_coefficient");
         let expected = expected.expect("a derivative");
         let allowed = error + expected.error;
         assert!(
@@ -347,7 +372,7 @@ fn a_budget_adds_up_its_sources() {
         let depth = answer.indentation_depth.expect("a depth");
         let of = |source: &Source| {
             let entry = answer.budget.entries.iter().find(|(one, _)| one == source);
-            let known = entry.and_then(|(_, known)| known.indentation_depth);
+            let known = entry.and_then(|(_, known)| known.of("indentation_depth"));
             known.unwrap_or_else(|| panic!("{source:?} in {:?}", answer.budget))
         };
         let number = of(&Source::Number("load.normal_force".to_owned()));
@@ -361,7 +386,11 @@ fn a_budget_adds_up_its_sources() {
             let off = (part - expected).abs() / depth.value;
             assert!(off < 1e-5, "{part} and not {expected}");
         }
-        let total = answer.budget.total().indentation_depth.expect("a total");
+        let total = answer
+            .budget
+            .total()
+            .of("indentation_depth")
+            .expect("a total");
         let squares: f64 = parts.iter().map(|part| part * part).sum();
         assert!((total / squares.sqrt() - 1.0).abs() < 1e-12, "{total}");
         let json = serde_json::to_value(&answer).expect("JSON");
@@ -444,8 +473,8 @@ fn derivatives_of_a_rough_surface_add_up_and_those_of_many_are_refused() {
             .map(|name| &name[..])
             .chain(["load.mean_pressure"])
     };
-    let frictions = || all().map(|name| of(&known, name).friction_coefficient);
-    let areas = || all().map(|name| of(&known, name).contact_area);
+    let frictions = || all().map(|name| of(&known, name).derivatives.of("friction_coefficient"));
+    let areas = || all().map(|name| of(&known, name).derivatives.of("contact_area"));
     for known in [frictions().collect::<Option<Vec<_>>>(), areas().collect()] {
         let known = known.expect("derivatives");
         let sum: f64 = known.iter().map(|one| one.value).sum();

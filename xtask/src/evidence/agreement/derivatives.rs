@@ -59,9 +59,7 @@ fn sums_in(
         let (mut sum, mut moduli) = (Estimate::exact(0.0), 0.0);
         let mut terms = 0;
         for one in known {
-            let derivatives = one.named();
-            let derivative = derivatives.iter().find(|(other, _)| *other == name);
-            let Some(derivative) = derivative.and_then(|(_, known)| *known) else {
+            let Some(derivative) = one.derivatives.of(&name) else {
                 continue;
             };
             let numbers = scenes.each_mut();

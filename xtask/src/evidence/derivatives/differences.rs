@@ -3,9 +3,9 @@
 use anyhow::{Context as _, Result};
 use serde::{Deserialize, Serialize};
 use toml::Value;
-use viscofriction::Estimate;
 use viscofriction::scene::{Method, Model, Scene};
 use viscofriction::solve::{Answer, Problem, Sensitivity, plan, solve};
+use viscofriction::{Estimate, Quantity};
 
 use crate::evidence::request::{derivatives, number_at};
 use crate::evidence::sample::NumberedScene;
@@ -84,16 +84,6 @@ impl Refusal {
     }
 }
 
-/// The quantities of an answer by the names that they have in a [`Sensitivity`].
-fn quantity(answer: &Answer, name: &str) -> Option<Estimate> {
-    match name {
-        "friction_coefficient" => answer.friction_coefficient,
-        "normal_force" => Some(answer.normal_force),
-        "indentation_depth" => answer.indentation_depth,
-        _ => answer.contact_area,
-    }
-}
-
 /// The derivatives of a scene by some of its numbers, or none where the method has none.
 pub(super) fn compared(
     NumberedScene { number, scene }: &NumberedScene,
@@ -110,10 +100,8 @@ pub(super) fn compared(
     let mut rows = Vec::new();
     for one in chosen(&known, &scene, asked, &mut random, count) {
         let answers = asked.answers(&scene, &one.parameter)?;
-        for (quantity, known_as) in one.named() {
-            let (Some(known_as), Some(reference)) =
-                (known_as, difference(&answers, quantity, asked.step))
-            else {
+        for (quantity, known_as) in one.derivatives.iter() {
+            let Some(reference) = difference(&answers, quantity, asked.step) else {
                 continue;
             };
             rows.push(Derivative {
@@ -158,17 +146,15 @@ fn chosen<'a>(
 }
 
 fn largest(known: &[Sensitivity], quantity: &str) -> f64 {
-    let of = known.iter().flat_map(Sensitivity::named);
-    let of = of.filter(|(name, _)| *name == quantity);
-    let sizes = of.filter_map(|(_, known)| Some(known?.value.abs()));
-    sizes.fold(0.0, f64::max)
+    let known = known.iter().filter_map(|one| one.derivatives.of(quantity));
+    known.map(|known| known.value.abs()).fold(0.0, f64::max)
 }
 
 /// The derivative of the logarithm of a quantity, whose answers err independently of each other, with what the step leaves.
 fn difference(answers: &[Answer], name: &str, step: f64) -> Option<Estimate> {
     let (mut sum, mut near, mut squares) = (0.0, 0.0, 0.0);
     for (answer, [steps, weight]) in answers.iter().zip(STENCIL) {
-        let known = quantity(answer, name)?;
+        let known = (Quantity::named(name)?.of)(answer)?;
         sum += weight * known.value.ln();
         if steps.abs() <= 1.0 {
             near += steps * known.value.ln();

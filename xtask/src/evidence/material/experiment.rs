@@ -168,7 +168,7 @@ impl Experiments {
         let beyond = answer(&self.slid(&fitted_table, self.velocity(&truth, omega)?))?;
         let [friction, true_friction] =
             [&found, &known].map(|answer| answer.requested_quantity().value);
-        let material_error = found.budget.material().friction_coefficient;
+        let material_error = found.budget.material().of("friction_coefficient");
         let material_error = material_error.context("a covariance")?;
         Ok(Found {
             material: material.name.clone(),

@@ -13,20 +13,20 @@ pub(super) const FINER: [usize; 4] = [1, 2, 4, 8];
 
 /// Quantities of one surface on a coarse grid.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Coarse {
+pub(crate) struct Coarse {
     /// Friction coefficient from the dissipated power, which vanishes with the loss of the material; that from the slopes has a
     /// discretisation error even on a spring.
-    pub(super) friction_coefficient: f64,
+    pub(crate) friction_coefficient: f64,
     /// Contact area as a fraction of the period.
-    pub(super) area_fraction: f64,
+    pub(crate) area_fraction: f64,
     /// Contact area of one period, \[m²].
-    pub(super) contact_area: f64,
+    pub(crate) contact_area: f64,
     /// Depth of the mean plane, \[m].
-    pub(super) mean_depth: f64,
+    pub(crate) mean_depth: f64,
     /// Persson's theory, a sum over waves that needs no grid.
-    pub(super) persson: Option<Persson>,
+    pub(crate) persson: Option<Persson>,
     /// Elements of the grid.
-    pub(super) elements: usize,
+    pub(crate) elements: usize,
 }
 
 /// True if a single grid solves the problem: stationary sliding or indentation, without a time march.

@@ -6,8 +6,9 @@ use numerics::{Progress, WorkProgress};
 
 use super::coarse::{self, Coarse, FINER, has_coarse_grids};
 use super::each::{at_once, on_threads, solve_each};
+use super::over;
 use super::sample::{Counts, FEWEST, Sample, first_enough};
-use super::{AREA_FRACTION, FRICTION};
+use crate::quantity::scattered;
 use crate::solve::answer::{Answer, Fields};
 use crate::solve::error::{Result, SolveError};
 use crate::solve::problem::Problem;
@@ -217,11 +218,9 @@ impl<'a> Drawn<'a> {
 
     /// A statistic of the quantity that the standard error refers to: friction, or the area fraction if nothing slides.
     fn with<T>(&self, coarse: &[Coarse], statistic: impl FnOnce(Sample) -> T) -> Option<T> {
-        let asked = match self.answers[0].friction_coefficient {
-            Some(_) => FRICTION,
-            None => AREA_FRACTION,
-        };
-        asked.over((&self.answers, coarse), statistic)
+        let first = &self.answers[0];
+        let asked = scattered().find(|quantity| (quantity.of)(first).is_some())?;
+        over(asked, (&self.answers, coarse), statistic)
     }
 
     /// Numbers of surfaces with the least work; the largest allowed ones if the quantity is not known.

@@ -10,48 +10,45 @@ mod each;
 mod sample;
 
 use numerics::{ErrorParts, Estimate, Progress};
-use serde::Serialize;
-use serde::ser::SerializeMap;
+use serde::ser::{Serialize, SerializeMap, Serializer};
 
-use super::answer::{Answer, Persson, RoughAnswer};
+use super::answer::{Answer, Persson};
 use super::cut_off::WithoutShortestOctave;
 use super::dissipation::Dissipation;
 use super::error::{Result, SolveError};
 use super::problem::Problem;
+use crate::quantity::{ByQuantity, QUANTITIES, Quantity};
 use crate::sweep::each_once;
-use coarse::Coarse;
+pub(crate) use coarse::Coarse;
 use draw::Drawn;
 use sample::Sample;
 pub use sample::Scatter;
 
 /// The answer of one of the surfaces.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Realisation {
     /// Seed of the surface.
     pub seed: u64,
-    /// Friction coefficient; `None` if nothing slides.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub friction_coefficient: Option<f64>,
-    /// Absolute error of the friction coefficient.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub friction_coefficient_error: Option<f64>,
-    /// Contact area as a fraction of the period.
-    pub area_fraction: f64,
-    /// Absolute error of the area fraction.
-    pub area_fraction_error: f64,
+    /// The quantities whose scatter is known, with their errors.
+    pub quantities: ByQuantity<Estimate>,
 }
 
 impl Realisation {
     fn of((answer, seed): (&Answer, &u64)) -> Self {
-        let area = answer.rough.map(|rough| rough.area_fraction);
-        let area = area.unwrap_or(Estimate::exact(0.0));
+        let scattered = |quantity: &Quantity| quantity.has_scatter.then(|| (quantity.of)(answer));
         Self {
             seed: *seed,
-            friction_coefficient: answer.friction_coefficient.map(|known| known.value),
-            friction_coefficient_error: answer.friction_coefficient.map(|known| known.error),
-            area_fraction: area.value,
-            area_fraction_error: area.error,
+            quantities: ByQuantity::new(|quantity| scattered(quantity).flatten()),
         }
+    }
+}
+
+impl Serialize for Realisation {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("seed", &self.seed)?;
+        self.quantities.serialize_into(&mut map)?;
+        map.end()
     }
 }
 
@@ -62,44 +59,28 @@ pub struct Ensemble {
     pub realisations: Vec<Realisation>,
     /// Number of further surfaces, solved on a coarse grid only, without error estimates.
     pub on_coarse_grid: usize,
-    /// Scatter of the friction coefficient; `None` if nothing slides or only one surface has an answer.
-    pub friction_coefficient: Option<Scatter>,
-    /// Scatter of the area fraction; `None` if only one surface has an answer.
-    pub area_fraction: Option<Scatter>,
+    /// Scatter of friction and area fraction; empty if only one surface has an answer.
+    pub scatter: ByQuantity<Scatter>,
 }
 
 impl Answer {
-    /// Scatter of friction and area over the surfaces, by their names in JSON; `None` for a single surface.
-    pub fn scatters(&self) -> [(&'static str, Option<Scatter>); 2] {
-        let known = |of: fn(&Ensemble) -> Option<Scatter>| self.ensemble.as_ref().and_then(of);
-        [
-            (
-                "friction_coefficient",
-                known(|all| all.friction_coefficient),
-            ),
-            ("area_fraction", known(|all| all.area_fraction)),
-        ]
-    }
-
     /// Writes the entries that only rough surfaces have.
     pub(super) fn serialize_rough<M: SerializeMap>(&self, map: &mut M) -> Result<(), M::Error> {
-        for (name, scatter) in self.scatters() {
-            if let Some(scatter) = scatter {
-                map.serialize_entry(&format!("{name}_standard_error"), &scatter.standard_error)?;
-                map.serialize_entry(&format!("{name}_scatter"), &scatter.standard_deviation)?;
-            }
-        }
         if let Some(ensemble) = &self.ensemble {
+            for (key, scatter) in ensemble.scatter.iter() {
+                map.serialize_entry(&format!("{key}_standard_error"), &scatter.standard_error)?;
+                map.serialize_entry(&format!("{key}_scatter"), &scatter.standard_deviation)?;
+            }
             map.serialize_entry("realisations", &ensemble.realisations)?;
             if ensemble.on_coarse_grid > 0 {
                 map.serialize_entry("realisations_on_coarse_grid", &ensemble.on_coarse_grid)?;
             }
         }
-        if let Some(persson) = self.rough.and_then(|rough| rough.persson) {
-            map.serialize_entry("persson", &persson)?;
+        if let Some(persson) = &self.persson {
+            map.serialize_entry("persson", persson)?;
         }
-        if let Some(without) = self.rough.and_then(|rough| rough.without_shortest_octave) {
-            map.serialize_entry("without_shortest_octave", &without)?;
+        if let Some(without) = &self.without_shortest_octave {
+            map.serialize_entry("without_shortest_octave", without)?;
         }
         Ok(())
     }
@@ -136,116 +117,54 @@ pub(super) fn mean(
     Err(SolveError::NotReached { answer, why })
 }
 
-/// A quantity that answers and coarse solutions share.
-struct Quantity {
-    of_answer: fn(&Answer) -> Option<f64>,
-    on_coarse_grid: fn(&Coarse) -> f64,
-    in_mean: fn(&mut Answer) -> Option<&mut Estimate>,
-}
-
-/// The friction coefficient.
-const FRICTION: Quantity = Quantity {
-    of_answer: |one| one.friction_coefficient.map(|known| known.value),
-    on_coarse_grid: |one| one.friction_coefficient,
-    in_mean: |mean| mean.friction_coefficient.as_mut(),
-};
-/// The contact area as a fraction of the period.
-const AREA_FRACTION: Quantity = Quantity {
-    of_answer: |one| one.rough.map(|rough| rough.area_fraction.value),
-    on_coarse_grid: |one| one.area_fraction,
-    in_mean: |mean| mean.rough.as_mut().map(|rough| &mut rough.area_fraction),
-};
-/// All quantities whose mean the coarse solutions correct.
-const QUANTITIES: [Quantity; 5] = [
-    FRICTION,
-    AREA_FRACTION,
-    Quantity {
-        of_answer: |one| one.contact_area.map(|known| known.value),
-        on_coarse_grid: |one| one.contact_area,
-        in_mean: |mean| mean.contact_area.as_mut(),
-    },
-    Quantity {
-        of_answer: |one| Some(one.rough?.friction_from_dissipation?.value),
-        on_coarse_grid: |one| one.friction_coefficient,
-        in_mean: |mean| mean.rough.as_mut()?.friction_from_dissipation.as_mut(),
-    },
-    Quantity {
-        of_answer: |one| one.indentation_depth.map(|known| known.value),
-        on_coarse_grid: |one| one.mean_depth,
-        in_mean: |mean| mean.indentation_depth.as_mut(),
-    },
-];
-
-impl Quantity {
-    /// A statistic over all surfaces; `None` if an answer lacks the quantity.
-    fn over<T>(
-        &self,
-        (answers, coarse): (&[Answer], &[Coarse]),
-        statistic: impl FnOnce(Sample) -> T,
-    ) -> Option<T> {
-        let fine: Option<Vec<f64>> = answers.iter().map(self.of_answer).collect();
-        let fine = fine?;
-        let coarse: Vec<f64> = coarse.iter().map(self.on_coarse_grid).collect();
-        let coarse = if coarse.is_empty() { &fine } else { &coarse };
-        Some(statistic(Sample {
-            fine: &fine,
-            coarse,
-        }))
-    }
+/// A statistic of a quantity over all surfaces; `None` if an answer lacks it, or coarse solutions do.
+fn over<T>(
+    quantity: &Quantity,
+    (answers, coarse): (&[Answer], &[Coarse]),
+    statistic: impl FnOnce(Sample) -> T,
+) -> Option<T> {
+    let value = |answer: &Answer| (quantity.of)(answer).map(|known| known.value);
+    let fine: Vec<f64> = answers.iter().map(value).collect::<Option<_>>()?;
+    let coarse: Vec<f64> = coarse.iter().map(quantity.on_coarse_grid?).collect();
+    let coarse = if coarse.is_empty() { &fine } else { &coarse };
+    Some(statistic(Sample {
+        fine: &fine,
+        coarse,
+    }))
 }
 
 impl Answer {
     /// Adds the surfaces solved on the coarse grid only: scatter, and shifted means. The errors remain those of the answers.
     fn count(&mut self, all @ (answers, coarse): (&[Self], &[Coarse])) {
-        let scatter = |of: Quantity| of.over(all, |sample| sample.scatter()).flatten();
         if let Some(ensemble) = &mut self.ensemble {
-            ensemble.friction_coefficient = scatter(FRICTION);
-            ensemble.area_fraction = scatter(AREA_FRACTION);
+            let scatter = |of: &Quantity| over(of, all, |sample| sample.scatter()).flatten();
+            ensemble.scatter =
+                ByQuantity::new(|quantity| scatter(quantity).filter(|_| quantity.has_scatter));
             ensemble.on_coarse_grid = coarse.len().saturating_sub(answers.len());
         }
         if coarse.len() <= answers.len() {
             return;
         }
-        for quantity in QUANTITIES {
-            let shift = quantity.over(all, |sample| sample.shift());
-            if let Some((mean, shift)) = (quantity.in_mean)(self).zip(shift) {
+        for quantity in &QUANTITIES {
+            let shift = over(quantity, all, |sample| sample.shift());
+            if let Some((field, shift)) = quantity.field.zip(shift)
+                && let Some(mean) = field(self)
+            {
                 *mean = Estimate::new(mean.value + shift, mean.error);
             }
         }
-        if let Some(rough) = &mut self.rough {
-            rough.persson = mean_of_theory(coarse);
+        if self.persson.is_some() {
+            self.persson = Persson::mean(coarse.iter().map(|one| one.persson));
         }
     }
 }
 
-/// Mean of Persson's theory over all surfaces; `None` if it is missing for one.
-fn mean_of_theory(surfaces: &[Coarse]) -> Option<Persson> {
-    let theories: Option<Vec<Persson>> = surfaces.iter().map(|one| one.persson).collect();
-    let theories = theories?;
-    let mean =
-        |of: fn(&Persson) -> f64| theories.iter().map(of).sum::<f64>() / theories.len() as f64;
-    Some(Persson {
-        area_fraction: mean(|one| one.area_fraction),
-        area_fraction_xu: mean(|one| one.area_fraction_xu),
-        friction_coefficient: mean(|one| one.friction_coefficient),
-        friction_coefficient_2006: mean(|one| one.friction_coefficient_2006),
-    })
-}
-
 /// The mean of all answers; fields and histories are those of the first.
 fn mean_of(answers: &[Answer], seeds: &[u64]) -> Answer {
-    let known = |of: &dyn Fn(&Answer) -> Option<Estimate>| {
-        let estimates: Option<Vec<Estimate>> = answers.iter().map(of).collect();
-        let estimates = estimates?;
-        let mean = |part: fn(&Estimate) -> f64| {
-            estimates.iter().map(part).sum::<f64>() / estimates.len() as f64
-        };
-        Some(Estimate::new(mean(|one| one.value), mean(|one| one.error)))
+    let share = |index: usize| {
+        let shares = answers.iter().map(|one| one.dissipation.shares()[index].1);
+        mean_estimate(shares.map(|share| share.map(Estimate::exact))).map(|mean| mean.value)
     };
-    let number = |of: &dyn Fn(&Answer) -> Option<f64>| {
-        known(&|answer| of(answer).map(Estimate::exact)).map(|mean| mean.value)
-    };
-    let share = |index: usize| number(&|answer| answer.dissipation.shares()[index].1);
     let warnings = answers.iter();
     let warnings = warnings.map(|one| one.warnings.iter().map(String::as_str).collect());
     let warnings = each_once(warnings).into_iter().map(|one| {
@@ -253,10 +172,8 @@ fn mean_of(answers: &[Answer], seeds: &[u64]) -> Answer {
         format!("{} (of {some} of {all} surfaces)", one.sentence)
     });
     let mut mean = Answer {
-        friction_coefficient: known(&|one| one.friction_coefficient),
-        indentation_depth: known(&|one| one.indentation_depth),
-        contact_area: known(&|one| one.contact_area),
-        rough: rough(&known, &number),
+        persson: Persson::mean(answers.iter().map(|one| one.persson)),
+        without_shortest_octave: without_shortest_octave(answers),
         dissipation: Dissipation {
             outside_window: share(0),
             below_window: share(1),
@@ -267,51 +184,37 @@ fn mean_of(answers: &[Answer], seeds: &[u64]) -> Answer {
         ensemble: Some(Ensemble {
             realisations: answers.iter().zip(seeds).map(Realisation::of).collect(),
             on_coarse_grid: 0,
-            friction_coefficient: None,
-            area_fraction: None,
+            scatter: ByQuantity::default(),
         }),
         ..answers[0].clone()
     };
+    for quantity in &QUANTITIES {
+        if let Some(field) = quantity.field {
+            *field(&mut mean) = mean_estimate(answers.iter().map(quantity.of));
+        }
+    }
     mean.error_parts = ErrorParts::discretisation_only(mean.requested_quantity().error);
     mean
 }
 
-/// Mean over the answers of a quantity; `None` if one answer lacks it.
-type OfAnswer<'a, T> = &'a dyn Fn(&dyn Fn(&Answer) -> Option<T>) -> Option<T>;
+/// Mean of values and mean of errors; `None` if one is not known.
+fn mean_estimate(estimates: impl Iterator<Item = Option<Estimate>>) -> Option<Estimate> {
+    let estimates: Vec<Estimate> = estimates.collect::<Option<_>>()?;
+    let mean = |part: fn(&Estimate) -> f64| {
+        estimates.iter().map(part).sum::<f64>() / estimates.len() as f64
+    };
+    Some(Estimate::new(mean(|one| one.value), mean(|one| one.error)))
+}
 
-/// Means of the quantities that only rough surfaces have.
-fn rough(known: OfAnswer<'_, Estimate>, number: OfAnswer<'_, f64>) -> Option<RoughAnswer> {
-    let estimate = |of: &dyn Fn(&RoughAnswer) -> Option<Estimate>| {
-        known(&|answer| answer.rough.as_ref().and_then(of))
+/// Mean of the answers without the shortest octave.
+fn without_shortest_octave(answers: &[Answer]) -> Option<WithoutShortestOctave> {
+    let mean = |of: fn(WithoutShortestOctave) -> Option<Estimate>| {
+        let without = answers.iter().map(|one| one.without_shortest_octave);
+        mean_estimate(without.map(|without| without.and_then(of)))
     };
-    let theory = |of: fn(Persson) -> f64| number(&|answer| answer.rough?.persson.map(of));
-    let persson = || {
-        Some(Persson {
-            area_fraction: theory(|one| one.area_fraction)?,
-            area_fraction_xu: theory(|one| one.area_fraction_xu)?,
-            friction_coefficient: theory(|one| one.friction_coefficient)?,
-            friction_coefficient_2006: theory(|one| one.friction_coefficient_2006)?,
-        })
-    };
-    let without = |of: fn(WithoutShortestOctave) -> Option<Estimate>| {
-        estimate(&|rough| rough.without_shortest_octave.and_then(of))
-    };
-    let slope = |answer: &Answer| {
-        let without = answer.rough?.without_shortest_octave?;
-        Some(without.rms_slope)
-    };
-    let octave = || {
-        Some(WithoutShortestOctave {
-            friction_coefficient: without(|one| one.friction_coefficient),
-            area_fraction: without(|one| Some(one.area_fraction))?,
-            rms_slope: number(&slope)?,
-        })
-    };
-    Some(RoughAnswer {
-        mean_pressure: estimate(&|rough| Some(rough.mean_pressure))?,
-        area_fraction: estimate(&|rough| Some(rough.area_fraction))?,
-        friction_from_dissipation: estimate(&|rough| rough.friction_from_dissipation),
-        persson: persson(),
-        without_shortest_octave: octave(),
+    Some(WithoutShortestOctave {
+        friction_coefficient: mean(|one| one.friction_coefficient),
+        area_fraction: mean(|one| Some(one.area_fraction))?,
+        rms_slope: mean(|one| Some(Estimate::exact(one.rms_slope)))?.value,
     })
 }

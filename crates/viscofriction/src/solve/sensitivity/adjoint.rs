@@ -9,6 +9,7 @@ use rheology::Material;
 
 use super::Sensitivity;
 use super::parameters::{Number, Numbers};
+use crate::quantity::{ByQuantity, Quantity};
 use crate::scene::{Method, SceneError};
 use crate::solve::answer::{Answer, StationaryGrid};
 use crate::solve::body::Body;
@@ -201,22 +202,21 @@ pub(super) fn relative(
     change: Change<Estimate>,
     width: f64,
 ) -> Sensitivity {
-    let of = |change: Option<Estimate>, value: Option<Estimate>| {
-        let (change, value) = change.zip(value.filter(|value| value.value != 0.0))?;
-        let derivative = change.value / (width * value.value);
-        // The answer is extrapolated, so it differs from the value on this grid by up to its error.
-        let of_value = derivative * value.error / value.value;
-        let error = change.error / (width * value.value);
-        Some(Estimate::new(derivative, error.abs() + of_value.abs()))
-    };
+    let derivative = |of: &Quantity| Some((of.log_change?)(answer, &change)? * width.recip());
     Sensitivity {
         parameter,
-        friction_coefficient: of(
-            Some(change.friction_coefficient),
-            answer.friction_coefficient,
-        ),
-        normal_force: of(change.normal_force, Some(answer.normal_force)),
-        indentation_depth: of(change.indentation_depth, answer.indentation_depth),
-        contact_area: change.contact_area.map(|change| change * width.recip()),
+        derivatives: ByQuantity::new(derivative),
     }
+}
+
+/// Change of the logarithm of a quantity; `None` if the quantity is given or 0. Its value is extrapolated, so it differs from the
+/// value on the grid of the change by up to its error.
+pub(crate) fn relative_change(
+    change: Option<Estimate>,
+    value: Option<Estimate>,
+) -> Option<Estimate> {
+    let (change, value) = change.zip(value.filter(|value| value.value != 0.0))?;
+    let relative = change * value.value.recip();
+    let of_value = relative.value * value.error / value.value;
+    Some(relative.widened(of_value.abs()))
 }

@@ -4,6 +4,7 @@ use numerics::{Estimate, SilentProgress, WorkProgress};
 
 use super::Sensitivity;
 use super::parameters::{Number, Numbers};
+use crate::quantity::{ByQuantity, Quantity};
 use crate::scene::{Method, SceneError};
 use crate::solve::answer::Answer;
 use crate::solve::error::Result;
@@ -85,7 +86,9 @@ fn sensitivity(
     let points = at(&CENTRAL, 1.0)
         .or_else(|_| at(&FROM_BELOW, 1.0))
         .or_else(|_| at(&FROM_BELOW, -1.0))?;
-    let of = |quantity: fn(&Answer) -> Option<Estimate>| {
+    let derivative = |of: &Quantity| {
+        of.log_change?;
+        let quantity = of.of;
         let known = quantity(answer).filter(|known| known.error > 0.0 && known.value != 0.0)?;
         match values {
             Values::Exact => difference(&points, quantity),
@@ -99,10 +102,7 @@ fn sensitivity(
     };
     Ok(Sensitivity {
         parameter: number.path(),
-        friction_coefficient: of(|answer| answer.friction_coefficient),
-        normal_force: of(|answer| Some(answer.normal_force)),
-        indentation_depth: of(|answer| answer.indentation_depth),
-        contact_area: of(|answer| answer.contact_area),
+        derivatives: ByQuantity::new(derivative),
     })
 }
 

@@ -19,9 +19,11 @@ use super::plan::Plan;
 use super::problem::{Motion, Problem};
 use super::work::work;
 use crate::files::ReadFile;
+use crate::quantity::{ByQuantity, Quantity};
 use crate::scene::{Method, Model, Scene, SceneError};
+pub(crate) use adjoint::relative_change;
 use budget::budget;
-pub use budget::{Budget, Source, Uncertainties};
+pub use budget::{Budget, Source};
 use differences::Values;
 use parameters::TEMPERATURE;
 pub(crate) use parameters::check_uncertainties;
@@ -37,20 +39,14 @@ pub(super) const EXACT: f64 = 1e-9;
 
 /// Derivatives of the quantities of an answer by one number of its scene: d ln(quantity)/d ln(number).
 ///
-/// A derivative is `None` if the quantity is given, or has none in this method.
+/// Quantities that are given, or without derivatives in this method, are missing.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Sensitivity {
     /// The path of the number in the scene, such as `material.prony.branches[0].modulus`.
     pub parameter: String,
-    /// Derivative of the friction coefficient.
-    pub friction_coefficient: Option<Estimate>,
-    /// Derivative of the normal force; `None` if the force is given.
-    pub normal_force: Option<Estimate>,
-    /// Derivative of the indentation depth; `None` if the depth is given.
-    pub indentation_depth: Option<Estimate>,
-    /// Derivative of the contact area.
-    pub contact_area: Option<Estimate>,
+    /// Derivatives of the quantities.
+    pub derivatives: ByQuantity<Estimate>,
 }
 
 /// Adds the derivatives by all numbers of the scene that are moduli, times, ratios, loads, speeds or lengths. If the scene states
@@ -171,26 +167,10 @@ pub fn check_sensitivity(problem: &Problem, method: Method) -> std::result::Resu
 impl Sensitivity {
     /// Adds `error` to the errors of the derivatives, and removes derivatives that are not finite.
     fn widen(&mut self, error: f64) {
-        let quantities = [
-            &mut self.friction_coefficient,
-            &mut self.normal_force,
-            &mut self.indentation_depth,
-            &mut self.contact_area,
-        ];
-        for known in quantities {
-            let is_finite = |known: &Estimate| known.value.is_finite() && known.error.is_finite();
-            *known = known.map(|known| known.widened(error)).filter(is_finite);
-        }
-    }
-
-    /// The derivatives by their names in JSON.
-    pub const fn named(&self) -> [(&'static str, Option<Estimate>); 4] {
-        [
-            ("friction_coefficient", self.friction_coefficient),
-            ("normal_force", self.normal_force),
-            ("indentation_depth", self.indentation_depth),
-            ("contact_area", self.contact_area),
-        ]
+        let derivatives = &self.derivatives;
+        let widened = |of: &Quantity| Some(derivatives.of(of.key)?.widened(error));
+        let is_finite = |known: &Estimate| known.value.is_finite() && known.error.is_finite();
+        self.derivatives = ByQuantity::new(|quantity| widened(quantity).filter(is_finite));
     }
 }
 
@@ -198,12 +178,7 @@ impl Serialize for Sensitivity {
     fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(None)?;
         map.serialize_entry("parameter", &self.parameter)?;
-        for (name, known) in self.named() {
-            if let Some(known) = known {
-                map.serialize_entry(name, &known.value)?;
-                map.serialize_entry(&format!("{name}_error"), &known.error)?;
-            }
-        }
+        self.derivatives.serialize_into(&mut map)?;
         map.end()
     }
 }

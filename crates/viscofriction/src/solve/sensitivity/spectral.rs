@@ -119,18 +119,16 @@ impl SpectralSensitivity {
         let Some(first) = self.bands.first() else {
             return columns;
         };
-        for (index, (name, known)) in first.loss_modulus.named().into_iter().enumerate() {
-            for (part, modulus) in ["storage", "loss"].into_iter().enumerate() {
-                let of = |band: &ByFrequency| {
-                    let both = [&band.storage_modulus, &band.loss_modulus];
-                    both[part].named()[index].1
+        for (key, _) in first.loss_modulus.derivatives.iter() {
+            for modulus in ["storage", "loss"] {
+                let of = |band: &ByFrequency| match modulus {
+                    "storage" => band.storage_modulus.derivatives.of(key),
+                    _ => band.loss_modulus.derivatives.of(key),
                 };
-                if known.is_some() {
-                    let value = column(&|band| of(band).map_or(f64::NAN, |known| known.value));
-                    let error = column(&|band| of(band).map_or(f64::NAN, |known| known.error));
-                    columns.push((format!("{name}_by_{modulus}_modulus"), value));
-                    columns.push((format!("{name}_by_{modulus}_modulus_error"), error));
-                }
+                let value = column(&|band| of(band).map_or(f64::NAN, |known| known.value));
+                let error = column(&|band| of(band).map_or(f64::NAN, |known| known.error));
+                columns.push((format!("{key}_by_{modulus}_modulus"), value));
+                columns.push((format!("{key}_by_{modulus}_modulus_error"), error));
             }
         }
         columns
@@ -186,8 +184,8 @@ fn outside(bands: &[ByFrequency], [lowest, highest]: [f64; 2]) -> f64 {
     let size = |band: &ByFrequency| {
         let both = [&band.storage_modulus, &band.loss_modulus];
         let sizes = both.map(|one| {
-            one.friction_coefficient
-                .map_or(0.0, |known| known.value.abs())
+            let known = one.derivatives.of("friction_coefficient");
+            known.map_or(0.0, |known| known.value.abs())
         });
         sizes.iter().sum::<f64>()
     };

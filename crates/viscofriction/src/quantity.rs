@@ -1,0 +1,260 @@
+//! The physical quantities of an answer.
+//!
+//! Tables, JSON, CSV, ensemble means, derivatives, uncertainties, pictures and the Python package are loops over [`QUANTITIES`].
+
+use bem_halfspace::steady::sensitivity::Change;
+use numerics::Estimate;
+use serde::ser::SerializeMap;
+
+use crate::solve::{Answer, Coarse, relative_change};
+
+/// A physical quantity of an answer.
+#[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
+pub struct Quantity {
+    /// Name in JSON, CSV and Python, such as `contact_area`.
+    pub key: &'static str,
+    /// Symbol; empty if it has none.
+    pub symbol: &'static str,
+    /// Unit; empty for a number.
+    pub unit: Unit,
+    /// Value and error in an answer; `None` if the answer does not have the quantity.
+    pub of: fn(&Answer) -> Option<Estimate>,
+    /// Field of the answer; `None` if the quantity is given, or a product or quotient of others.
+    pub(crate) field: Option<fn(&mut Answer) -> &mut Option<Estimate>>,
+    /// True if it vanishes on an elastic material.
+    pub(crate) is_dissipative: bool,
+    /// Value on the coarse grid of an ensemble; `None` if coarse solutions do not have it.
+    pub(crate) on_coarse_grid: Option<fn(&Coarse) -> f64>,
+    /// True if the answer has its scatter over an ensemble.
+    pub(crate) has_scatter: bool,
+    /// Change of its logarithm in an answer; `None` if the quantity has no derivatives.
+    pub(crate) log_change: Option<LogChange>,
+}
+
+/// Change of the logarithm of a quantity in an answer, from the change by the adjoint method; `None` if the quantity is given.
+pub(crate) type LogChange = fn(&Answer, &Change<Estimate>) -> Option<Estimate>;
+
+/// Unit of a quantity; empty for a number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Unit {
+    /// Unit for a finite body or one period of a surface.
+    pub of_body: &'static str,
+    /// Unit for a cylinder, per length along y.
+    pub of_cylinder: &'static str,
+}
+
+impl Unit {
+    pub(crate) const NUMBER: Self = Self::of_any("");
+    const LENGTH: Self = Self::of_any("m");
+    const PRESSURE: Self = Self::of_any("Pa");
+    const AREA: Self = Self {
+        of_body: "m²",
+        of_cylinder: "m²/m",
+    };
+    const FORCE: Self = Self {
+        of_body: "N",
+        of_cylinder: "N/m",
+    };
+    const ENERGY: Self = Self {
+        of_body: "J",
+        of_cylinder: "J/m",
+    };
+
+    /// The same unit for finite bodies and for cylinders.
+    const fn of_any(unit: &'static str) -> Self {
+        Self {
+            of_body: unit,
+            of_cylinder: unit,
+        }
+    }
+}
+
+/// A quantity without symbol, computed from an answer.
+const fn computed(key: &'static str, unit: Unit, of: fn(&Answer) -> Option<Estimate>) -> Quantity {
+    Quantity {
+        key,
+        symbol: "",
+        unit,
+        of,
+        field: None,
+        is_dissipative: false,
+        on_coarse_grid: None,
+        has_scatter: false,
+        log_change: None,
+    }
+}
+
+/// A quantity without symbol, stored in the field of the answer that has its name.
+macro_rules! stored {
+    ($field:ident, $unit:expr) => {
+        Quantity {
+            field: Some(|answer| &mut answer.$field),
+            ..computed(stringify!($field), $unit, |answer| answer.$field)
+        }
+    };
+}
+
+/// All quantities, in the order of the output.
+pub static QUANTITIES: [Quantity; 11] = [
+    Quantity {
+        symbol: "μ",
+        is_dissipative: true,
+        on_coarse_grid: Some(|coarse| coarse.friction_coefficient),
+        has_scatter: true,
+        log_change: Some(|answer, change| {
+            relative_change(
+                Some(change.friction_coefficient),
+                answer.friction_coefficient,
+            )
+        }),
+        ..stored!(friction_coefficient, Unit::NUMBER)
+    },
+    Quantity {
+        symbol: "F",
+        log_change: Some(|answer, change| {
+            relative_change(change.normal_force, Some(answer.normal_force))
+        }),
+        ..computed("normal_force", Unit::FORCE, |answer| {
+            Some(answer.normal_force)
+        })
+    },
+    Quantity {
+        symbol: "F_t",
+        is_dissipative: true,
+        ..computed("tangential_force", Unit::FORCE, Answer::tangential_force)
+    },
+    Quantity {
+        symbol: "d",
+        on_coarse_grid: Some(|coarse| coarse.mean_depth),
+        log_change: Some(|answer, change| {
+            relative_change(change.indentation_depth, answer.indentation_depth)
+        }),
+        ..stored!(indentation_depth, Unit::LENGTH)
+    },
+    Quantity {
+        symbol: "A",
+        on_coarse_grid: Some(|coarse| coarse.contact_area),
+        log_change: Some(|_, change| change.contact_area),
+        ..stored!(contact_area, Unit::AREA)
+    },
+    stored!(peak_pressure, Unit::PRESSURE),
+    Quantity {
+        symbol: "p",
+        ..stored!(mean_pressure, Unit::PRESSURE)
+    },
+    Quantity {
+        on_coarse_grid: Some(|coarse| coarse.area_fraction),
+        has_scatter: true,
+        ..stored!(area_fraction, Unit::NUMBER)
+    },
+    Quantity {
+        is_dissipative: true,
+        on_coarse_grid: Some(|coarse| coarse.friction_coefficient),
+        ..stored!(friction_from_dissipation, Unit::NUMBER)
+    },
+    Quantity {
+        is_dissipative: true,
+        ..stored!(peak_friction, Unit::NUMBER)
+    },
+    Quantity {
+        is_dissipative: true,
+        ..stored!(dissipated_energy, Unit::ENERGY)
+    },
+];
+
+impl Quantity {
+    /// The quantity with a given key; `None` if there is none.
+    pub fn named(key: &str) -> Option<&'static Self> {
+        QUANTITIES.iter().find(|quantity| quantity.key == key)
+    }
+
+    /// Name in tables, such as "contact area".
+    pub fn name(&self) -> String {
+        self.key.replace('_', " ")
+    }
+
+    /// Name, symbol and unit as at the axis of a picture, such as "contact area A \[m²]"; the unit is that of a finite body.
+    pub fn label(&self) -> String {
+        let symbol = self.symbol;
+        let unit = match self.unit.of_body {
+            "" => String::new(),
+            unit => format!("[{unit}]"),
+        };
+        format!("{} {symbol} {unit}", self.name())
+            .split_whitespace()
+            .collect::<Vec<_>>()
+            .join(" ")
+    }
+
+    /// Unit in an answer.
+    pub const fn unit_in(&self, answer: &Answer) -> &'static str {
+        if answer.is_per_length {
+            self.unit.of_cylinder
+        } else {
+            self.unit.of_body
+        }
+    }
+}
+
+/// The quantities that have derivatives and uncertainties.
+pub fn differentiated() -> impl Iterator<Item = &'static Quantity> {
+    QUANTITIES
+        .iter()
+        .filter(|quantity| quantity.log_change.is_some())
+}
+
+/// The quantities whose scatter over an ensemble is known.
+pub fn scattered() -> impl Iterator<Item = &'static Quantity> {
+    QUANTITIES.iter().filter(|quantity| quantity.has_scatter)
+}
+
+/// One number for each of some quantities, in the order of [`QUANTITIES`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct ByQuantity<T>(Vec<(&'static str, T)>);
+
+impl<T> Default for ByQuantity<T> {
+    fn default() -> Self {
+        Self(Vec::new())
+    }
+}
+
+impl<T: Copy> ByQuantity<T> {
+    /// The numbers that a function knows.
+    pub(crate) fn new(of: impl Fn(&Quantity) -> Option<T>) -> Self {
+        let known = QUANTITIES.iter();
+        Self(
+            known
+                .filter_map(|quantity| Some((quantity.key, of(quantity)?)))
+                .collect(),
+        )
+    }
+
+    /// The number of the quantity with a given key; `None` if it is not known.
+    pub fn of(&self, key: &str) -> Option<T> {
+        self.iter()
+            .find(|(known, _)| *known == key)
+            .map(|(_, number)| number)
+    }
+
+    /// Keys and numbers.
+    pub fn iter(&self) -> impl Iterator<Item = (&'static str, T)> {
+        self.0.iter().copied()
+    }
+
+    /// True if no number is known.
+    pub const fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
+impl ByQuantity<Estimate> {
+    /// Writes each value and its absolute error into a JSON object.
+    pub(crate) fn serialize_into<M: SerializeMap>(&self, map: &mut M) -> Result<(), M::Error> {
+        self.iter().try_for_each(|(key, known)| {
+            map.serialize_entry(key, &known.value)?;
+            map.serialize_entry(&format!("{key}_error"), &known.error)
+        })
+    }
+}
