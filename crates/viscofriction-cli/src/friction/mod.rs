@@ -16,7 +16,7 @@ use viscofriction::friction_fit::{
 use viscofriction::scene::Source;
 use viscofriction::solve::scene_of;
 
-use crate::indentation::row;
+use crate::indentation::{FINDINGS, row};
 use crate::input::{metres, read_input, read_scene, read_table, wrong_option};
 use crate::material::wrong_table;
 use crate::output::{Format, OutputFolder, markdown, print_line, print_text, to_csv};
@@ -164,7 +164,7 @@ impl FitFriction {
     /// Text of the result: notes on the table, findings, and flags.
     fn table(&self, found: &FittedFriction, notes: &[String]) -> String {
         let fit = &found.fit;
-        let mut table = markdown("quantity | value | standard error | 95 % interval | unit");
+        let mut table = markdown(FINDINGS);
         for finding in &fit.findings {
             table.add_row(row(&finding.name, 1.0, finding));
         }

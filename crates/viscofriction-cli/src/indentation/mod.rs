@@ -13,9 +13,9 @@ use measurements::indentation::{
 use measurements::{Finding, MeasurementError};
 use rayon::prelude::*;
 use rheology::Material as _;
-use viscofriction::WrongInput;
 use viscofriction::indenters::{Axisymmetric, FlatPunch, IndenterError, PowerProfile, Sphere};
-use viscofriction::numerics::{in_range, positive};
+use viscofriction::numerics::{Rounded, in_range, positive};
+use viscofriction::{Estimate, WrongInput};
 
 use crate::input::{check_file, metres, read_table, wrong_option};
 use crate::material::{prony, wrong_table};
@@ -320,7 +320,7 @@ pub(crate) fn numbers(finding: &Finding) -> [Option<f64>; 4] {
 impl FitIndentation {
     /// Text of the result: findings, residual, notes and flags.
     fn table(&self, fit: &IndentationFit) -> String {
-        let mut table = markdown("quantity | value | standard error | 95 % interval | unit");
+        let mut table = markdown(FINDINGS);
         for finding in &fit.findings {
             table.add_row(row(&finding.name, 1.0, finding));
             if let Some(of) = finding.name.strip_prefix('G') {
@@ -344,24 +344,21 @@ impl FitIndentation {
     }
 }
 
+/// Heads of a table of findings, for [`row`].
+pub(crate) const FINDINGS: &str = "quantity | value ± standard error | 95 % interval | unit";
+
 /// Row of a finding, multiplied by a factor.
-pub(crate) fn row(name: &str, factor: f64, finding: &Finding) -> [String; 5] {
-    let digits = |number: f64| format!("{:.4e}", factor * number);
-    let [value, error] = match finding.estimate {
-        Some(estimate) => [estimate.value, estimate.error].map(digits),
-        None => ["not determined", ""].map(str::to_owned),
-    };
+pub(crate) fn row(name: &str, factor: f64, finding: &Finding) -> [String; 4] {
+    let digits = |number: f64| Rounded(factor * number).to_string();
+    let value = finding.estimate.map_or_else(
+        || "not determined".to_owned(),
+        |estimate| Estimate::new(factor * estimate.value, factor * estimate.error).to_string(),
+    );
     let interval = match finding.interval.map(|end| end.map(digits)) {
         [Some(lower), Some(upper)] => format!("{lower} to {upper}"),
         [Some(lower), None] => format!("more than {lower}"),
         [None, Some(upper)] => format!("less than {upper}"),
         [None, None] => "any".to_owned(),
     };
-    [
-        name.to_owned(),
-        value,
-        error,
-        interval,
-        finding.unit.to_owned(),
-    ]
+    [name.to_owned(), value, interval, finding.unit.to_owned()]
 }

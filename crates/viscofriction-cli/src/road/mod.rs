@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
 use clap::Args;
-use viscofriction::numerics::{InvalidParameter, Rounded};
+use viscofriction::numerics::{InvalidParameter, MessageNumber, Rounded};
 use viscofriction::scene::{Indenter, SceneError, Source};
 use viscofriction::solve::{Answer, CutOff, Problem, cut_offs, plan_of, scene_of};
 use viscofriction::sweep::each_once;
@@ -199,7 +199,7 @@ fn table(rows: &[Row]) -> comfy_table::Table {
             error("friction_coefficient"),
             quantity("area_fraction"),
             error("area_fraction"),
-            later.map(|friction| format!("{:.1e}", friction)),
+            later.map(|friction| format!("{:.1e}", MessageNumber(friction))),
         ];
         table.add_row(cells.map(Option::unwrap_or_default));
     }

@@ -10,6 +10,7 @@ use clap::Args;
 use viscofriction::WrongInput;
 use viscofriction::indenters::rough::{PowerSpectrum, Roughness};
 use viscofriction::indenters::topography::Topography;
+use viscofriction::numerics::{MessageNumber, Rounded};
 use viscofriction::scene::{Edges, HeightMapTable, HeightsAre, LengthUnit, SceneError};
 use viscofriction::solve::{AdviceOnHeights, warnings_of_heights};
 
@@ -125,8 +126,10 @@ impl Surface {
             HeightsAre::Gap => "smallest gaps touch first",
         };
         let mut notes = format!(
-            "{columns} × {rows} heights along x and y, {dx:.6e} × {dy:.6e} m apart\n\
-             the body moves along x, and its {first}\n"
+            "{columns} × {rows} heights along x and y, {} × {} m apart\n\
+             the body moves along x, and its {first}\n",
+            MessageNumber(dx),
+            MessageNumber(dy)
         );
         for note in &surface.notes {
             notes += &format!("note: {note}\n");
@@ -136,7 +139,8 @@ impl Surface {
         }
         if !self.keep_tilt {
             let [x, y] = surface.tilt();
-            notes += &format!("mean slope, taken out: {x:.6e} along x, {y:.6e} along y\n");
+            let [x, y] = [x, y].map(Rounded);
+            notes += &format!("mean slope, taken out: {x} along x, {y} along y\n");
             surface = surface.levelled();
         }
         let mean = surface.heights.iter().sum::<f64>() / surface.heights.len() as f64;
@@ -233,7 +237,7 @@ fn rows(of: &Roughness) -> Vec<Statistic> {
 fn table(rows: &[Statistic]) -> comfy_table::Table {
     let mut table = markdown("quantity | symbol | value | unit");
     for (quantity, symbol, value, unit) in rows {
-        table.add_row([quantity, symbol, &&*format!("{value:.6e}"), unit]);
+        table.add_row([quantity, symbol, &&*Rounded(*value).to_string(), unit]);
     }
     table
 }

@@ -84,7 +84,7 @@ fn the_spectrum_of_a_periodic_map_is_that_of_a_scene() {
         "surface waves.csv --spacing 10um 0.01mm --unit nm --periodic --keep-tilt --out told",
     );
     assert!(
-        said.stdout.contains("1.000000e-5 × 1.000000e-5 m apart"),
+        said.stdout.contains("0.00001 × 0.00001 m apart"),
         "{said:?}"
     );
     let densities = folder.column("told/spectrum.csv", 1);

@@ -48,6 +48,20 @@ fn a_sweep_killed_at_any_moment_keeps_its_rows_and_goes_on_to_the_same() {
     assert_eq!(left, "rows.csv rows.html rows.png rows.svg", "what is left");
 }
 
+/// The page of a sweep shows a number as the table of its scene does.
+#[test]
+fn the_page_of_a_sweep_has_no_digit_beyond_the_second_of_an_error() {
+    let folder = Folder::new("page-of-sweep");
+    folder.done("sweep IN/cone-viscous.toml --vary load.velocity=0.01,0.02 --out rows.csv");
+    let page = folder.text("rows.html");
+    for cell in [
+        "<th>friction coefficient μ</th><th>normal force F [N]</th>",
+        "<td>0.01</td><td>0.0891298 ± 0.0000073</td><td>1</td>",
+    ] {
+        assert!(page.contains(cell), "no {cell} in {page}");
+    }
+}
+
 #[test]
 fn a_sweep_killed_while_it_overwrites_goes_on() {
     let folder = slow("killed-overwriting");

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use indenters::Surface as _;
+use numerics::Rounded;
 
 use super::answer::Answer;
 use super::body::{Body, Revolution};
@@ -31,16 +32,16 @@ pub(super) fn warnings(problem: &Problem, answer: &Answer) -> Vec<String> {
         && depth > DEEPEST * sphere.radius()
     {
         warnings.push(format!(
-            "the indentation depth {depth:.3e} m is more than a third of the radius {:.3e} m of the sphere, where linear \
+            "the indentation depth {depth:.3e} m is more than a third of the radius {} m of the sphere, where linear \
              theory ends",
-            sphere.radius()
+            Rounded(sphere.radius())
         ));
     }
     if depth > DEEPEST * problem.thickness() {
         warnings.push(format!(
-            "the indentation depth {depth:.3e} m is more than a third of the thickness {:.3e} m of the layer, where linear \
+            "the indentation depth {depth:.3e} m is more than a third of the thickness {} m of the layer, where linear \
              theory ends",
-            problem.thickness()
+            Rounded(problem.thickness())
         ));
     }
     warnings.extend(extrapolated(problem, answer).or_else(|| held_outside(problem)));
@@ -50,13 +51,13 @@ pub(super) fn warnings(problem: &Problem, answer: &Answer) -> Vec<String> {
 
 /// Warning about friction from frequencies at which the material was not measured.
 fn extrapolated(problem: &Problem, answer: &Answer) -> Option<String> {
-    let [lowest, highest] = problem.window()?;
+    let [lowest, highest] = problem.window()?.map(Rounded);
     let percent = |share: Option<f64>| format!("{:.0} %", 100.0 * share.unwrap_or_default());
     let of_window = &answer.dissipation;
     of_window.is_extrapolated().then(|| {
         format!(
-            "{} of the friction comes from frequencies at which the material was not measured: {} from below {lowest:.3e} rad/s \
-             and {} from above {highest:.3e} rad/s; there its moduli are extrapolated",
+            "{} of the friction comes from frequencies at which the material was not measured: {} from below {lowest} rad/s \
+             and {} from above {highest} rad/s; there its moduli are extrapolated",
             percent(of_window.outside_window),
             percent(of_window.below_window),
             percent(of_window.above_window)
