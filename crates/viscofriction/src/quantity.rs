@@ -97,7 +97,7 @@ macro_rules! stored {
 }
 
 /// All quantities, in the order of the output.
-pub static QUANTITIES: [Quantity; 11] = [
+pub static QUANTITIES: [Quantity; 12] = [
     Quantity {
         symbol: "μ",
         is_dissipative: true,
@@ -140,6 +140,11 @@ pub static QUANTITIES: [Quantity; 11] = [
         ..stored!(contact_area, Unit::AREA)
     },
     stored!(peak_pressure, Unit::PRESSURE),
+    computed(
+        "mean_contact_pressure",
+        Unit::PRESSURE,
+        Answer::mean_contact_pressure,
+    ),
     Quantity {
         symbol: "p",
         ..stored!(mean_pressure, Unit::PRESSURE)

@@ -94,7 +94,7 @@ fn what_could_not_be_reached_ends_with_status_1_and_says_how_far_it_came() {
     let needed = "was not reached to the relative error 1e-6";
     let said = folder.ends("run scene.toml --out out", 1, needed);
     let refused = said.stderr.contains(": it is 0.");
-    let friction = said.stdout.contains("friction coefficient   0.");
+    let friction = said.stdout.contains("friction coefficient    0.");
     let says_so = said
         .stdout
         .contains("\nnot reached: the friction coefficient was not reached");
@@ -149,7 +149,7 @@ material.standard-solid = {{ equilibrium_modulus = 1.0, maxwell_modulus = 4.0, v
     let reason = "the indentation depth [m] was not reached to the relative error 1e-4";
     let said = folder.ends("run scene.toml --out out", 1, reason);
     for printed in [
-        "\nindentation depth   0.0",
+        "\nindentation depth       0.0",
         &format!("\nnot reached: {reason}"),
     ] {
         assert!(said.stdout.contains(printed), "no {printed} in {said:?}");

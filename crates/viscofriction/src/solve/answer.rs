@@ -247,6 +247,17 @@ impl Answer {
         Some(Estimate::new(friction.value * force.value, error))
     }
 
+    /// Mean pressure F_N/A in the contact, \[Pa]; `None` without a contact area that is positive within its error.
+    pub fn mean_contact_pressure(&self) -> Option<Estimate> {
+        let (force, area) = (self.normal_force, self.contact_area?);
+        let smallest_area = area.value - area.error;
+        // The largest pressure within both errors is farther from the mean than the smallest one.
+        (smallest_area > 0.0).then(|| {
+            let mean = force.value / area.value;
+            Estimate::new(mean, (force.value + force.error) / smallest_area - mean)
+        })
+    }
+
     /// The quantity that the requested relative error refers to: the friction coefficient. Without sliding it is the area fraction
     /// of a periodic surface, else the depth, or the force at a given depth.
     pub fn requested_quantity(&self) -> Estimate {

@@ -5,7 +5,7 @@ use std::fs;
 use serde_json::Value;
 use viscofriction::sweep::{Varied, Vary};
 
-use crate::support::{Folder, assert_close, estimate, example, number, scene, table};
+use crate::support::{Folder, assert_agree, assert_close, estimate, example, number, scene, table};
 
 #[test]
 fn every_committed_scene_is_answered() {
@@ -24,6 +24,21 @@ fn every_committed_scene_is_answered() {
         let is_answered = answered.iter().any(|field| result[*field].is_number());
         assert!(is_answered, "{scene}: {result}");
         assert_bar_is_its_parts(&result);
+    }
+}
+
+/// The pressure of Hertz is p₀ √(1 − r²/a²), whose mean is 2/3 p₀.
+#[test]
+fn the_mean_contact_pressure_of_hertz_is_two_thirds_of_the_peak() {
+    let folder = Folder::new("mean-pressure");
+    let hertz = fs::read_to_string(example("hertz.toml")).expect("a scene");
+    for (rest, part) in [
+        ("", 1e-9),
+        ("method = \"bem-transient\"\nrelative_error = 1e-2", 0.1),
+    ] {
+        let found = folder.answer(format!("{hertz}\n{rest}"));
+        let peak = estimate(&found, "peak_pressure") * (2.0 / 3.0);
+        assert_agree(rest, estimate(&found, "mean_contact_pressure"), peak, part);
     }
 }
 
