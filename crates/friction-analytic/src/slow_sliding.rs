@@ -63,7 +63,8 @@ const APEX_BOUND: f64 = 0.6;
 const OPENING_BOUND: f64 = 0.5;
 /// Largest steepness a h̃'(a)/h̃(a) of a line for which the bounds were compared with boundary elements.
 const MAX_STEEPNESS: f64 = 10.0;
-/// Largest memory length Λ v/m₁ over a for which the bounds were compared with boundary elements.
+/// Largest ratio of the memory length Λ v/m₁ to the contact radius a for which the bounds of the terms of higher order were compared with
+/// boundary elements; the symbols are those of the module.
 const MAX_MEMORY_OVER_RADIUS: f64 = 1.0;
 /// Bound on the next term of the contact area, over Λ v². Boundary elements find up to 1.3.
 const AREA_BOUND: f64 = 2.5;

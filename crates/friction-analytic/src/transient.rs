@@ -137,7 +137,7 @@ impl TransientScales {
         })
     }
 
-    /// State of a cone at a sliding distance over x_d.
+    /// State of a cone after a sliding distance, in stationary contact lengths x_d.
     fn cone_at(&self, distance: f64) -> TransientSliding {
         let slope = self.depth / self.length;
         // d/D, which is also the front end over x_d; while both flanks touch, its square is v t/x_d.

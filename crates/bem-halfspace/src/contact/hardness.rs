@@ -118,7 +118,8 @@ impl<'a> SaturatedSet<'a> {
             let solved = solve_loads(problem, state, &inner_criterion)?;
             iterations += solved.iterations + 1;
 
-            // Collect the violations; without any, tighten the tolerance once, then add the saturated loads.
+            // Collect the violations. If there are none, solve once more with a smaller tolerance; after that, add the saturated loads
+            // to the solution and end.
             let test = GapTest {
                 depth: solved.indentation_depth,
                 allowed: tolerance * solved.deflection,

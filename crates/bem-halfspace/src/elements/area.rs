@@ -48,8 +48,8 @@ pub(crate) fn area_fraction(columns: usize, pressure: &[f64]) -> AreaFraction {
     }
 }
 
-/// Corrected area of the loaded elements in a box and of their images, in elements; mirrors pass through the first row and column of
-/// the field.
+/// Contact area in areas of an element: that of the loaded elements in a box and of their images, corrected for the course of the boundary
+/// through elements. Mirrors pass through the first row and column of the field.
 pub(crate) fn in_elements(loads: &[f64], bounds: &Bounds, mirrors: [Mirror; 2]) -> f64 {
     let [rows, columns] = bounds.shape();
     let has_load = |row: usize, column: usize| {

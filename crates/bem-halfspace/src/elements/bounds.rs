@@ -106,7 +106,7 @@ impl Bounds {
     /// The margin is an eighth of the length, at least four elements, in total. Along an axis with a mirror the box begins at
     /// the rear of the field, where the mirror is.
     pub(crate) fn with_margin(&self, field: [usize; 2], mirrors: [Mirror; 2]) -> Self {
-        // Lengths of the box and of its margin in front; the other part of the margin is behind.
+        // Widen the box along each axis by its margin, one part in front of it and the rest behind.
         let mut grown = *self;
         for (axis, &available) in field.iter().enumerate() {
             let is_free = mirrors[axis].is_none();

@@ -157,7 +157,10 @@ impl BoundaryField {
         Some(indices[0] * columns + indices[1])
     }
 
-    /// Squared component of the boundary normal along the axis of a pair, from the field x inside and −κ g outside.
+    /// Squared component of the normal of the contact boundary along the axis of a pair of elements.
+    ///
+    /// The normal is the gradient of a field that is the load inside the contact and −κ times the gap outside, with κ = `ratio`;
+    /// `leaving_load` is the change of the field across the pair.
     fn squared_normal(&self, pair: BoundaryPair, ratio: f64, leaving_load: f64) -> f64 {
         // Derivative along the boundary at an element: central, one-sided next to an unknown gap.
         let derivative = |element: usize| {

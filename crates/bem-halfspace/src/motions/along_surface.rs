@@ -251,7 +251,7 @@ fn add_work(record: &mut MotionRecord, step: &MovingStep, [before, now]: [&Motio
     let distance = now.position - before.position;
     let mean = |[from, to]: [f64; 2]| to + (0.5 - time_level) * (from - to);
     let of_both = |of: fn(&MotionRow) -> f64| [before, now].map(of);
-    // Distance of the step at the velocity of either end, beyond the actual one.
+    // How much farther the body would go in this step at its initial and at its final velocity than it goes.
     let excess = step
         .velocities
         .map(|velocity| velocity * step.duration - distance);

@@ -30,11 +30,11 @@ pub(super) const MAX_WAVE_NUMBER: f64 = 24.0;
 /// Panels of the integral over s from 0 to [`MAX_WAVE_NUMBER`]; with [`POINTS_PER_WAVE_PANEL`] each they resolve J₀(sρ) up to
 /// the influence radius.
 const NEAR_WAVE_PANELS: u8 = 8;
-/// Lobatto points per panel of the integrals over s and u.
+/// Lobatto points per panel of the integrals over the wave numbers s and u = sρ.
 const POINTS_PER_WAVE_PANEL: usize = 96;
 /// Length of a long panel of ρ over the distance |ρ ± 2i| from its start to the singularities of c.
 const PANEL_OVER_SINGULARITY_DISTANCE: f64 = 0.5;
-/// Polynomial coefficients on a long panel, with which c has an error of 1e-12.
+/// Polynomial coefficients on a long panel, with which the correction c(ρ) has an error of 1e-12.
 const LONG_PANEL_TERMS: usize = 16;
 /// Length of the short panels of ρ below the influence radius, in thicknesses; a power of two.
 const SHORT_PANEL_LENGTH: f64 = 0.0625;

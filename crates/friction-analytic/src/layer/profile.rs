@@ -33,7 +33,7 @@ const MAX_TAIL: f64 = 1e-6 / ERROR_OVER_TAIL;
 ///
 /// The test `the_profile_is_known_within_its_error` compares it with single contacts.
 const ERROR_OVER_TAIL: f64 = 20.0;
-/// Upper bound of the relative error of a radius by the terms that the series leave out, in addition to that by the tail.
+/// Upper bound of the relative error of a radius by the small terms that the series skip; the error of the truncated tail is added to it.
 const LEFT_OUT_TERMS_ERROR: f64 = 2e-8;
 /// Upper bound of the contact radius on a layer over that on the half space at the same depth; the ratio is largest on a film.
 const MAX_RADIUS_RATIO: f64 = 3.0;

@@ -65,7 +65,7 @@ impl Foundation {
         let (relaxation, creep) = (material.relaxation(), material.creep());
         let half_space_factor = material.half_space_factor();
 
-        // Unit of stress.
+        // The unit of stress: the instantaneous modulus, or, without one, η₀ v of the dashpot over a metre.
         let dashpot = relaxation.viscosity() * velocity / half_space_factor;
         let moduli = relaxation.branches().iter().map(|branch| branch.modulus);
         let spring = relaxation.equilibrium_modulus() / half_space_factor;

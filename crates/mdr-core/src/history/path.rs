@@ -253,8 +253,8 @@ impl Path {
 
     /// Direction of the edge, given the branch stresses of its element: positive outwards, negative inwards.
     ///
-    /// Its sign is that of a jump of the depth, of the load that a lone dashpot gives at this speed, or of the rate of the load;
-    /// 0 if these are rounding.
+    /// The sign is that of the depth where it jumps, of the load at this speed on a lone dashpot, and of the rate of the load otherwise;
+    /// 0 if it is rounding.
     pub(super) fn edge_direction(&self, stresses: &[f64], at: SegmentTime) -> f64 {
         let speed = self.speed(at.segment);
         if self.step(at.segment) == 0.0 {

@@ -13,7 +13,8 @@ pub(crate) const MAX_ELEMENTS: usize = 1 << 22;
 /// On an infinite domain the line is sampled up to this multiple of the distance at which it was last below the
 /// largest needed height.
 const LOOKOUT_DISTANCE_RATIO: usize = 1024;
-/// Number of elements up to which every one is sampled; beyond it the stride is the distance divided by this number.
+/// Distance, in elements, up to which each element is looked at for a higher part of the body; farther out the stride is the distance over
+/// this number.
 const LOOKOUT_STRIDE: usize = 64;
 /// Relative margin above the height asked for, so that rounding cannot lift the contact over the last element.
 const MAX_HEIGHT_MARGIN: f64 = 1e-9;

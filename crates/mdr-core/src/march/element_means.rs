@@ -39,7 +39,7 @@ struct CumulativeWork {
 }
 
 impl CumulativeWork {
-    /// Sums over the steps from the first one on.
+    /// Prefix sums over the steps: of their lengths, and of force times length.
     fn new(step_lengths: &[f64], forces: impl Iterator<Item = f64>) -> Self {
         let (mut distance, mut work) = (vec![0.0], vec![0.0]);
         let mut sums = [0.0, 0.0];

@@ -285,7 +285,7 @@ impl<'a> SlidingProblem<'a> {
         }
     }
 
-    /// All steps, or `None` if the foundation was not high enough.
+    /// Marches all steps; `None` if the contact reached elements beyond the heights in `elements`.
     fn run(
         &self,
         elements: ElementHeights,

@@ -235,7 +235,8 @@ impl<'a> LineProblem<'a> {
             friction_coefficient: Estimate::new(friction, friction_error),
             indentation_depth: Estimate::new(depth, depth_error),
             normal_force: match control {
-                // On a track the search ends at its rounding, which the error of the depth includes.
+                // On a track the depth is searched down to its rounding: the force is the given one, and the error of the depth holds
+                // what remains.
                 Control::NormalForce(given) if self.track.is_some() => Estimate::exact(given),
                 _ => Estimate::new(force, force_error),
             },

@@ -202,7 +202,8 @@ impl Violations {
         }
     }
 
-    /// Violations inside a part of the active set. A unit load displaces its own element by `self_influence`.
+    /// Violations of the conditions inside a part of the active set: tensile loads, and residual gaps, which `self_influence`, the displacement
+    /// of an element by its own unit load, makes comparable with loads.
     pub(super) fn inside(
         residual: &[f64],
         load: &[f64],

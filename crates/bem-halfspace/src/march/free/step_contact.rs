@@ -82,7 +82,7 @@ impl March<'_> {
         }
     }
 
-    /// Computes the displacement by the load of the box in all rows that this and later steps need.
+    /// Computes the displacement increment by the load of the box, in the rows from `first_row` on, which this and later steps read.
     fn update_increment(&mut self, first_row: usize) {
         let wanted = self.rows_needed(self.steps_done);
         if self.loaded_bounds().is_none() {

@@ -203,7 +203,7 @@ impl Path {
             if index == 0 && value <= 0.0 {
                 continue;
             }
-            // Move a point of the same time behind the one before.
+            // Times must increase: a point at the time of the previous one, which is a jump, is moved a little later.
             let [last, _] = points[points.len() - 1];
             let time = step.time - first.time;
             if time < last + shortest && !is_forced && !has_instantaneous_compliance {

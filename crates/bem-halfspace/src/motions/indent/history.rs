@@ -174,7 +174,7 @@ fn extrapolated(coarse: &[MotionRow], fine: &[MotionRow]) -> Vec<MotionRow> {
 }
 
 /// Largest relative error by retardation elements that are faster than a step: retardation time over the interval between two rows, times
-/// the fraction of the compliance. Steps that are all longer do not show it by their differences.
+/// the fraction of the compliance. Halving the steps does not reveal it while all of them are longer than the retardation time.
 fn unresolved_relaxation(creep: &CreepSpectrum, times: &[f64], n: usize) -> Result<f64, BemError> {
     let mut largest = 0.0_f64;
     for [start, end] in intervals(times) {

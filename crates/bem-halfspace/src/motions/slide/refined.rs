@@ -247,6 +247,7 @@ impl<'a> PlannedSlide<'a> {
         GridOptions::new([spacing; 2], footprint)
     }
 
+    /// Marches to the end of the motion on a number of elements along the contact; `report` receives the fraction that is done.
     fn march(
         &self,
         elements: usize,

@@ -357,7 +357,7 @@ impl ShiftedGrids<'_> {
         options: SteadyOptions,
     ) -> SteadyEstimate {
         let iteration = finest.iteration_error();
-        // Each quantity is the limit of its averages.
+        // Extrapolate each quantity, averaged over the grids of a level, to elements of size zero.
         let peak_pressure = || self.limit(self.order, |level| level.peak_pressure);
         let [dx, dy] = options.spacing;
         SteadyEstimate {

@@ -172,7 +172,8 @@ impl Mesh {
                 }
                 self.walls
                     .push(front.is_infinite() || !self.only_rising && rear.is_infinite());
-                // A candidate is covered by the body, which on a dashpot must rise.
+                // An element can be in contact only if the body covers all of it. A lone dashpot carries load only where the body
+                // presses it down, so that the profile is higher at the front than at the rear.
                 let covered = heights.iter().all(|height| height.is_finite());
                 if covered && (front > rear || !self.only_rising) {
                     let [height, slope] = [height / self.loading.depth_scale, (front - rear) / dx];
@@ -357,9 +358,9 @@ impl Mesh {
         }
     }
 
-    /// Slope between the collocation points of the two neighbours, under a body with edges. The slope of the element alone dissipates less,
-    /// by a term of the order of √Δx where the contact ends near the edge. `None` under a body without edges, and where a neighbour is not
-    /// covered.
+    /// Central difference of the heights of the two neighbours along x, under a body with edges. Friction from the slope in the element
+    /// itself is too low, by a term of the order of √Δx where the contact ends near the edge. `None` under a body without edges, and where a
+    /// neighbour is not covered by the body.
     fn dissipating_slope(&self, surface: &dyn Surface, [x, y]: [f64; 2]) -> Option<f64> {
         if !self.loading.has_edges {
             return None;

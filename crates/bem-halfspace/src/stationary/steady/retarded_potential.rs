@@ -281,7 +281,7 @@ impl RetardedPotential {
                     &one.row_weights[rule]
                 });
             } else if let Some(rule) = fewest_points(&PANEL_RULES, distance) {
-                // At some distance: one panel, whose ends are stored rows.
+                // Far enough from the singularity one panel suffices. Its ends are rows that are stored already.
                 let last = PANEL_RULES[rule].n_points - 1;
                 for (index, node) in self.rules[rule].nodes.iter().enumerate() {
                     potentials[index] = match index {

@@ -194,7 +194,7 @@ impl SteadySliding {
 /// Refuses a vertical wall in contact. Mirror images are not checked: by rounding, an image may lie beyond the end of a surface, its element
 /// not.
 fn check_walls(mesh: &Mesh, loads: &[(usize, f64)]) -> Result<(), BemError> {
-    // Elements next to a wall.
+    // Refuse a loaded element next to a wall of the body.
     let mut indices = loads.iter().map(|(element, _)| mesh.indices(*element)[0]);
     match indices.find(|indices| mesh.faces_wall(*indices)) {
         Some([row, column]) => Err(BemError::VerticalWall {

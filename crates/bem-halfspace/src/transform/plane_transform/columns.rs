@@ -56,7 +56,7 @@ impl<T: Real> ColumnTransform<T> {
         period_len + forward.max(inverse)
     }
 
-    /// Index within a column of the element of a row.
+    /// Position, within the stored column, of the element of a row: columns with a mirror on an edge are stored in another order.
     pub(super) fn index_of_row(&self, row: usize) -> usize {
         match self.mirror {
             Mirror::None | Mirror::Centre => row,

@@ -20,7 +20,7 @@ use rheology::Material;
 
 use crate::line::{ElementHeights, has_steep_kinks};
 
-/// Chords by which the tip in an element at the lowest point is resolved.
+/// Number of chords that approximate the profile inside the element that holds the lowest point.
 const N_TIP_CHORDS: usize = 64;
 /// Distance from the lowest point to the inner end of a chord, relative to that to its outer end.
 const TIP_CHORD_RATIO: f64 = 0.75;

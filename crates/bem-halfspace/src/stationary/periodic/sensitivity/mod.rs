@@ -201,6 +201,8 @@ impl PeriodicSensitivity {
         })
     }
 
+    /// The change of the answer by one parameter, extrapolated from those that `of` gives on the finest and on the next coarser grid, with
+    /// its discretisation error.
     fn change(
         &self,
         of: impl Fn(&State) -> Result<Change<f64>, BemError>,
