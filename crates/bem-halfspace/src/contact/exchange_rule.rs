@@ -75,6 +75,7 @@ pub(crate) struct ExchangeRule {
 }
 
 impl ExchangeRule {
+    /// The rule on a grid with a number of rows and columns, before the first update of its active set.
     pub(crate) fn new(shape: [usize; 2]) -> Self {
         let largest_radius = shape[0].max(shape[1]) / 2;
         let doublings = (1..).find(|doublings| 1_usize << doublings > largest_radius);

@@ -236,6 +236,7 @@ struct SlidingRecord {
 }
 
 impl<'a> SlidingProblem<'a> {
+    /// Prepares a slide from first touch under a force; refuses a given depth, and a track, on which the line meets its own trace.
     fn new(
         line: &'a dyn RigidLine,
         material: &dyn Material,

@@ -193,6 +193,7 @@ impl Spring {
         Self::new(elastomer, compliance, true)
     }
 
+    /// The spring of a compliance 2 (1 − ν) J \[1/Pa] with the Poisson ratio and the base of an elastomer.
     pub(super) fn new(
         elastomer: &dyn Elastomer,
         compliance: f64,
@@ -212,6 +213,7 @@ impl Spring {
         Layer::over(&self.unit, self.base.clone())
     }
 
+    /// Grid and footprint of the pressed body.
     pub(super) fn plan(
         &self,
         surface: &dyn Surface,
@@ -220,6 +222,7 @@ impl Spring {
         GridPlan::pressed(surface, &self.layer(), self.scaled(control)?)
     }
 
+    /// The spring that a material is equivalent to at the end of a load: its creep compliance under a force, its relaxation modulus at a depth.
     pub(super) fn after(elastomer: &dyn Elastomer, load: &PressingLoad) -> Result<Self, BemError> {
         let material = elastomer.material();
         check_spectra(&material)?;
@@ -251,6 +254,7 @@ impl Spring {
         })
     }
 
+    /// The contact on one grid: that of the spring of unit compliance, with its pressures and forces divided by the compliance.
     fn solve(
         &self,
         surface: &dyn Surface,
@@ -288,6 +292,8 @@ impl Spring {
     }
 }
 
+/// Refines the contact of a spring until the depth, or the force at a given depth, has the error asked for. A flat punch is pressed as the disc
+/// that the elements widen it to, and keeps its own area.
 fn estimate(
     surface: &dyn Surface,
     spring: &Spring,

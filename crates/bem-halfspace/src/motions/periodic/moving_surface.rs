@@ -73,6 +73,7 @@ struct StepEnd {
 }
 
 impl<'a> MovingSurface<'a> {
+    /// Prepares a motion for all grids: spectra of the material, wave numbers along x, and the search for the limit cycle. Refuses a depth.
     pub(super) fn new(
         surface: &'a PeriodicSurface,
         elastomer: &'a dyn Elastomer,
@@ -164,6 +165,7 @@ impl<'a> MovingSurface<'a> {
         self.surface.period().iter().product()
     }
 
+    /// Heights, steps and moving waves on a grid with a number of elements along x.
     fn on_grid(&self, elements: usize) -> Result<MotionOnGrid, BemError> {
         let shape = self.shape(elements);
         let spacing = self.spacing(shape);
@@ -207,6 +209,7 @@ impl<'a> MovingSurface<'a> {
         })
     }
 
+    /// The surface in full contact on a grid, under the largest mean pressure of the motion.
     fn full_contact_on<'b>(&self, on_grid: &'b MotionOnGrid) -> FullContactSurface<'b> {
         FullContactSurface {
             grid: &on_grid.grid,
@@ -299,6 +302,7 @@ impl<'a> MovingSurface<'a> {
         pairs.map(end).collect()
     }
 
+    /// Takes one step of the march and returns the forces and the depth at its end.
     fn step(
         &self,
         march: &mut PeriodicMarch<'_>,

@@ -168,6 +168,7 @@ impl PlannedDistance {
 }
 
 impl<'a> PlannedSlide<'a> {
+    /// Plans grid and distance of a slide from first touch; refuses a track, on which the body meets its own trace.
     fn new(
         surface: &'a dyn Surface,
         elastomer: &'a dyn Elastomer,

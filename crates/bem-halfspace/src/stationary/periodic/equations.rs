@@ -101,6 +101,7 @@ pub(super) struct Equations {
 }
 
 impl Equations {
+    /// The equations on a grid, with the kernel and its preconditioners, before any element is in contact.
     pub(super) fn new(
         sliding: &Sliding,
         grid: &Grid,

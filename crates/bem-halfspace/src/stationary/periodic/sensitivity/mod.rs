@@ -212,6 +212,7 @@ impl PeriodicSensitivity {
 }
 
 impl State {
+    /// Solves the contact on a grid, beginning with a guess of its pressure, and its adjoint equations.
     fn new(
         sliding: &Sliding,
         grid: &Grid,
@@ -245,6 +246,7 @@ impl State {
         })
     }
 
+    /// The change from one surface to another of the same shape of grid: by heights, and by the kernel where the periods differ.
     fn between_surfaces(&self, surfaces: [&PeriodicSurface; 2]) -> Result<Change<f64>, BemError> {
         let [from, to] = surfaces.map(|surface| surface.heights(self.grid.shape()));
         let (from, mut heights) = (from?, to?);
@@ -276,6 +278,7 @@ impl State {
         Grid::new(shape, [0, 1].map(|axis| period[axis] / shape[axis] as f64))
     }
 
+    /// The change from one material to another on the same base, by the compliances of the waves along x.
     fn between_materials(&self, ends: [&Sliding; 2]) -> Result<Change<f64>, BemError> {
         let [from, to] = ends.map(|end| end.compliances(&self.along_x));
         let (from, to) = (from?, to?);
@@ -310,6 +313,7 @@ impl State {
         Ok(change)
     }
 
+    /// The derivatives by what is prescribed: the mean pressure, or the depth.
     fn by_load(&self) -> Change<f64> {
         let by_pressure = self.gradients.map(|gradient| gradient.by_pressure);
         match self.control {
@@ -318,6 +322,7 @@ impl State {
         }
     }
 
+    /// The changes by relative changes of the storage and of the loss modulus, of equal size at all frequencies in \[`from`, `to`) \[rad/s].
     fn by_moduli(&self, [from, to]: [f64; 2]) -> Result<[Change<f64>; 2], BemError> {
         let compliances = self.sliding.compliances(&self.along_x)?;
         let of = |part: fn(Complex<f64>) -> Complex<f64>| {
@@ -355,6 +360,7 @@ impl State {
     }
 }
 
+/// Refuses a surface whose periods are not those of the grid.
 fn check_periods(surface: &PeriodicSurface, grid: &Grid) -> Result<(), BemError> {
     let edges = grid.shape().into_iter().zip(grid.spacing());
     for (period, (edge, spacing)) in surface.period().into_iter().zip(edges) {
