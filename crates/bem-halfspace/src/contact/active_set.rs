@@ -1,7 +1,8 @@
 //! The active set: the elements in contact, with packed vectors over them.
 //!
-//! A packed vector holds one value per active element, in the order of the field. The work on it is proportional to the number
-//! of active elements, however porous the contact is.
+//! A field holds one value per element of the grid, row-major. A packed vector holds one value per active element, in the same
+//! order. The work on it is proportional to the number of active elements, however porous the contact is. Both are divided at
+//! the row blocks ([`RowBlocks`]), groups of consecutive rows that threads process independently.
 
 use std::ops::Range;
 
@@ -25,7 +26,7 @@ impl Run {
         self.element..self.element + self.length
     }
 
-    /// Range of its elements, counted from the element `first`.
+    /// Indices of its elements in a part of the field that begins with the element `first`.
     pub(crate) fn elements_from(&self, first: usize) -> Range<usize> {
         self.element - first..self.element - first + self.length
     }
@@ -36,7 +37,7 @@ impl Run {
     }
 }
 
-/// Number of elements with some property, and the last of them.
+/// Result of [`ActiveSet::find_matches`]: number and last index of the elements that satisfy a condition.
 pub(crate) struct Matches {
     /// Number of these elements.
     pub(crate) count: usize,
@@ -63,6 +64,7 @@ impl ActiveSet {
     /// The empty set on a grid of the given shape.
     pub(crate) fn new(shape: [usize; 2]) -> Self {
         let row_blocks = RowBlocks::new(shape);
+        // At most every other element of a row begins a run.
         let most_runs = |row_block| row_blocks.rows(row_block).len() * shape[1].div_ceil(2);
         let runs =
             (0..row_blocks.n_blocks()).map(|row_block| Vec::with_capacity(most_runs(row_block)));
@@ -94,7 +96,7 @@ impl ActiveSet {
         });
     }
 
-    /// Updates the runs after changes of the flags.
+    /// Recomputes the runs, and the numbers of active elements before each row block, from the flags.
     pub(crate) fn find_runs(&mut self) {
         // Find the runs of each row block in parallel.
         let (row_blocks, columns, is_active) = (self.row_blocks, self.columns, &self.is_active);
@@ -123,13 +125,14 @@ impl ActiveSet {
         &self.runs[row_block]
     }
 
-    /// The part of a packed vector that belongs to a row block.
+    /// Index range of a row block in a packed vector.
     pub(crate) fn packed_range(&self, row_block: usize) -> Range<usize> {
         self.starts[row_block]..self.starts[row_block + 1]
     }
 
     /// The inactive elements of a row block as ranges, in increasing order.
     pub(crate) fn inactive_ranges(&self, row_block: usize) -> impl Iterator<Item = Range<usize>> {
+        // The gaps between runs; a gap may be empty.
         let Range { start, end } = self.row_blocks.elements(row_block);
         let runs = self.runs(row_block).iter().map(Run::elements);
         let starts = std::iter::once(start).chain(runs.clone().map(|run| run.end));
@@ -137,17 +140,18 @@ impl ActiveSet {
         starts.zip(ends).map(|(start, end)| start..end)
     }
 
-    /// A packed vector, split at the row blocks for [`RowBlocks::fold`].
+    /// Argument of [`RowBlocks::fold`] for a packed vector: the vector with its division at the row blocks.
     pub(crate) fn packed<'a, T>(&'a self, vector: &'a mut [T]) -> (&'a mut [T], Starts<'a>) {
         (vector, Starts::Listed(&self.starts))
     }
 
-    /// A field with one value per element, split at the row blocks for [`RowBlocks::fold`].
+    /// Argument of [`RowBlocks::fold`] for a field with one value per element: the field with its division at the row blocks.
     pub(crate) fn field<'a, T>(&self, field: &'a mut [T]) -> (&'a mut [T], Starts<'a>) {
         (field, self.row_blocks.starts_of_coarse_blocks(1))
     }
 
-    /// A field with one value per block of `edge` × `edge` elements, split at the row blocks for [`RowBlocks::fold`].
+    /// Argument of [`RowBlocks::fold`] for a field with one value per block of `edge` × `edge` elements, row-major: the field with its
+    /// division at the row blocks. `edge` is a power of two of at most [`RowBlocks::MAX_COARSE_BLOCK`].
     pub(crate) fn blocks<'a, T>(
         &self,
         edge: usize,
@@ -156,7 +160,7 @@ impl ActiveSet {
         (field, self.row_blocks.starts_of_coarse_blocks(edge))
     }
 
-    /// Sum over the row blocks of a function of their packed ranges.
+    /// Sum of `of_range(packed range)` over all row blocks, pairwise, so that it does not depend on the threads.
     pub(crate) fn sum(&self, of_range: impl Fn(Range<usize>) -> f64 + Sync) -> f64 {
         self.row_blocks
             .sum(|row_block| of_range(self.packed_range(row_block)))
@@ -193,7 +197,7 @@ impl ActiveSet {
         }
     }
 
-    /// Finds the elements for which `matches(element, is_active)` is true.
+    /// Counts the elements of the grid for which `matches(element, is_active)` is true, and finds the last of them.
     pub(crate) fn find_matches(&self, matches: impl Fn(usize, bool) -> bool + Sync) -> Matches {
         let in_row_block = |row_block| {
             let mut found = Matches { count: 0, last: 0 };
@@ -218,7 +222,8 @@ impl ActiveSet {
     }
 }
 
-/// Replaces `runs` by those of consecutive rows of flags, whose first element has the index `first`.
+/// Replaces `runs` by the runs of true flags in consecutive rows. The first flag is that of the element `first`; runs do not
+/// continue from one row to the next.
 fn find_runs_in<'a>(rows: impl Iterator<Item = &'a [bool]>, first: usize, runs: &mut Vec<Run>) {
     runs.clear();
     let (mut end, mut packed) = (first, 0);
@@ -236,10 +241,10 @@ fn find_runs_in<'a>(rows: impl Iterator<Item = &'a [bool]>, first: usize, runs: 
     }
 }
 
-/// Sums of terms over the active elements of each block of `EDGE` × `EDGE` elements in a row block.
+/// Sums of terms over the active elements of each block of `EDGE` × `EDGE` elements in a row block: restriction to a coarser grid.
 ///
-/// `term` gets the index of an element in the part of a packed vector that belongs to the row block; `sums` has one value per block
-/// of the row block.
+/// `term` gets the index of an element in the part of a packed vector that belongs to the row block. `sums` has one value per block
+/// of elements, row-major; a block without active elements has the sum 0.
 pub(crate) fn sum_blocks<const EDGE: usize>(
     active: &ActiveSet,
     row_block: usize,

@@ -12,31 +12,34 @@
 //!    definite symmetric part, no active set then occurs twice, so that the violations become fewer after finitely many updates (Murty
 //!    1974).
 //!
-//! The conjugate gradients of a static contact, whose operator is symmetric, go from the first to the last of these at once.
+//! The conjugate gradients of a static contact, whose operator is symmetric, omit the second stage (`iteration.rs`).
 //!
 //! Theory: docs/theory/stationary-half-space.md, "The equations of one contact".
 
-/// Non-improving updates up to which all violating elements are exchanged.
+/// Number of successive non-improving updates up to which all violating elements are exchanged. Chosen.
 const BLOCK_UPDATES: i32 = 10;
-/// Non-improving updates after which the radius of a local maximum doubles; it begins with two elements. Of 160 light periodic contacts
-/// on dashpots whose moduli grow with the frequency, all were found so, with 90 operator applications each. With a rule that exchanges
-/// the violations above a fraction of the largest one, four were not found.
+/// Number of further non-improving updates after which the exclusion radius of local maxima doubles; it begins with two elements.
+/// Chosen. Of 160 light periodic contacts on dashpots whose moduli grow with the frequency, all were found with it, with 90 operator
+/// applications each. With a rule that exchanges the violations above a fraction of the largest one, four were not found.
 const RADIUS_DOUBLING_INTERVAL: i32 = 10;
 
 /// An element that violates the KKT conditions: in the active set under tension, or outside it with penetration; saturated with an open
 /// gap, or loaded beyond the limit.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Violation {
+    /// Row-major index of the element.
     pub(crate) element: usize,
     /// Row and column of the element.
     pub(crate) place: [usize; 2],
-    /// Penetration or open gap, or the displacement that the wrong load of the element alone causes under it, \[m or depth scale].
+    /// Violation as a length: penetration or open gap, or for an inadmissible load that load times the self-influence. In the unit
+    /// of the heights of the problem, \[m] or depth scale.
     pub(crate) size: f64,
 }
 
 /// Count of updates of an active set that do not improve it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Stagnation {
+    /// Smallest number of violations in any update so far.
     fewest_violations: usize,
     /// Non-improving updates since the last improvement.
     non_improving: i32,
@@ -57,7 +60,8 @@ impl Stagnation {
         self.non_improving <= BLOCK_UPDATES
     }
 
-    /// Counts an update with a number of violations. It improves nothing if `residual_grows`.
+    /// Records the number of violations of an update. The update counts as non-improving if there are not fewer than ever before, or
+    /// if `residual_grows`.
     pub(super) fn record(&mut self, violations: usize, residual_grows: bool) {
         let improves = violations < self.fewest_violations && !residual_grows;
         self.fewest_violations = self.fewest_violations.min(violations);
@@ -69,14 +73,16 @@ impl Stagnation {
 pub(crate) struct ExchangeRule {
     /// Rows and columns of the grid. Neighbourhoods wrap around its edges.
     shape: [usize; 2],
-    /// Non-improving updates up to which local maxima are exchanged.
+    /// Number of successive non-improving updates up to which local maxima are exchanged.
     local_maximum_updates: i32,
+    /// Count of the non-improving updates.
     stagnation: Stagnation,
 }
 
 impl ExchangeRule {
     /// The rule on a grid with a number of rows and columns, before the first update of its active set.
     pub(crate) fn new(shape: [usize; 2]) -> Self {
+        // Doublings of the radius until it exceeds half the longer edge: then every neighbourhood is the whole grid.
         let largest_radius = shape[0].max(shape[1]) / 2;
         let doublings = (1..).find(|doublings| 1_usize << doublings > largest_radius);
         Self {
@@ -97,8 +103,10 @@ impl ExchangeRule {
         self.non_improving() > self.local_maximum_updates
     }
 
-    /// Selects the elements to exchange among the violations, which are sorted by element, and counts non-improving updates.
-    /// `residual_grows` is true if the initial residual on this active set exceeds that on the set before.
+    /// Selects the elements to exchange among the violations, which are sorted by element, and records the update.
+    ///
+    /// `residual_grows` is true if the initial residual on this active set exceeds that on the set before. Returns row-major indices
+    /// of elements, in no particular order.
     pub(crate) fn select(&mut self, violations: &[Violation], residual_grows: bool) -> Vec<usize> {
         let mut elements = violations.iter().map(|violation| violation.element);
         let selected = if self.stagnation.allows_block_updates() {
@@ -113,17 +121,18 @@ impl ExchangeRule {
         selected
     }
 
-    /// Elements of the violations that are the largest of all that are fewer than `radius` rows and columns away; chosen greedily,
-    /// from the largest violation on.
+    /// Elements of locally largest violations, no two of them fewer than `radius` rows and columns apart; chosen greedily, from the
+    /// largest violation on.
     fn local_maxima(&self, violations: &[Violation], radius: usize) -> Vec<usize> {
         let mut by_size = violations.to_vec();
         by_size.sort_by(|one, other| other.size.total_cmp(&one.size));
         let [rows, columns] = self.shape;
-        // Indices around `index` on an axis of `count` elements that wraps around.
+        // Indices within the radius around `index`, on an axis of `count` elements that wraps around.
         let around = |index: usize, count: usize| {
             let reach = (radius - 1).min(count / 2);
             (count + index - reach..=count + index + reach).map(move |near| near % count)
         };
+        // Take the largest remaining violation, and exclude its neighbourhood.
         let mut is_excluded = vec![false; rows * columns];
         let mut maxima = Vec::new();
         for Violation { element, place, .. } in by_size {

@@ -1,4 +1,6 @@
-//! Buffers of the iteration on the active set: fields of the grid and packed vectors.
+//! Buffers of the conjugate gradients on the active set: fields of the grid and packed vectors.
+//!
+//! The unknown is the load x = α P/(4π) of each element, a scaled pressure without unit; K x is the displacement, \[m].
 
 use std::ops::Range;
 
@@ -8,18 +10,18 @@ use crate::contact::preconditioner::{Preconditioner, PreconditionerParameters};
 use crate::parallel::reductions::sum;
 use crate::parallel::row_blocks::resize;
 
-/// Buffers of the iteration, besides load and displacement.
+/// Buffers of the conjugate gradients, besides the fields of load and displacement; fields are row-major.
 #[derive(Debug, Clone)]
 pub(super) struct Fields {
-    /// Approximate inverse of K on the active set.
+    /// Preconditioner S, an approximate inverse of K on the active set.
     pub(super) preconditioner: Preconditioner,
     /// Elements in contact.
     pub(super) active: ActiveSet,
     /// Gap, displacement, load, residual and direction on the active set.
     pub(super) vectors: ActiveVectors,
-    /// The vector that was last scattered over the grid, residual or direction; zero outside the active set.
+    /// Field of the vector that was last scattered over the grid, residual \[m] or direction; zero outside the active set.
     pub(super) scattered: Vec<f64>,
-    /// K times the direction on the grid, \[m].
+    /// Displacement K p of the search direction p on the whole grid, \[m].
     pub(super) direction_displacement: Vec<f64>,
 }
 
@@ -38,20 +40,20 @@ impl Fields {
     }
 }
 
-/// Vectors over the active set, packed in the order of the field, \[m].
+/// Vectors over the active set, packed in the order of the field; lengths in \[m], loads without unit.
 #[derive(Debug, Clone, Default)]
 pub(super) struct ActiveVectors {
-    /// Initial gap s.
+    /// Initial gap s, \[m].
     pub(super) separation: Vec<f64>,
-    /// Displacement K x.
+    /// Displacement K x, \[m].
     pub(super) displacement: Vec<f64>,
-    /// Scaled pressure x.
+    /// Load x, a scaled pressure without unit.
     pub(super) load: Vec<f64>,
-    /// Residual r of the linear equations, minus the gap.
+    /// Residual r = d − (s + K x) of the linear equations, which is minus the gap, \[m].
     pub(super) residual: Vec<f64>,
-    /// Search direction p of the conjugate gradients.
+    /// Search direction p of the conjugate gradients, a load without unit.
     pub(super) direction: Vec<f64>,
-    /// Output of the last operator of an iteration: the preconditioned residual, then K times the direction.
+    /// Output of the last operator: the preconditioned residual z = S r, later in the same iteration K p \[m].
     pub(super) operator_output: Vec<f64>,
 }
 
@@ -65,7 +67,7 @@ impl ActiveVectors {
         vectors
     }
 
-    /// All vectors, for work that concerns each of them.
+    /// Mutable references to all six vectors, for resizing them alike.
     const fn all(&mut self) -> [&mut Vec<f64>; 6] {
         [
             &mut self.separation,
@@ -77,7 +79,8 @@ impl ActiveVectors {
         ]
     }
 
-    /// Resizes all vectors to another active set, and gathers separation and load on it.
+    /// Resizes all vectors to another active set, and gathers the fields of separation \[m] and load on it. The other vectors keep
+    /// values without meaning.
     pub(super) fn restrict_to(&mut self, active: &ActiveSet, separation: &[f64], load: &[f64]) {
         for vector in self.all() {
             resize(vector, 0.0, active.len());
@@ -86,7 +89,7 @@ impl ActiveVectors {
         active.gather(load, &mut self.load);
     }
 
-    /// Mean height of the deformed surface above a level, \[m], over an active set that is not empty.
+    /// Mean of the deformed height s + K x above a `level` \[m] over an active set that is not empty, \[m].
     pub(super) fn mean_height_above(&self, active: &ActiveSet, level: f64) -> f64 {
         let sum_in = |range: Range<usize>| {
             let vectors = [&self.separation, &self.displacement].map(|one| &one[range.clone()]);

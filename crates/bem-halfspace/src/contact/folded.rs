@@ -17,7 +17,7 @@ use crate::parallel::row_blocks::RowBlocks;
 use crate::transform::convolution::{Convolution, Surroundings};
 
 /// Solves the contact on the symmetry-reduced domain, if separation and first guess have mirror symmetries; else on the whole
-/// grid.
+/// grid. `largest_load` is the limit of the load x of an element, without unit; infinite without a hardness.
 pub(super) fn solve_symmetry_reduced(
     problem: LoadProblem,
     largest_load: f64,
@@ -62,11 +62,14 @@ pub(super) fn solve_symmetry_reduced(
     })
 }
 
-/// The mirrors in the middle of the grid about which both fields are symmetric to the last bit.
+/// Mirrors along x and y in the middle of the grid about which both row-major fields are symmetric to the last bit.
+///
+/// Fields that differ from their mirror images in one bit have no mirror.
 fn find_mirrors(convolution: &Convolution, fields: [&[f64]; 2]) -> [Mirror; 2] {
     let shape = convolution.grid().shape();
     let [rows, columns] = shape;
     let lines = |row: usize| fields.map(|field| &field[row * columns..][..columns]);
+    // Compare each row with its image, and with its reverse.
     let row_blocks = RowBlocks::new(shape);
     let in_row_block = |row_block| {
         let mut rows_of_block = row_blocks.rows(row_block);
@@ -81,7 +84,7 @@ fn find_mirrors(convolution: &Convolution, fields: [&[f64]; 2]) -> [Mirror; 2] {
         _ if !equal[axis] || shape[axis] == 1 => Mirror::None,
         Surroundings::Free if shape[axis].is_multiple_of(2) => Mirror::Edge,
         Surroundings::Free => Mirror::Centre,
-        // The blocks of the coarser grid fill the period.
+        // The coarser grid of the preconditioner needs an even number of rows in front of the mirror.
         Surroundings::Periodic if shape[axis].is_multiple_of(4) => Mirror::Edge,
         Surroundings::Periodic => Mirror::None,
     })
@@ -94,7 +97,7 @@ fn is_palindrome(line: &[f64]) -> bool {
 }
 
 impl ContactBox {
-    /// Writes load and displacement of the whole grid from those of this symmetry-reduced domain.
+    /// Writes the fields [load, displacement] of the whole grid, of the shape `whole`, from those of this symmetry-reduced domain.
     fn unfold(&self, fields: [&mut [f64]; 2], whole: [usize; 2]) {
         let (mirrors, columns) = (self.convolution.mirrors, self.bounds.shape()[1]);
         let weights = MirrorWeights::new(&self.convolution);
@@ -105,7 +108,7 @@ impl ContactBox {
                 .zip(displacements.chunks_exact_mut(whole[1]));
             for (row, (loads, displacements)) in row_blocks.rows(row_block).zip(rows) {
                 // Copy the half in front, without the weights of the mirror.
-                let row = in_front(row, whole[0], mirrors[0]);
+                let row = row_in_front(row, whole[0], mirrors[0]);
                 let part = row * columns..(row + 1) * columns;
                 let front = whole[1] - columns;
                 displacements[front..].copy_from_slice(&self.state.displacement[part.clone()]);
@@ -121,8 +124,9 @@ impl ContactBox {
     }
 }
 
-/// Index in the symmetry-reduced domain of the row, or of its image, for a row of the whole grid with `rows` rows.
-const fn in_front(row: usize, rows: usize, mirror: Mirror) -> usize {
+/// Row of the symmetry-reduced domain that corresponds to a row of the whole grid, which has `rows` rows: the row itself in front
+/// of the mirror, its image behind it.
+const fn row_in_front(row: usize, rows: usize, mirror: Mirror) -> usize {
     let half = rows / 2;
     match mirror {
         Mirror::None => row,
@@ -132,7 +136,7 @@ const fn in_front(row: usize, rows: usize, mirror: Mirror) -> usize {
     }
 }
 
-/// Fills the part of a line behind a mirror from the last `in_front` values, which lie in front of it.
+/// Fills the part of a row behind a mirror from its last `in_front` values, which lie in front of the mirror.
 fn mirror_behind(line: &mut [f64], in_front: usize) {
     let (behind, front) = line.split_at_mut(line.len() - in_front);
     // An element through whose centre the mirror passes has no image.

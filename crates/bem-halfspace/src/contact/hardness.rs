@@ -4,7 +4,8 @@
 //! g = s + K x − d,      0 ≤ x ≤ X,      g ≥ 0 where x = 0,      g = 0 between,      g ≤ 0 where x = X
 //! ```
 //!
-//! (Almqvist, Sahlin, Larsson & Glavatskih 2007). The saturated set, the elements at x = X, is found by an outer primal-dual
+//! (Almqvist, Sahlin, Larsson & Glavatskih 2007), with the load x = α P/(4π) of an element, the initial gap s and the depth d. The
+//! largest load X belongs to the largest pressure. The saturated set, the elements at x = X, is found by an outer primal-dual
 //! active-set method. With the loads of the saturated set given, the other elements solve the elastic contact without them.
 //! Then elements with x > X join the set, and elements whose gap opens leave it (`exchange_rule.rs`).
 //!
@@ -17,11 +18,11 @@ use crate::contact::solve::solve_loads;
 use crate::contact::{Control, LoadState, map_force};
 use crate::{BemError, ConvolutionWorkspace};
 
-/// Loosest relative tolerance of the elastic contacts while the saturated set still changes. Chosen, so that few
-/// elements are misplaced by the error: the last contact has the tolerance asked for.
+/// Loosest relative tolerance of the elastic contacts while the saturated set still changes. Chosen, so that the error misplaces
+/// few elements. Only the number of iterations depends on it, because the last contact has the tolerance asked for.
 const INEXACT_TOLERANCE: f64 = 1e-4;
 
-/// Solves the contact with loads of at most `largest_load` per element; infinity means no limit.
+/// Solves the contact with loads x of at most `largest_load` per element, without unit; infinity means no limit.
 pub(super) fn solve_with_largest_load(
     largest_load: f64,
     problem: LoadProblem,
@@ -38,25 +39,25 @@ pub(super) fn solve_with_largest_load(
 struct SaturatedSet<'a> {
     /// The problem with all elements.
     problem: LoadProblem<'a>,
-    /// Largest load X of an element, \[m].
+    /// Largest load X of a whole element, without unit.
     largest_load: f64,
-    /// Fraction of each element in the symmetry-reduced domain.
+    /// Fraction of each element in the symmetry-reduced domain, by which its largest load is multiplied.
     weights: MirrorWeights,
     /// Flag of each element: true if its load is X.
     is_saturated: Vec<bool>,
-    /// Loads of the saturated elements, zero elsewhere, \[m].
+    /// Field of the loads of the saturated elements, without unit; zero elsewhere.
     load: Vec<f64>,
-    /// Sum of the loads of the saturated elements, \[m].
+    /// Sum of the loads of the saturated elements.
     total: f64,
-    /// Displacement K x under the saturated loads on the whole grid, \[m].
+    /// Displacement K x_X under the loads x_X of the saturated elements, on the whole grid, \[m].
     displacement: Vec<f64>,
     /// Buffers for applying K.
     workspace: ConvolutionWorkspace,
-    /// Initial gap of the elastic contact of the other elements, \[m]; infinite on the saturated ones.
+    /// Initial gap s + K x_X of the elastic contact of the other elements, \[m]; infinite on the saturated ones.
     separation: Vec<f64>,
 }
 
-/// Bounds for the test of the gaps of saturated elements.
+/// Condition on the gaps of saturated elements: s + K x − d ≤ `allowed`.
 #[derive(Clone, Copy)]
 struct GapTest {
     /// Indentation depth d, \[m].
@@ -66,7 +67,8 @@ struct GapTest {
 }
 
 impl<'a> SaturatedSet<'a> {
-    /// The elements of the first guess that are at the limit, or none if they bear the whole force or more.
+    /// Initial saturated set: the elements whose load in the first guess is at the limit, or none if these bear the whole force or
+    /// more.
     fn new(largest_load: f64, problem: LoadProblem<'a>, state: &LoadState) -> Self {
         let weights = MirrorWeights::new(problem.convolution);
         // Elements at the largest load start in the saturated set.
@@ -96,6 +98,9 @@ impl<'a> SaturatedSet<'a> {
     }
 
     /// Exchanges elements between the saturated set and its complement until both satisfy their conditions.
+    ///
+    /// # Errors
+    /// [`BemError::ContactNotConverged`] if the elastic contacts together need too many iterations.
     fn run(
         mut self,
         state: &mut LoadState,
@@ -150,7 +155,7 @@ impl<'a> SaturatedSet<'a> {
         }
     }
 
-    /// Updates loads, displacement and separation from the saturated set.
+    /// Recomputes loads, displacement and initial gap from the flags of the saturated set.
     fn update_loads(&mut self) {
         // Load the saturated elements.
         let flags = self.is_saturated.iter();
@@ -177,7 +182,8 @@ impl<'a> SaturatedSet<'a> {
         }
     }
 
-    /// Saturated elements whose gap opens, and other elements whose load exceeds the largest one; as displacements, \[m].
+    /// Violations of the saturated set by a solution: saturated elements whose gap opens by more than `test.allowed`, and other
+    /// elements whose load exceeds the limit. Sizes are lengths \[m]; an excess of load is multiplied by the self-influence.
     fn violations(&self, state: &LoadState, test: GapTest) -> Vec<Violation> {
         let convolution = self.problem.convolution;
         let columns = convolution.grid().shape()[1];
@@ -198,7 +204,7 @@ impl<'a> SaturatedSet<'a> {
         (0..self.is_saturated.len()).filter_map(violation).collect()
     }
 
-    /// Adds loads and displacement of the saturated set to those of the other elements.
+    /// Adds loads and displacement of the saturated set to those of the other elements in `state`; returns the whole solution.
     fn finish(
         self,
         state: &mut LoadState,

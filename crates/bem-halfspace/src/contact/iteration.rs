@@ -4,6 +4,8 @@
 //! g = s + K x − d,      g = 0 on the active set C,      x = 0 elsewhere,      Σ x or d given
 //! ```
 //!
+//! The unknown is the load x = α P/(4π), a scaled pressure without unit; s is the initial gap, d the depth, K x the displacement.
+//!
 //! On a fixed set this is a symmetric positive definite system, preconditioned by an approximate inverse of K restricted to C
 //! (`preconditioner.rs`), so that the number of iterations hardly depends on the grid. The set is updated as soon as its
 //! violations, tension inside and penetration outside, outweigh the linear residual. Then all violating elements are
@@ -38,13 +40,13 @@ pub(super) struct Iteration<'a> {
     convolution: &'a Convolution,
     /// Initial gap s, \[m]; `+∞` where no contact is possible.
     separation: &'a [f64],
-    /// Prescribed depth, or force as the sum of the loads, \[m].
+    /// Prescribed depth d \[m], or force as the sum of the loads Σ x, without unit.
     control: Control,
     /// Relative residual at which the iteration stops; set after the first residual.
     tolerance: f64,
     /// Largest displacement under given loads, \[m]; see [`StoppingCriterion`].
     given_deflection: f64,
-    /// Scaled pressure x on the grid when it was last [scattered](Self::scatter_load); zero outside the active set.
+    /// Field of the load x when it was last [scattered](Self::scatter_load); zero outside the active set.
     load: &'a mut [f64],
     /// Displacement K x on the grid, \[m].
     displacement: &'a mut [f64],
@@ -54,7 +56,7 @@ pub(super) struct Iteration<'a> {
     fields: &'a mut Fields,
     /// Depth d of the present iterate, \[m].
     indentation_depth: f64,
-    /// Extremes and sums of the present heights s + K x.
+    /// Lowest deformed height s + K x outside the active set, and their sum inside.
     heights: Heights,
     /// Inner product of residual and preconditioned residual in the previous iteration; 0 restarts the directions.
     previous_product: f64,
@@ -62,11 +64,12 @@ pub(super) struct Iteration<'a> {
     displacement_is_exact: bool,
     /// True after the first conjugate-gradient step on the present active set.
     has_stepped: bool,
+    /// Count of the updates that did not reduce the number of violations.
     stagnation: Stagnation,
 }
 
 impl<'a> Iteration<'a> {
-    /// An iteration that starts from the load in `state`; [`run`](Self::run) sets the tolerance.
+    /// An iteration that starts from the load in `state` and leaves its solution there; [`run`](Self::run) sets the tolerance.
     pub(super) fn new(problem: LoadProblem<'a>, state: &'a mut LoadState) -> Self {
         let convolution = problem.convolution;
         Self {
@@ -93,6 +96,9 @@ impl<'a> Iteration<'a> {
     }
 
     /// Iterates until load, gap and active set satisfy the contact conditions to the tolerance.
+    ///
+    /// # Errors
+    /// [`BemError::ContactNotConverged`] at the iteration limit, and with an infinite residual if numbers overflow.
     pub(super) fn run(mut self, criterion: &StoppingCriterion) -> Result<LoadSolution, BemError> {
         self.given_deflection = criterion.given_deflection;
         self.initialise();
@@ -100,10 +106,10 @@ impl<'a> Iteration<'a> {
         loop {
             // Evaluate depth, linear residual and violations of the present load.
             self.update_depth();
-            let violations = self.measure();
+            let violations = self.update_residual();
             let residual = violations.relative();
             if iterations == 0 {
-                self.tolerance = criterion.target(residual);
+                self.tolerance = criterion.target_residual(residual);
             }
 
             // Converged, if that also holds for a displacement without the rounding of many updates.
@@ -147,8 +153,8 @@ impl<'a> Iteration<'a> {
         }
     }
 
-    /// Sets the active set to the loaded elements of the first guess. Without a guess these are the elements below a given
-    /// depth, or all of them under a given force.
+    /// Sets the active set and its loads from the first guess. Without a guess the set has the elements below a given depth, without
+    /// load, or all elements under a given force, with equal loads.
     fn initialise(&mut self) {
         // Active set: the guess if there is one, else all candidates.
         let mut elements = self.load.iter().zip(self.separation);
@@ -186,7 +192,7 @@ impl<'a> Iteration<'a> {
         self.recompute_displacement();
     }
 
-    /// Exchanges the violating elements between the active set and its complement, and restarts the directions.
+    /// Exchanges the violating elements between the active set and its complement, and restarts the conjugate gradients.
     fn update_active_set(&mut self, violations: &Violations) {
         self.scatter_load();
         let lowest = self.indentation_depth - self.tolerance * violations.deflection;
@@ -234,7 +240,7 @@ impl<'a> Iteration<'a> {
 
     /// One step of the conjugate gradients on the active set: z = S r, direction p, step length (r, z)/(p, K p).
     ///
-    /// At a given force the directions have the sum zero.
+    /// At a given force z loses its mean, so that the directions have the sum zero and the steps leave the force unchanged.
     fn conjugate_gradient_step(&mut self) {
         let fields = &mut *self.fields;
         let (active, preconditioner) = (&fields.active, &mut fields.preconditioner);
@@ -249,7 +255,7 @@ impl<'a> Iteration<'a> {
         preconditioner.apply(active, residual, scattered, output);
         let preconditioned = &*output;
 
-        // (r, z) of the residual and of z without its mean.
+        // Inner product (r, z) of the residual r and of z without its mean.
         let sums_in_row_block = |row_block| {
             let [r, z] =
                 [residual, preconditioned].map(|vector| &vector[active.packed_range(row_block)]);
@@ -267,7 +273,7 @@ impl<'a> Iteration<'a> {
         };
         let product = sum_rz - mean * sum_r;
 
-        // Conjugate direction, packed and scattered to the grid.
+        // Conjugate direction p = z + β p with β = (r, z)/(r, z) of the previous step (Fletcher & Reeves), packed and on the grid.
         let conjugation = if self.previous_product > 0.0 {
             product / self.previous_product
         } else {
@@ -285,7 +291,7 @@ impl<'a> Iteration<'a> {
             });
         self.previous_product = product;
 
-        // Apply the operator, and go to the minimum along the direction.
+        // Apply the operator, and go to the minimum of the energy along the direction.
         let image = &mut fields.direction_displacement;
         self.convolution.apply(self.workspace, scattered, image);
         let direction = &vectors.direction;
@@ -316,7 +322,7 @@ impl<'a> Iteration<'a> {
         vectors.restrict_to(active, self.separation, self.load);
     }
 
-    /// Scales the load to the prescribed force.
+    /// Scales the packed load so that its sum is the prescribed force; at a given depth nothing changes.
     fn scale_to_force(&mut self) {
         let Control::NormalForce(total) = self.control else {
             return;
@@ -332,7 +338,7 @@ impl<'a> Iteration<'a> {
         });
     }
 
-    /// Sum of the loads on the active set, \[m].
+    /// Sum of the loads x on the active set, without unit.
     fn total_load(&self) -> f64 {
         let (active, vectors) = (&self.fields.active, &self.fields.vectors);
         active.sum(|range| sum([&vectors.load[range]], |[load]| load))

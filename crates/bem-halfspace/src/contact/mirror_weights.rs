@@ -26,7 +26,7 @@ impl MirrorWeights {
         }
     }
 
-    /// The weights that may differ from one, for a range of elements in one row, with their indices in the range.
+    /// Pairs (index in the range, weight) for a range of elements of one row; elements that it omits have the weight one.
     pub(super) fn row_weights(
         &self,
         elements: Range<usize>,
@@ -41,7 +41,7 @@ impl MirrorWeights {
         (0..count).map(move |index| (index, if index == 0 { of_first } else { of_row }))
     }
 
-    /// Multiplies a field of loads of whole elements by the weights.
+    /// Multiplies a row-major field of loads of whole elements by the weights.
     pub(super) fn apply(&self, loads: &mut [f64]) {
         let lines = loads.chunks_exact_mut(self.columns).enumerate();
         for (row, line) in lines {
@@ -58,17 +58,17 @@ impl MirrorWeights {
 
     /// Weight of the row of an element.
     pub(super) fn of_row(&self, element: usize) -> f64 {
-        weight(self.mirrors[0], element < self.columns)
+        weight_of_line(self.mirrors[0], element < self.columns)
     }
 
     /// Weight of the column of an element.
     pub(super) fn of_column(&self, element: usize) -> f64 {
-        weight(self.mirrors[1], element.is_multiple_of(self.columns))
+        weight_of_line(self.mirrors[1], element.is_multiple_of(self.columns))
     }
 }
 
 /// Weight of a row or column: one half if it is the first and the mirror passes through its centres.
-fn weight(mirror: Mirror, is_first: bool) -> f64 {
+fn weight_of_line(mirror: Mirror, is_first: bool) -> f64 {
     let is_half = is_first && mirror == Mirror::Centre;
     if is_half { 0.5 } else { 1.0 }
 }

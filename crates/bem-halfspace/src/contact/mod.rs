@@ -46,8 +46,8 @@ use state::LoadState;
 pub struct ContactProblem<'a> {
     /// The grid and its influence coefficients.
     pub convolution: &'a Convolution,
-    /// Height of the rigid surface plus displacement of the half space, \[m], one value per element; `+∞` where no
-    /// contact is possible.
+    /// Initial gap s: height of the rigid surface plus displacement of the half space before the step, \[m]. One value per element,
+    /// row-major; `+∞` where no contact is possible.
     pub separation: &'a [f64],
     /// Compliance α of the half space in this step, \[1/Pa].
     pub compliance: f64,
@@ -63,7 +63,8 @@ pub struct ContactProblem<'a> {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ContactOptions {
     /// Largest |gap| in the contact and largest penetration outside it, relative to the largest displacement; greater than 0
-    /// and at most 1e-2. That displacement is caused by the whole pressure, or by one element at itself if that is more.
+    /// and at most 1e-2. The largest displacement is that in the contact, or that of an element under its own pressure if this is
+    /// larger, as it may be on a periodic grid.
     pub tolerance: f64,
     /// Maximum number of iterations, with one operator application each.
     pub max_iterations: usize,
@@ -71,6 +72,8 @@ pub struct ContactOptions {
 
 impl Default for ContactOptions {
     fn default() -> Self {
+        // Chosen: the tolerance is four decades above the rounding of the transforms on 512² elements, and the limit of the iterations
+        // ends only solves that do not converge.
         Self {
             tolerance: 1e-9,
             max_iterations: 2000,
@@ -100,7 +103,8 @@ pub struct Contact {
     pub residual: f64,
 }
 
-/// Largest tolerance that is accepted; less accurate contacts have no meaningful pressure.
+/// Largest relative tolerance that is accepted. Chosen: less accurate contacts have no meaningful pressure, whose relative error
+/// may be 20 times the tolerance (docs/theory/contact.md, "When it stops").
 const MAX_TOLERANCE: f64 = 1e-2;
 
 /// Solves a contact problem. The pressure in `state` is the first guess, and the solution afterwards.
@@ -123,7 +127,7 @@ pub fn solve_contact(
 ) -> Result<Contact, BemError> {
     validate(problem, state)?;
     options.validate()?;
-    // With x = α P / (4π) the displacement is K x, and the unknown has no unit.
+    // With the load x = α P / (4π) the displacement is K x, and the unknown has no unit.
     let load_per_pressure = problem.compliance / (4.0 * PI);
     let grid = problem.convolution.grid();
     let area = grid.element_area();
@@ -161,7 +165,7 @@ pub fn solve_contact(
     })
 }
 
-/// Applies a function to a prescribed force; a prescribed depth stays as it is.
+/// Applies a function to the value of a prescribed force, such as a change of its unit; a prescribed depth stays as it is.
 fn map_force(control: Control, map: impl Fn(f64) -> f64) -> Control {
     match control {
         Control::NormalForce(force) => Control::NormalForce(map(force)),
@@ -170,7 +174,7 @@ fn map_force(control: Control, map: impl Fn(f64) -> f64) -> Control {
 }
 
 impl ContactOptions {
-    /// Checks that the tolerance is in its range.
+    /// Checks that the tolerance is greater than 0 and at most [`MAX_TOLERANCE`].
     pub(crate) fn validate(&self) -> Result<(), InvalidParameter> {
         let value = self.tolerance;
         let is_allowed = value > 0.0 && value <= MAX_TOLERANCE;
@@ -228,8 +232,10 @@ pub(crate) fn check_length(
     })
 }
 
-/// Checks the heights of a body over a part of a grid with `columns` columns that begins at the element `first`. They must be
-/// numbers above −∞, and finite in at least one element.
+/// Checks the heights of a body over a part of a grid, row-major with `columns` columns. They must be numbers above −∞, and finite in
+/// at least one element.
+///
+/// Errors name the element by its row and column in the whole grid, where the part begins at the element `first`.
 pub(crate) fn check_heights(
     field: &'static str,
     heights: &[f64],
@@ -250,7 +256,7 @@ pub(crate) fn check_heights(
     Ok(())
 }
 
-/// Checks a prescribed force or depth, and returns its value.
+/// Checks that a prescribed force is finite and not negative, or a prescribed depth finite; returns its value, \[N] or \[m].
 pub(crate) fn check_control(control: Control) -> Result<f64, InvalidParameter> {
     match control {
         Control::NormalForce(value) => {

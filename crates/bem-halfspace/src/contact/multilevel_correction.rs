@@ -1,22 +1,24 @@
 //! Multilevel coarse-space correction of the preconditioner, for contacts of many patches.
 //!
 //! The inverse S of the influence K, restricted to the active set, gives the load that closes the gaps of a patch as if no other
-//! patch were loaded. Where the contact is porous, a gap common to many patches therefore gets too much load, the more the more
-//! patches there are. Let w = S 1 be the load per gap of an element, W its sum over a block (the conductance of the block), and
-//! g = Σ w r / W the mean gap of a block. If blocks move as a whole, their loads t satisfy
+//! patch were loaded. In a contact of many patches a gap common to all of them therefore gets too much load; the error grows with
+//! their number. Let w = S 1 be the load per gap of an element \[1/m], its conductance, and W = Σ w the conductance of a block of
+//! elements. The mean gap that the load of a block has to close is g = Σ w r / W, with the residuals r of its elements. If blocks
+//! move as a whole, their loads t satisfy
 //!
 //! ```text
 //! t = W (g − v),        v = K t,
 //! ```
 //!
-//! where K is the influence between blocks. A load moves its own block and, together with its neighbours, the parent block of
-//! twice the edges, and so on. With k, the excess of its influence on the block over that on the parent,
+//! with the displacement v \[m] of a block by all loads and the influence K between blocks. A load moves its own block and, together
+//! with its neighbours, the parent block of twice the edges, and so on. Let k \[m] be the excess of the influence of a load on its
+//! own block over that on the parent. Then
 //!
 //! ```text
 //! v = (W k g + v') / (1 + W k),        g' = Σ t' / W',        t' = W g / (1 + W k),        W' = Σ W / (1 + W k),
 //! ```
 //!
-//! with a dash for the parent. The load w v is subtracted from S r.
+//! where primes denote the parent and sums run over its children. The load w v is subtracted from S r.
 //!
 //! The result is positive if the influences in S between different elements are negative: then xᵀ S x is at least Σ w x², and
 //! what is subtracted is at most Σ (Σ w x)² / W, which is not more (Cauchy–Schwarz). The inverse of two parts has small positive
@@ -30,13 +32,14 @@ use crate::contact::active_set::{ActiveSet, sum_blocks};
 use crate::parallel::row_blocks::{RowBlocks, for_each_row, resize};
 use crate::{Convolution, Grid};
 
-/// Edge of the smallest blocks, in elements; within smaller ones the inverse is right without their neighbours.
+/// Edge of the smallest blocks, in elements. Over shorter distances S itself is accurate. It is the largest edge that row blocks
+/// allow.
 pub(super) const FINEST_BLOCK_EDGE: usize = RowBlocks::MAX_COARSE_BLOCK;
 
 /// Conductances of the active elements, and the hierarchy of blocks over which they are summed.
 #[derive(Debug, Clone)]
 pub(super) struct MultilevelCorrection {
-    /// Conductances w = S 1, packed over the active set.
+    /// Conductances w = max(S 1, 0) of the active elements, packed, \[1/m].
     conductances: Vec<f64>,
     /// Blocks from the smallest to a single one, each level with twice the edges of the one before.
     levels: Vec<Level>,
@@ -47,21 +50,23 @@ pub(super) struct MultilevelCorrection {
 struct Level {
     /// Numbers of blocks along x and y.
     shape: [usize; 2],
-    /// Factor k: excess of the self-influence of a block over the influence of its parent, per W.
+    /// Factor k: excess of the self-influence of a block over the influence of its load on the parent block, \[m].
     excess_influence: f64,
     /// Fraction W k / (1 + W k) of each block: weight of its own mean gap in its displacement.
     local_fraction: Vec<f64>,
-    /// W of each block: sum of the conductances w of its elements, or of W / (1 + W k) of its children.
+    /// Conductance W of each block \[1/m]: Σ w over its elements on the finest level, else Σ W / (1 + W k) over its children.
     conductance: Vec<f64>,
-    /// Work values of each block during a V-cycle: load Σ w r, then mean gap g, then displacement v.
+    /// Work values of each block during a V-cycle: load Σ w r, then mean gap g \[m], then displacement v \[m].
     values: Vec<f64>,
 }
 
 impl MultilevelCorrection {
-    /// The levels for the grid of a convolution; `excess_fraction` is k as a fraction of the self-influence of a block.
+    /// The levels for the grid of a convolution, without conductances; `excess_fraction` is k as a fraction of the self-influence of
+    /// a block.
     pub(super) fn new(convolution: &Convolution, excess_fraction: f64) -> Self {
         let mut levels = Vec::new();
         let grid = convolution.grid();
+        // Double the edges until one block covers the grid.
         let (mut blocks, mut edge) = (*grid, 1);
         while edge < FINEST_BLOCK_EDGE || blocks.n_elements() > 1 {
             (blocks, edge) = (blocks.blocks(), 2 * edge);
@@ -75,14 +80,14 @@ impl MultilevelCorrection {
         }
     }
 
-    /// Resizes to another active set, with w = 0.
+    /// Resizes to another active set and sets all conductances to 0, so that the correction vanishes.
     pub(super) fn reset(&mut self, active: &ActiveSet) {
         self.conductances.clear();
         resize(&mut self.conductances, 0.0, active.len());
         self.sum_conductances(active);
     }
 
-    /// Sets w = max(S 1, 0) from the packed vector `unit_gap_loads` = S 1, and the conductances of all blocks.
+    /// Sets the conductances w = max(S 1, 0) of the elements from the packed vector `unit_gap_loads` = S 1, and those of all blocks.
     pub(super) fn set_conductances(&mut self, active: &ActiveSet, unit_gap_loads: &[f64]) {
         let conductances = [active.packed(&mut self.conductances)];
         active
@@ -115,17 +120,19 @@ impl MultilevelCorrection {
         });
     }
 
-    /// Conductances w, and the buffer for the loads Σ w r of the smallest blocks under a residual r.
+    /// Conductances w of the elements, packed, and the buffer for the loads Σ w r of the smallest blocks under a residual r.
     pub(super) fn conductances_and_loads(&mut self) -> (&[f64], &mut [f64]) {
         (&self.conductances, &mut self.levels[0].values)
     }
 
-    /// Conductances w, and the displacements v of the smallest blocks.
+    /// Conductances w of the elements, packed, and the displacements v of the smallest blocks after
+    /// [`solve_block_displacements`](Self::solve_block_displacements), \[m].
     pub(super) fn conductances_and_displacements(&self) -> (&[f64], &[f64]) {
         (&self.conductances, &self.levels[0].values)
     }
 
-    /// Solves for the displacements of the blocks from their loads, in one V-cycle.
+    /// Solves (1/W + K) t = g for the blocks approximately, in one V-cycle, from the loads Σ w r of the smallest blocks; leaves their
+    /// displacements v = K t.
     pub(super) fn solve_block_displacements(&mut self) {
         // From small blocks to large ones: restrict the loads, and divide by the conductance to obtain mean gaps.
         self.levels[0].divide_by_conductance();
@@ -163,12 +170,12 @@ impl Level {
             let length = edge.min(elements.shape()[axis]) as f64;
             length * elements.spacing()[axis]
         });
-        // A layer may rise in the middle of a large block.
+        // Mean displacement of a block under its own unit pressure; an incompressible layer may rise in the middle of a large block.
         let total_influence = convolution.base.influence([0.0; 2], edges).max(0.0);
         let self_influence = total_influence / (edges[0] * edges[1]);
         Self {
             shape: blocks.shape(),
-            // The inverse multiplies waves by |q|, and the influence by 2π/|q|.
+            // S multiplies waves by |q|, which is 2π times the inverse of the influence 2π/|q|; k is smaller by the same factor.
             excess_influence: excess_fraction * self_influence * elements.element_area()
                 / (2.0 * PI),
             local_fraction: vec![0.0; n],
@@ -177,7 +184,7 @@ impl Level {
         }
     }
 
-    /// Computes W k / (1 + W k) from the conductances.
+    /// Computes W k / (1 + W k) of each block from its conductance W.
     fn update_local_fraction(&mut self) {
         for (fraction, conductance) in self.local_fraction.iter_mut().zip(&self.conductance) {
             let ratio = conductance * self.excess_influence;
@@ -209,8 +216,9 @@ impl Level {
     }
 }
 
-/// Sums the loads of two by two blocks of a level of the shape [rows, columns] for each parent block; `load` gets the index of
-/// a block.
+/// Restriction to the parent level: `sums` gets, for each parent block, the sum of `load` over its two by two children.
+///
+/// `load` takes the row-major index of a child on a level of the shape [rows, columns].
 fn sum_children(
     [rows, columns]: [usize; 2],
     load: impl Fn(usize) -> f64 + Sync,

@@ -11,17 +11,17 @@ use crate::transform::convolution::Surroundings;
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
 pub struct Patch {
-    /// The elements, increasing.
+    /// Row-major indices of its elements, increasing.
     pub elements: Vec<usize>,
-    /// Their area, \[m²].
+    /// Area of its elements, without perimeter correction, \[m²].
     pub area: f64,
-    /// The normal force on them, \[N].
+    /// Normal force on its elements, \[N].
     pub normal_force: f64,
 }
 
 impl ContactProblem<'_> {
-    /// The gap between the surfaces after a solve, \[m], one value per element: zero in the contact within the tolerance,
-    /// below zero where the largest pressure acts, and `+∞` where no contact is possible.
+    /// Gap between the surfaces after a solve, \[m]; one value per element, row-major. It is zero in the contact within the tolerance,
+    /// negative or zero where the largest pressure acts, and `+∞` where no contact is possible.
     ///
     /// # Errors
     /// [`BemError::LengthMismatch`] for the state of another grid.
@@ -61,8 +61,9 @@ impl ContactProblem<'_> {
         Ok(patches)
     }
 
-    /// The elements connected to one, in increasing order; marks them as assigned.
+    /// Flood fill: indices of all unassigned elements in contact that are connected to one, increasing; marks them as assigned.
     fn flood_patch(&self, element: usize, is_unassigned: &mut [bool]) -> Vec<usize> {
+        // Breadth-first: the list is also the queue of elements whose neighbours are still to be visited.
         is_unassigned[element] = false;
         let mut elements = vec![element];
         let mut n_visited = 0;
@@ -79,7 +80,7 @@ impl ContactProblem<'_> {
         elements
     }
 
-    /// The elements that share an edge with one.
+    /// Indices of the elements that share an edge with one, on a periodic grid also across its boundary.
     fn neighbours(&self, element: usize) -> impl Iterator<Item = usize> {
         let shape = self.convolution.grid().shape();
         let indices = [element / shape[1], element % shape[1]];

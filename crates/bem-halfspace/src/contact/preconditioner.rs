@@ -24,19 +24,19 @@ use crate::{Convolution, ConvolutionWorkspace};
 
 /// Parameters of the two approximations in the preconditioner.
 ///
-/// The preconditioner is positive definite for any positive values, so that the iteration converges. A test of the iteration
-/// compares the numbers of iterations.
+/// The preconditioner is positive definite for any positive values, so that the iteration converges to the same solution. A test of
+/// the iteration compares the numbers of iterations.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PreconditionerParameters {
-    /// Weight w of the differences between neighbouring elements.
+    /// Weight w of the differences between neighbouring elements in s(q), without unit.
     pub(super) neighbour_weight: f64,
-    /// Excess of the self-influence of a block over the influence of its parent block, as a fraction of the former.
+    /// Excess of the self-influence of a block over the influence of its load on the parent block, as a fraction of the former.
     pub(super) excess_fraction: f64,
 }
 
 impl PreconditionerParameters {
-    /// Chosen between the limits: π/4 for neighbours would be exact for the shortest wave along an edge, and one half for
-    /// blocks without neighbours, which share what the parent block leaves.
+    /// Chosen below two limits. A neighbour weight of π/4 is exact for the shortest wave along an edge. An excess of one half is that
+    /// of a block alone; with neighbouring blocks it is shared.
     ///
     /// For 0.5 to 0.9 and 0.2 to 0.5 the iterations are the same within 15 %; for 0.01 to 10 and 0.001 to 3 there are at most
     /// four times as many.
@@ -46,13 +46,13 @@ impl PreconditionerParameters {
     };
 }
 
-/// Edge of the blocks on which long waves are inverted, in elements.
+/// Edge of the blocks on which long waves are inverted, in elements: the smallest that makes the transforms cheaper, by four.
 const BLOCK_EDGE: usize = 2;
 
 /// The operators of both approximations, and their buffers.
 #[derive(Debug, Clone)]
 pub(super) struct Preconditioner {
-    /// Factors w/Δx and w/Δy of the differences along x and along y, \[1/m].
+    /// Factors w/Δx and w/Δy of the differences along x and along y, \[1/m]; w is the neighbour weight.
     stencil: [f64; 2],
     /// Rows and columns of the grid.
     shape: [usize; 2],
@@ -60,13 +60,13 @@ pub(super) struct Preconditioner {
     mirrors: [Mirror; 2],
     /// Fraction of each element in the symmetry-reduced domain.
     mirror_weights: MirrorWeights,
-    /// Convolution with the inverse of long waves on the grid of the blocks.
+    /// Convolution with the symbol max(|q| − s(q), 0) on the grid of the blocks of [`BLOCK_EDGE`] elements.
     long_wave_inverse: Convolution,
     /// Buffers for applying it.
     workspace: ConvolutionWorkspace,
-    /// Mean residual of each block.
+    /// Mean residual of each of these blocks, with zero outside the active set, \[m].
     block_means: Vec<f64>,
-    /// Result of the convolution for each block.
+    /// Load of the elements of each of these blocks by long waves, without unit.
     block_loads: Vec<f64>,
     /// Displacements of blocks under the loads of other blocks.
     correction: MultilevelCorrection,
@@ -97,9 +97,10 @@ impl Preconditioner {
         }
     }
 
-    /// Prepares for another active set, on which the correction needs S 1.
+    /// Prepares for another active set: computes S 1, the loads under a unit gap, for the multilevel correction.
     ///
-    /// Overwrites `field`, which must vanish outside the set, and both packed vectors.
+    /// `ones` and `result` are packed vectors and `field` a field of the grid, which must vanish outside the set; all three are work
+    /// space and are overwritten.
     pub(super) fn prepare(
         &mut self,
         active: &ActiveSet,
@@ -107,14 +108,15 @@ impl Preconditioner {
         ones: &mut [f64],
         result: &mut [f64],
     ) {
+        // With zero conductances the correction vanishes, so that this applies S alone.
         self.correction.reset(active);
         ones.fill(1.0);
         self.apply(active, ones, field, result);
         self.correction.set_conductances(active, result);
     }
 
-    /// Applies the preconditioner to a packed residual; leaves the residual scattered in `field`, which must vanish outside the
-    /// active set.
+    /// Applies the preconditioner to a packed residual \[m] and writes loads to the packed vector `result`. Leaves the residual
+    /// scattered in `field`, a field of the grid that must vanish outside the active set.
     pub(super) fn apply(
         &mut self,
         active: &ActiveSet,
@@ -186,7 +188,7 @@ impl Preconditioner {
         });
     }
 
-    /// Adds the short-wave operator on a run: differences between its elements, and between them and the neighbouring rows.
+    /// Adds the short-wave operator with the symbol s(q), a five-point stencil, on the elements of a run.
     ///
     /// `residual` and `result` are the parts of the packed vectors for the run, `field` is the residual on the whole grid.
     fn add_differences(&self, run: &Run, residual: &[f64], field: &[f64], result: &mut [f64]) {
@@ -198,14 +200,14 @@ impl Preconditioner {
         let row = start / columns;
         // Diagonal.
         add_scaled(result, 2.0 * (along_x + along_y), residual);
-        // Next to a run the residual is zero. Behind a mirror stands the element itself, or the image of the next one, whose
-        // share belongs to the other half of this one.
+        // Neighbours along y. At the ends of a run the residual is zero. Behind a mirror stands the element itself, or the image of
+        // the next one, whose share belongs to the other half of this one.
         add_scaled(&mut result[1..], -along_y, residual);
         add_scaled(result, -along_y, &residual[1..]);
         if !mirrors[1].is_none() && start == row * columns {
             result[0] -= along_y * residual[0];
         }
-        // The rows before and behind the run.
+        // Neighbours along x, in the rows behind and ahead of the run.
         let behind = if row > 0 {
             Some(&field[start - columns..end - columns])
         } else {

@@ -1,24 +1,27 @@
-//! The contact problem in scaled pressures, its stopping criterion and its solution.
+//! The contact problem for loads, which are scaled pressures x = α P/(4π), its stopping criterion and its solution.
+//!
+//! The compliance α of the step has the unit 1/Pa and the operator K the unit m, so that loads have no unit and K x is a length.
+//! Within a march heights and lengths may have other units, and x their quotient.
 
 use crate::Convolution;
 use crate::contact::{ContactOptions, Control};
 
-/// A contact problem for the scaled pressure, or load, `x = α P / (4π)` \[m], whose displacement is `K x`.
+/// A contact problem for the load `x = α P / (4π)` of each element, whose displacement is `K x`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LoadProblem<'a> {
-    /// Operator K on the grid.
+    /// Operator K on the grid, \[m].
     pub(super) convolution: &'a Convolution,
-    /// Initial gap s, one value per element, \[m].
+    /// Initial gap s, one value per element, row-major, \[m]; `+∞` where no contact is possible.
     pub(super) separation: &'a [f64],
-    /// Depth, or force as the sum of the loads, \[m].
+    /// Prescribed depth \[m], or force as the sum of the loads, without unit.
     pub(super) control: Control,
 }
 
-/// Results of a solve, besides the load.
+/// Results of a solve, besides the fields of load and displacement.
 pub(crate) struct LoadSolution {
     /// Depth d, \[m].
     pub(crate) indentation_depth: f64,
-    /// Sum of the loads, \[m].
+    /// Sum of the loads x over the grid of the problem, without unit.
     pub(crate) total_load: f64,
     /// Number of iterations, with one operator application each.
     pub(crate) iterations: usize,
@@ -32,7 +35,7 @@ pub(crate) struct LoadSolution {
 pub(crate) struct StoppingCriterion {
     /// Upper bound of the residual, in the sense of [`ContactOptions::tolerance`].
     pub(super) tolerance: f64,
-    /// Upper bound of the residual as a fraction of that of the first guess; infinity means no such bound.
+    /// Upper bound of the residual over that of the first guess; the smaller of both bounds holds, and infinity means none.
     pub(super) residual_reduction: f64,
     /// Maximum number of iterations.
     pub(super) max_iterations: usize,
@@ -43,8 +46,9 @@ pub(crate) struct StoppingCriterion {
 impl StoppingCriterion {
     /// Criterion for a solution that is only the first guess on elements of half the edges.
     ///
-    /// The residual of its own first guess measures the error of the coarser elements, of which about a third remains on these:
-    /// a more accurate solution gains nothing.
+    /// The residual of its own first guess measures the error of the coarser elements, which is of the order 3/2. About a third of it
+    /// remains on these, so that a tenth is accurate enough. The tolerance and the number of iterations are chosen; a guess that misses
+    /// them is used all the same.
     pub(super) const GUESS: Self = Self {
         tolerance: 1e-3,
         residual_reduction: 0.1,
@@ -52,8 +56,8 @@ impl StoppingCriterion {
         given_deflection: 0.0,
     };
 
-    /// Residual at which the iteration stops, given that of the first guess.
-    pub(super) fn target(&self, first_residual: f64) -> f64 {
+    /// Relative residual at which the iteration stops, given that of the first guess.
+    pub(super) fn target_residual(&self, first_residual: f64) -> f64 {
         self.tolerance.min(self.residual_reduction * first_residual)
     }
 }

@@ -14,12 +14,14 @@ use crate::parallel::row_blocks::for_each_row;
 use crate::transform::convolution::Surroundings;
 use crate::{BemError, Rows};
 
-/// Largest box, as a fraction of the elements of the grid, on which the contact is solved in place of the grid.
+/// Largest box, as a fraction of the elements of the grid, on which the contact is solved in place of the grid. Chosen.
 ///
-/// A larger box takes as long as the grid, because of the operator application on the whole grid at its end.
+/// A larger box takes as long as the grid, because of the operator application on the whole grid at its end. Only the time depends on
+/// it.
 const MAX_BOX_FRACTION: f64 = 0.6;
 
-/// Solves the contact from the load in the state, or by nested iteration if that is zero.
+/// Solves the contact from the load in the state, or by nested iteration if that load is zero everywhere; leaves load and displacement
+/// in the state.
 pub(super) fn solve_loads(
     problem: LoadProblem,
     state: &mut LoadState,
@@ -38,7 +40,7 @@ pub(super) fn solve_loads(
     solve_around(bounds, problem, state, criterion)
 }
 
-/// Iterates on a box around the bounds if that saves time, else on the whole grid.
+/// Iterates on a box around `bounds`, those of the loaded elements, if that saves time, else on the whole grid.
 fn solve_around(
     bounds: Option<Bounds>,
     problem: LoadProblem,
@@ -70,13 +72,15 @@ fn solve_around(
     grow_if_penetrating(&bounds, problem, state, solved?, criterion)
 }
 
-/// True if the box `inner` encloses `bounds` and has at most twice the elements of the new box `outer`.
+/// True if the previous box `inner` encloses `bounds` and has at most twice the elements of the new box `outer`: then its plans and
+/// buffers are used again.
 fn can_be_reused(inner: &ContactBox, bounds: &Bounds, outer: &Bounds) -> bool {
     inner.bounds.union(bounds) == inner.bounds
         && inner.bounds.n_elements() <= 2 * outer.n_elements()
 }
 
-/// Computes the displacement of the whole grid; if anything penetrates outside the box, solves again on a larger box.
+/// Computes the displacement of the whole grid under the solution `solved` of the box `bounds`. If an element outside the box
+/// penetrates, solves again on a larger box that encloses it.
 fn grow_if_penetrating(
     bounds: &Bounds,
     problem: LoadProblem,
@@ -115,7 +119,8 @@ fn grow_if_penetrating(
 }
 
 impl ContactBox {
-    /// Solves the contact of the box for its `separation`, starting from the load in its state (scaled pressures, \[m]).
+    /// Solves the contact of the box for its `separation`, starting from the loads in its state. A force is given as the sum of the
+    /// loads, a depth in the unit of the separation.
     pub(crate) fn solve(
         &mut self,
         control: Control,
@@ -132,8 +137,8 @@ impl ContactBox {
     }
 }
 
-/// Prolongs the solution on elements of twice the edges to the load of the state, which stays zero if the grid cannot be
-/// coarsened.
+/// Nested iteration: solves on elements of twice the edges, and prolongs the solution to the load of the state as first guess. The load
+/// stays zero if the grid cannot be coarsened.
 fn prolong_coarse_solution(problem: LoadProblem, state: &mut LoadState) {
     let convolution = problem.convolution;
     let grid = convolution.grid();
@@ -145,6 +150,7 @@ fn prolong_coarse_solution(problem: LoadProblem, state: &mut LoadState) {
     if is_small || (is_periodic && !is_even) {
         return;
     }
+    // Loads are pressures: on a quarter of the elements the same force is a quarter of their sum.
     let coarse_convolution = convolution.between_blocks();
     let mut coarse = LoadState::new(coarse_convolution.grid().n_elements());
     let problem = LoadProblem {
@@ -163,7 +169,8 @@ fn prolong_coarse_solution(problem: LoadProblem, state: &mut LoadState) {
     MirrorWeights::new(convolution).apply(&mut state.load);
 }
 
-/// Restriction: mean of the finite heights of two by two elements, `+∞` if there are none.
+/// Restriction of row-major heights \[m] to elements of twice the edges: mean of the finite heights of two by two elements, `+∞` if
+/// there are none.
 fn restrict_heights(heights: &[f64], [rows, columns]: [usize; 2]) -> Vec<f64> {
     // Mean of the finite heights of a block.
     let mean = |row: usize, column: usize| {

@@ -14,9 +14,9 @@ use crate::{BemError, Convolution, ConvolutionWorkspace, Grid};
 /// threads of the pool of the first solve.
 #[derive(Debug, Clone)]
 pub struct ContactState {
-    /// Pressure, \[Pa]; empty within a solve.
+    /// Pressure, \[Pa], row-major; empty within a solve, which uses its memory for the loads.
     pressure: Vec<f64>,
-    /// Elements in contact, increasing.
+    /// Row-major indices of the elements in contact, increasing.
     contact: Vec<usize>,
     /// Grid and surroundings for which the buffers below were made; `None` before the first solve.
     buffers_for: Option<(Grid, Surroundings)>,
@@ -24,16 +24,16 @@ pub struct ContactState {
     loads: LoadState,
 }
 
-/// Loads, which are scaled pressures x = α P/(4π), and buffers of a solve for them.
+/// Loads, which are scaled pressures x = α P/(4π), and buffers of a solve for them; fields are row-major.
 #[derive(Debug, Clone)]
 pub(crate) struct LoadState {
-    /// Load of each element, \[m].
+    /// Load x of each element, without unit.
     pub(crate) load: Vec<f64>,
     /// Displacement K x under the loads of the last solve, \[m].
     pub(crate) displacement: Vec<f64>,
     /// Buffers for applying the operator on the whole grid.
     pub(super) workspace: Option<ConvolutionWorkspace>,
-    /// Buffers of the iteration on the whole grid.
+    /// Buffers of the conjugate gradients on the whole grid.
     pub(super) fields: Option<Box<Fields>>,
     /// The box on which the iteration last ran in place of the grid.
     pub(super) inner: Option<Box<ContactBox>>,
@@ -54,8 +54,8 @@ impl LoadState {
         }
     }
 
-    /// Replaces every load by a function of it.
-    fn map(&mut self, columns: usize, replace: impl Fn(f64) -> f64 + Sync) {
+    /// Replaces every load of a field with `columns` columns by a function of it, in parallel.
+    fn map_loads(&mut self, columns: usize, replace: impl Fn(f64) -> f64 + Sync) {
         for_each_row(&mut self.load, columns, |_, row| {
             for load in row {
                 *load = replace(*load);
@@ -99,10 +99,10 @@ impl ContactState {
         &self.loads.displacement
     }
 
-    /// Solves for loads, from those of the first guess of the pressure, and turns the solution into the pressure.
+    /// Calls `solve` with the loads of the first guess of the pressure, and turns its solution into the pressure, converged or not.
     ///
-    /// Loads are pressures times `load_per_pressure` \[m/Pa]; those that are not positive and finite become zero. `to_pressure`
-    /// converts them back. Buffers that were made for another convolution are dropped.
+    /// Loads are pressures times `load_per_pressure` = α/(4π) \[1/Pa]; those that are not positive and finite become zero.
+    /// `to_pressure` converts them back. Buffers for another grid or other surroundings are dropped.
     pub(super) fn solve_for_loads<R>(
         &mut self,
         convolution: &Convolution,
@@ -111,19 +111,22 @@ impl ContactState {
         to_pressure: impl Fn(f64) -> f64 + Sync,
     ) -> R {
         let [_, columns] = convolution.grid().shape();
+        // Buffers of the last solve are used again on the same grid.
         let needed = Some((*convolution.grid(), convolution.surroundings));
         if self.buffers_for != needed {
             self.buffers_for = needed;
             self.loads = LoadState::new(convolution.grid().n_elements());
         }
+        // From pressures to loads, in place.
         self.loads.load = std::mem::take(&mut self.pressure);
-        self.loads.map(columns, |pressure| {
+        self.loads.map_loads(columns, |pressure| {
             let load = pressure * load_per_pressure;
             let is_load = load > 0.0 && load.is_finite();
             if is_load { load } else { 0.0 }
         });
         let solved = solve(&mut self.loads);
-        self.loads.map(columns, to_pressure);
+        // Back to pressures, and list the elements in contact.
+        self.loads.map_loads(columns, to_pressure);
         self.pressure = std::mem::take(&mut self.loads.load);
         self.contact.clear();
         let elements = self.pressure.iter().enumerate();
@@ -133,16 +136,16 @@ impl ContactState {
     }
 }
 
-/// A part of a grid, on which the contact is solved in place of the grid.
+/// A rectangular part of a grid, on which the contact is solved in place of the grid; its fields are row-major in the part.
 #[derive(Debug, Clone)]
 pub(crate) struct ContactBox {
     /// Rows and columns of the part in the whole grid.
     pub(crate) bounds: Bounds,
-    /// Operator on the part.
+    /// Operator K on the part.
     pub(super) convolution: Convolution,
     /// Loads and buffers of the part.
     pub(crate) state: LoadState,
-    /// Initial gap of its elements, \[m].
+    /// Initial gap of its elements, \[m], or in the unit of heights of a march.
     pub(crate) separation: Vec<f64>,
 }
 
@@ -171,7 +174,7 @@ impl ContactBox {
         Self::new(folded, Bounds { lower, upper })
     }
 
-    /// A box with other bounds and the load of this one, where both overlap.
+    /// A box with other bounds, whose load is that of this box where both overlap, and zero elsewhere.
     pub(crate) fn moved_to(&self, bounds: Bounds) -> Result<Self, BemError> {
         let mut moved = Self::cut_from(&self.convolution, bounds)?;
         for (element, load) in self.loaded_elements() {
@@ -182,14 +185,14 @@ impl ContactBox {
         Ok(moved)
     }
 
-    /// Copies the part inside the bounds from fields with `columns` columns: separation, and load as a first guess.
+    /// Copies separation and load, as a first guess, from row-major fields of the whole grid, which has `columns` columns.
     pub(super) fn extract_from(&mut self, separation: &[f64], load: &[f64], columns: usize) {
         let bounds = self.bounds;
         bounds.extract(separation, columns, &mut self.separation);
         bounds.extract(load, columns, &mut self.state.load);
     }
 
-    /// Copies the load into a field with `columns` columns.
+    /// Copies the load into a row-major field of the whole grid, which has `columns` columns.
     pub(super) fn copy_load_to(&self, field: &mut [f64], columns: usize) {
         let (rows, width) = (self.bounds.rows(), self.bounds.shape()[1]);
         let field = &mut field[rows.start * columns..rows.end * columns];
@@ -199,18 +202,18 @@ impl ContactBox {
         });
     }
 
-    /// Contact area of the loaded elements and their images, in elements.
+    /// Contact area of the loaded elements and their images behind `mirrors`, with perimeter correction, in areas of an element.
     pub(crate) fn area(&self, mirrors: [Mirror; 2]) -> f64 {
         area::in_elements(&self.state.load, &self.bounds, mirrors)
     }
 
-    /// Discretization error of the contact area, in elements.
+    /// Discretisation error of the contact area, in areas of an element.
     pub(crate) fn area_uncertainty(&self, mirrors: [Mirror; 2]) -> f64 {
         area::boundary_uncertainty(&self.state.load, &self.bounds, mirrors)
     }
 
-    /// Singularity of the pressure at the contact boundary: of the order 1/a² if it vanishes there, for a radius of a elements; 1 under a
-    /// flat punch.
+    /// Measure of the singularity of the pressure at the contact boundary, from 0 to 1: 1 under a flat punch, of the order 1/a² where
+    /// the pressure vanishes like a root, for a contact radius of a elements.
     pub(crate) fn edge_singularity(&self, mirrors: [Mirror; 2]) -> f64 {
         area::edge_singularity(&self.state.load, &self.bounds, mirrors)
     }

@@ -7,17 +7,18 @@ use crate::contact::active_set::ActiveSet;
 use crate::contact::iteration::Iteration;
 use crate::parallel::reductions::{add_scaled, larger, reduce, smaller, sum};
 
-/// Extremes and sums of the height s + K x of the deformed surface, \[m].
+/// Minimum and sum of the height s + K x of the deformed surface on parts of the grid, \[m].
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Heights {
-    /// Lowest height outside the active set.
+    /// Lowest height outside the active set; infinite without elements there.
     lowest_outside: f64,
-    /// Sum of the heights in the active set, measured from the indentation depth.
+    /// Sum of s + K x − d over the active set, with the depth d of the previous iterate.
     sum_inside: f64,
 }
 
 impl Heights {
-    /// Heights in a row block: `outside` has separation and displacement of its elements, `inside` of its active ones.
+    /// Statistics of one row block: `outside` holds [separation, displacement] of all its elements, `inside` those of its active
+    /// elements, packed. The sum is measured from `depth` \[m].
     fn of_row_block(
         active: &ActiveSet,
         row_block: usize,
@@ -40,7 +41,7 @@ impl Heights {
         }
     }
 
-    /// Extremes and sums over two parts of the grid together.
+    /// Statistics of two parts of the grid together.
     fn join(self, other: Self) -> Self {
         Self {
             lowest_outside: smaller(self.lowest_outside, other.lowest_outside),
@@ -50,7 +51,7 @@ impl Heights {
 }
 
 impl Iteration<'_> {
-    /// Computes the displacement from the load, and restarts the directions.
+    /// Computes the displacement K x anew from the load, and restarts the search directions.
     pub(super) fn recompute_displacement(&mut self) {
         // Find the displacement on the whole grid.
         self.scatter_load();
@@ -74,7 +75,7 @@ impl Iteration<'_> {
         self.previous_product = 0.0;
     }
 
-    /// Adds `length` times the direction to the load, and its displacement to the displacement.
+    /// Step of the conjugate gradients: adds `length` times the direction p to the load, and `length` K p to the displacement.
     pub(super) fn advance(&mut self, length: f64) {
         let (active, image) = (&self.fields.active, &self.fields.direction_displacement);
         let vectors = &mut self.fields.vectors;
@@ -107,8 +108,8 @@ impl Iteration<'_> {
         self.has_stepped = true;
     }
 
-    /// Updates the depth. At a given force it is the mean height in the active set, so that the gaps there have the mean zero;
-    /// without an active element it is the lowest height.
+    /// Updates the depth. At a given force it is the mean of s + K x over the active set, so that the gaps there have the mean zero;
+    /// without an active element it is the lowest initial gap.
     pub(super) fn update_depth(&mut self) {
         let (active, vectors) = (&self.fields.active, &self.fields.vectors);
         self.indentation_depth = match self.control {
@@ -131,8 +132,9 @@ impl Iteration<'_> {
         };
     }
 
-    /// Computes the residual of the linear equations, minus the gap in the active set, and the violations.
-    pub(super) fn measure(&mut self) -> Violations {
+    /// Computes the residual r = d − (s + K x) of the linear equations on the active set, and returns the violations of all contact
+    /// conditions.
+    pub(super) fn update_residual(&mut self) -> Violations {
         let (active, vectors) = (&self.fields.active, &mut self.fields.vectors);
         let (separation, displacement, load) =
             (&vectors.separation, &vectors.displacement, &vectors.load);
@@ -166,7 +168,8 @@ impl Iteration<'_> {
 pub(super) struct Violations {
     /// Largest |gap| in the active set; NaN if numbers overflow.
     pub(super) gap: f64,
-    /// Largest tension in the active set times the self-influence; half of it for an element on a mirror.
+    /// Largest tensile load in the active set times the self-influence, the displacement of an element under its own unit load. An
+    /// element on a mirror counts with the part of its load in front.
     pub(super) tension: f64,
     /// Largest penetration outside the active set.
     pub(super) penetration: f64,
@@ -175,7 +178,7 @@ pub(super) struct Violations {
 }
 
 impl Violations {
-    /// The largest violation relative to the deflection; zero if both are zero, NaN if numbers overflow.
+    /// The largest violation over the deflection, without unit; zero if both are zero, NaN if numbers overflow.
     pub(super) fn relative(&self) -> f64 {
         let largest = self.gap.max(self.tension).max(self.penetration);
         if self.gap.is_nan() {
@@ -187,7 +190,7 @@ impl Violations {
         }
     }
 
-    /// The largest violations in two parts of the active set.
+    /// Maximum of each violation over two parts of the active set.
     pub(super) fn worst(self, other: Self) -> Self {
         let gap = if self.gap.is_nan() {
             self.gap
@@ -202,8 +205,8 @@ impl Violations {
         }
     }
 
-    /// Violations of the conditions inside a part of the active set: tensile loads, and residual gaps, which `self_influence`, the displacement
-    /// of an element by its own unit load, makes comparable with loads.
+    /// Violations in a part of the active set, from its packed vectors. `self_influence` \[m], the displacement of an element under
+    /// its own unit load, turns tensile loads into lengths that are comparable with gaps.
     pub(super) fn inside(
         residual: &[f64],
         load: &[f64],
