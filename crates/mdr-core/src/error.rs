@@ -263,7 +263,7 @@ pub enum MdrError {
     Material(#[from] RheologyError),
 }
 
-/// Elements that the last contact must have at least for its result to mean anything.
+/// Elements that the last contact must have at least. Chosen: with fewer, no element lies inside the contact.
 const MIN_CONTACT_ELEMENTS: usize = 3;
 
 /// Refuses a contact of too few elements.
@@ -278,7 +278,7 @@ pub(crate) fn enough_elements(n_contact: usize, spacing: f64) -> Result<(), MdrE
     })
 }
 
-/// Checks a computed `value` that belongs to a `time`.
+/// Returns a computed `value`, or [`MdrError::NonFinite`] with its `quantity` and `time` \[s] if it is infinite or not a number.
 pub(crate) fn finite(quantity: &'static str, value: f64, time: f64) -> Result<f64, MdrError> {
     if value.is_finite() {
         return Ok(value);
@@ -286,7 +286,7 @@ pub(crate) fn finite(quantity: &'static str, value: f64, time: f64) -> Result<f6
     Err(non_finite(quantity, value, time))
 }
 
-/// The error for a value that is not a number, or out of the range of a quantity.
+/// The error [`MdrError::NonFinite`] for a value at a `time` \[s] that is not a number, or out of the range of a quantity.
 pub(crate) const fn non_finite(quantity: &'static str, value: f64, time: f64) -> MdrError {
     MdrError::NonFinite {
         quantity,

@@ -19,15 +19,16 @@ pub(crate) struct ContactEvent<'a> {
 }
 
 impl ContactEvent<'_> {
-    /// Separates a loaded element when its load vanishes, while its displacement would change linearly from one value to another.
+    /// Separates a loaded element when its load vanishes, while the line moves linearly `from` its displacement at the beginning
+    /// of the step `to` another one at the end, \[m].
     ///
-    /// Returns the displacement to which it recovers, and its work until separation. The energy stored at separation counts as
-    /// dissipated, because it does no work during recovery.
+    /// Returns the displacement u_∞ to which it recovers \[m], and its work until separation. The energy stored at separation
+    /// counts as dissipated, because it does no work during recovery.
     pub(crate) fn separate(&mut self, [from, to]: [f64; 2]) -> (f64, StepWork) {
         let foundation = self.foundation;
         let n_branches = foundation.branches.len();
         let rise = to - from;
-        // Load and its derivative at a part of the step.
+        // Load, and its derivative by the part of the step, at a part of the step.
         let load = |part: f64| {
             let branches = foundation.branches.iter().zip(&self.history[..n_branches]);
             let viscous = foundation.dashpot * rise / self.duration;
@@ -44,7 +45,7 @@ impl ContactEvent<'_> {
                 [sum + stress_at_part, rate + (work - a * stress) * remaining]
             })
         };
-        // With a dashpot the load jumps where the speed does.
+        // Find the separation. It is at the beginning if the load is negative there: with a dashpot it jumps where the speed does.
         let part = falling_zero(load);
         let mut work = StepWork::default();
         if part > 0.0 {
@@ -57,7 +58,8 @@ impl ContactEvent<'_> {
         (self.recover(displacement, remaining_time), work)
     }
 
-    /// Separates a loaded element immediately; returns the displacement to which it recovers, and the energy stored in it.
+    /// Separates a loaded element immediately; returns the displacement u_∞ to which it recovers \[m], and the energy that was
+    /// stored in it, over the unit of stress, \[m²].
     pub(crate) fn separate_instantly(&mut self, displacement: f64) -> (f64, f64) {
         let foundation = self.foundation;
         let n_branches = foundation.branches.len();
@@ -66,6 +68,7 @@ impl ContactEvent<'_> {
         if foundation.has_dashpot() {
             return (self.recover(displacement, 0.0), stored);
         }
+        // Without a dashpot the element rebounds until its springs carry nothing in sum.
         let load = foundation.spring * displacement + stresses.iter().sum::<f64>();
         let moduli = foundation.branches.iter().map(|branch| branch.modulus);
         let rebound = load / (foundation.spring + moduli.sum::<f64>());
@@ -73,8 +76,8 @@ impl ContactEvent<'_> {
         (self.recover(displacement - rebound, 0.0), stored)
     }
 
-    /// Replaces the stresses by amplitudes of recovery, a time after separation; returns the displacement after complete
-    /// recovery.
+    /// Replaces the stresses at separation by the amplitudes of recovery at a time \[s] after it; returns the displacement u_∞ after
+    /// complete recovery, \[m].
     fn recover(&mut self, displacement: f64, time: f64) -> f64 {
         let foundation = self.foundation;
         let stresses = self.history[..foundation.branches.len()].to_vec();
@@ -88,11 +91,12 @@ impl ContactEvent<'_> {
         if foundation.spring > 0.0 { 0.0 } else { limit }
     }
 
-    /// Brings a free element that recovers to `limit` into contact, while the line moves from one displacement to another.
+    /// Brings a free element that recovers to the displacement `limit` into contact, when the line meets it; the line imposes a
+    /// displacement that moves linearly `from` one value `to` another within the step, \[m].
     pub(crate) fn make_contact(&mut self, limit: f64, [from, to]: [f64; 2]) -> StepWork {
         let foundation = self.foundation;
         let rise = to - from;
-        // Gap and its derivative at a part of the step.
+        // Gap, and its derivative by the part of the step, at a part of the step.
         let gap = |part: f64| {
             let history = self.history.iter().zip(&foundation.modes);
             let start = [limit - (from + part * rise), -rise];
@@ -119,8 +123,9 @@ impl ContactEvent<'_> {
         work
     }
 
-    /// Brings a free element that recovers to `limit` into contact with a line that imposes a displacement: its amplitudes are
-    /// replaced by stresses. Returns its displacement, and the energy stored in it.
+    /// Brings a free element that recovers to the displacement `limit` into contact with a line that imposes a displacement, \[m]:
+    /// its amplitudes are replaced by stresses. Returns its displacement \[m], and the energy stored in it, over the unit of
+    /// stress, \[m²].
     pub(crate) fn make_contact_instantly(&mut self, limit: f64, imposed: f64) -> (f64, f64) {
         let foundation = self.foundation;
         let remaining = self.history[..foundation.modes.len()].to_vec();
@@ -141,7 +146,7 @@ impl ContactEvent<'_> {
     }
 }
 
-/// Zero in [0, 1] of a falling function that is given with its derivative, by Newton's method inside a bracket.
+/// Zero in [0, 1] of a falling function that returns its value and its derivative, by Newton's method inside a bracket.
 ///
 /// 0 if the function is not positive at 0, and 1 if it is not negative at 1.
 fn falling_zero(function: impl Fn(f64) -> [f64; 2]) -> f64 {

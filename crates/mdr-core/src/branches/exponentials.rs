@@ -10,7 +10,8 @@ pub(crate) fn decay(x: f64) -> f64 {
     if x > EXP_UNDERFLOW { 0.0 } else { (-x).exp() }
 }
 
-/// Exponential e^(−x) at x ≥ 0 and its mean from 0 to x, both to their own rounding: they may multiply a large force.
+/// Exponential e^(−x) at x ≥ 0 and its mean (1 − e^(−x))/x over [0, x], in this order, each to its own rounding: both may
+/// multiply a large force.
 #[inline]
 pub(crate) fn decay_and_mean(x: f64) -> [f64; 2] {
     if x > 1.0 {
@@ -27,7 +28,7 @@ pub(crate) fn decay_and_mean(x: f64) -> [f64; 2] {
     [1.0 - x * mean, mean]
 }
 
-/// Exponential e^(−x) from its mean from 0 to x.
+/// Exponential e^(−x) at x ≥ 0, given its mean (1 − e^(−x))/x; up to x = 1 no further exponential is computed.
 #[inline]
 pub(crate) fn decay_from_mean(x: f64, mean: f64) -> f64 {
     if x > 1.0 { decay(x) } else { 1.0 - x * mean }
@@ -70,7 +71,7 @@ const RECIPROCAL_FACTORIALS: [f64; N_SERIES_TERMS] = {
     factors
 };
 
-/// 1/n; the entry of n = 0 is 0 and not used.
+/// Reciprocals 1/n; the entry of n = 0 is 0 and not used. The series in [`moments`] ends at rounding before the last one.
 pub(crate) const RECIPROCALS: [f64; 64] = {
     let mut reciprocals = [0.0; 64];
     let mut n = 1;
@@ -81,7 +82,8 @@ pub(crate) const RECIPROCALS: [f64; 64] = {
     reciprocals
 };
 
-/// Moments ∫₀¹ e^(−z (1 − θ)) θ^j dθ for j = 0, 1, …, to rounding at every z ≥ 0.
+/// Moments μ_j = ∫₀¹ e^(−z (1 − θ)) θ^j dθ for j = 0, 1, …, to rounding at every z ≥ 0: one for each entry of `moments`, which has
+/// at least one.
 ///
 /// The recurrence μ_j = (1 − j μ_(j−1))/z goes upwards to j ≤ z and downwards from the last one, each where it does not
 /// amplify errors.

@@ -4,9 +4,12 @@
 //! w = G_∞ u + η₀ v du/dξ + Σ e_i,   l_i de_i/dξ + e_i = l_i G_i du/dξ,   l_i = v τ_i        under the line
 //! w = 0,   u = u₀ + Σ β_k (1 − e^(−ξ/L_k)),   L_k = v λ_k                                   behind it
 //! ```
-//! Displacements are in units of the depth, moduli and w in a unit of the material. ξ is the distance by which the line has
-//! moved on. The stresses e_i decompose into the modes of free recovery as into eigenvectors: both directions are sums over
-//! 1/(L_k − l_i).
+//! w is a quarter of the force per length of the line, ξ the distance by which the line has moved on. Moduli and w are over
+//! `Foundation::unit`; a Poisson ratio ν divides the moduli of the material by 2 (1 − ν). The stationary state (`steady`) counts
+//! displacements in depths. The march (`march`) counts them in metres and sets v = 1 m/s, so that l_i and L_k are the times τ_i
+//! and λ_k, \[s].
+//!
+//! The stresses e_i decompose into the modes of free recovery as into eigenvectors: both directions are sums over 1/(L_k − l_i).
 //!
 //! Theory: docs/theory/line-viscoelastic.md, "One law".
 
@@ -52,7 +55,7 @@ pub(crate) struct Mode {
 }
 
 impl Mode {
-    /// Fraction that recovers within a time, or over a distance, in the unit of the length.
+    /// Fraction 1 − e^(−t/L) of the mode that recovers within a time t, or over a distance, in the unit of `length`.
     pub(crate) fn recovered(&self, time: f64) -> f64 {
         -(-time / self.length).exp_m1()
     }
@@ -128,7 +131,9 @@ impl Foundation {
         self.branches.is_empty() && !self.has_dashpot()
     }
 
-    /// Mean modulus over a time after an instantaneous compression.
+    /// Mean ∫₀^t G dt'/t of the relaxation modulus over a time t after an instantaneous compression, over the unit; 0 for t ≤ 0.
+    ///
+    /// `time` is in the unit of the lengths of branches and modes.
     pub(crate) fn mean_modulus(&self, time: f64) -> f64 {
         if time <= 0.0 {
             return 0.0;
@@ -139,27 +144,29 @@ impl Foundation {
         self.spring + self.dashpot / time + relaxing
     }
 
-    /// Applies an instantaneous compression to the stresses of the branches.
+    /// Adds G_i Δu to the stress e_i of each branch, for an instantaneous `compression` Δu.
     pub(crate) fn apply_strain_jump(&self, stresses: &mut [f64], compression: f64) {
         for (stress, branch) in stresses.iter_mut().zip(&self.branches) {
             *stress += branch.modulus * compression;
         }
     }
 
-    /// Elastic energy of the springs, (G_∞ u² + Σ e_i²/G_i)/2.
+    /// Elastic energy (G_∞ u² + Σ e_i²/G_i)/2 of the springs of an element, over the unit of stress.
     pub(crate) fn stored_energy(&self, displacement: f64, stresses: &[f64]) -> f64 {
         let branches = self.branches.iter().zip(stresses);
         let stored: f64 = branches.map(|(b, e)| e * (e / b.modulus)).sum();
         0.5 * (self.spring * displacement * displacement + stored)
     }
 
-    /// Amplitude β of a mode of recovery after a separation at a displacement, with the stresses of the branches.
+    /// Amplitude β_k = J_k (Σ_i e_i l_i/(L_k − l_i) − G_∞ u) of a mode of recovery after a separation at the displacement u, with
+    /// the `stresses` e_i of the branches.
     pub(crate) fn amplitude(&self, mode: &Mode, displacement: f64, stresses: &[f64]) -> f64 {
         let terms = mode.ratios.iter().zip(stresses).map(|(r, e)| r * e);
         mode.compliance * (terms.sum::<f64>() - self.spring * displacement)
     }
 
-    /// Stress in a branch of a free surface with the `amplitudes` β e^(−ξ/L) in the modes.
+    /// Stress e_i = G_i Σ_k a_k l_i/(L_k − l_i) in a branch of a free surface, whose modes have the present `amplitudes`
+    /// a_k = β_k e^(−ξ/L_k).
     pub(crate) fn free_stress(branch: &Branch, amplitudes: &[f64]) -> f64 {
         let modes = branch.ratios.iter().zip(amplitudes);
         branch.modulus * modes.map(|(r, beta)| r * beta).sum::<f64>()

@@ -13,7 +13,7 @@ pub(crate) struct FreeSurface {
 }
 
 impl Foundation {
-    /// The free surface after a separation at a displacement, with the stresses of the branches.
+    /// The free surface immediately after a separation at a displacement, in depths, with the stresses of the branches.
     pub(crate) fn release(&self, displacement: f64, stresses: &[f64]) -> FreeSurface {
         let amplitude = |mode: &Mode| self.amplitude(mode, displacement, stresses);
         FreeSurface {
@@ -32,7 +32,8 @@ impl Foundation {
         }
     }
 
-    /// Amplitudes of the modes of a free surface, at a distance behind its present position.
+    /// Amplitudes β_k e^(−ξ/L_k) of the modes of a free surface at a distance \[m] behind its present position, in depths; 0 if it
+    /// was never in contact.
     pub(crate) fn remaining_amplitudes(&self, surface: &FreeSurface, distance: f64) -> Vec<f64> {
         let xi = surface.distance + distance;
         let amplitude = |k: usize| surface.amplitudes.get(k).copied().unwrap_or(0.0);
@@ -50,7 +51,7 @@ impl Foundation {
             .fold(0.0, f64::max)
     }
 
-    /// Displacement of a free surface at a distance behind its present position, in depths.
+    /// Displacement u₀ + Σ β_k (1 − e^(−ξ/L_k)) of a free surface at a distance \[m] behind its present position, in depths.
     pub(crate) fn free_displacement(&self, surface: &FreeSurface, distance: f64) -> f64 {
         let xi = surface.distance + distance;
         let modes = self.modes.iter().zip(&surface.amplitudes);
@@ -58,7 +59,8 @@ impl Foundation {
         surface.displacement + recovered.sum::<f64>()
     }
 
-    /// Stresses in the branches of a free surface at a distance behind its present position.
+    /// Stresses e_i in the branches of a free surface at a distance \[m] behind its present position, in depths times the unit of
+    /// stress.
     pub(crate) fn free_stresses(&self, surface: &FreeSurface, distance: f64) -> Vec<f64> {
         let xi = surface.distance + distance;
         let modes = self.modes.iter().zip(&surface.amplitudes);

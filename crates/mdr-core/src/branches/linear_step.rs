@@ -9,24 +9,26 @@
 
 use super::foundation::{Branch, Foundation, Mode};
 
-/// Ratio a = Δt/τ up to which differences of φ are summed as series, because their terms cancel.
+/// Ratio a = Δt/τ up to which differences of φ are summed as series, because their terms cancel; the closed forms lose less than
+/// two digits above it.
 const SERIES_MAX_RATIO: f64 = 0.5;
-/// Terms of these series that matter up to a = [`SERIES_MAX_RATIO`].
+/// Terms of the series of φ up to a = [`SERIES_MAX_RATIO`]: the first one left out is at most (2a)^19/20! = 4e-19.
 const N_PHI_TERMS: usize = 18;
 /// Coefficients of a^k, k ≥ 1, in φ(a) − 1, φ(a) − φ(2a), and 1 − 2 φ(a) + φ(2a).
 const PHI_SERIES: [[f64; N_PHI_TERMS]; 3] = [
-    coefficients(1.0, 0.0),
-    coefficients(1.0, -1.0),
-    coefficients(-2.0, 1.0),
+    phi_series(1.0, 0.0),
+    phi_series(1.0, -1.0),
+    phi_series(-2.0, 1.0),
 ];
-/// Branches that are computed together, so that the compiler can use vector instructions; a history variable without
-/// a branch is 0.
+/// Branches that are computed together, so that the compiler can use vector instructions (four numbers fill 256 bits); a
+/// history variable without a branch is 0.
 pub(crate) const LANES: usize = 4;
 
 /// One number for each of [`LANES`] branches.
 type Lanes = [f64; LANES];
 
-/// Coefficients of a step of one duration, for all branches and modes.
+/// Coefficients of a step of one duration, for all branches and modes of an element. Displacements are in metres, stresses over
+/// the unit of the foundation.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct TimeStep {
     /// Duration Δt, \[s].
@@ -39,9 +41,9 @@ pub(crate) struct TimeStep {
     dashpot: f64,
     /// Coefficients of the branches.
     branches: Vec<BranchGroup>,
-    /// Mean load of all branches per compression, if they are free of stress before.
+    /// Mean load Σ G (1 − φ(a))/a of all branches per compression, if they are free of stress before.
     mean: f64,
-    /// Dissipation of all branches per squared compression, if they are free of stress before.
+    /// Dissipation Σ G (1 − 2 φ(a) + φ(2a))/a of all branches per squared compression, if they are free of stress before.
     dissipation: f64,
     /// Decay e^(−Δt/λ) of the modes of recovery.
     decays: Vec<Lanes>,
@@ -50,22 +52,22 @@ pub(crate) struct TimeStep {
 /// Coefficients of [`LANES`] branches with the stresses e before a compression u.
 #[derive(Debug, Clone, Copy, Default)]
 struct BranchGroup {
-    /// Stress after the step is `decay` e + `gain` u.
+    /// Factor e^(−a): the stress after the step is `decay` e + `gain` u.
     decay: Lanes,
-    /// Stress after the step per compression.
+    /// Stress G φ(a) after the step per compression.
     gain: Lanes,
-    /// Mean stress in the step per e.
+    /// Mean stress φ(a) in the step per e.
     mean: Lanes,
-    /// Dissipation is e (c e + d u) with these c and d, besides that of u alone.
+    /// Factors c = a φ(2a)/G and d = 2 (φ(a) − φ(2a)) of the dissipation e (c e + d u), besides that of u alone.
     dissipation: [Lanes; 2],
 }
 
 /// Impulse and dissipation of an element in a step, in the units of the foundation.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct StepWork {
-    /// Impulse ∫ w dt.
+    /// Impulse ∫ w dt over the unit of stress, \[m s].
     pub(crate) impulse: f64,
-    /// Energy that the dashpots of the element dissipate.
+    /// Energy that the dashpots of the element dissipate, over the unit of stress, \[m²].
     pub(crate) dissipated: f64,
 }
 
@@ -76,7 +78,7 @@ pub(crate) fn n_history(foundation: &Foundation) -> usize {
 }
 
 impl TimeStep {
-    /// Coefficients of branches and modes.
+    /// Coefficients of branches and modes for a step of a `duration` \[s].
     pub(crate) fn new(foundation: &Foundation, duration: f64) -> Self {
         let decay = |mode: &Mode| (-duration / mode.length).exp();
         let modes = foundation.modes.chunks(LANES);
@@ -86,7 +88,7 @@ impl TimeStep {
         }
     }
 
-    /// Coefficients of the branches alone.
+    /// Coefficients of the branches alone for a step of a `duration` \[s]; it cannot advance the recovery of a free element.
     pub(crate) fn of_branches(foundation: &Foundation, duration: f64) -> Self {
         let mut step = Self {
             duration,
@@ -105,7 +107,7 @@ impl TimeStep {
         step
     }
 
-    /// Adds up to [`LANES`] branches.
+    /// Appends the coefficients of up to [`LANES`] branches, and adds their terms to `stiffness`, `mean` and `dissipation`.
     fn add_branches(&mut self, branches: &[Branch]) {
         let modulus = lanes(branches, 0.0, |branch| branch.modulus);
         let compliance = lanes(branches, 0.0, |branch| branch.modulus.recip());
@@ -140,7 +142,8 @@ impl TimeStep {
         });
     }
 
-    /// Displacement that has not recovered at the end of the step, Σ β_k e^(−Δt/λ_k).
+    /// Displacement Σ β_k e^(−Δt/λ_k) that has not recovered at the end of the step, from the amplitudes β_k at its beginning,
+    /// \[m].
     pub(crate) fn remaining_recovery(&self, history: &[f64]) -> f64 {
         let decays = self.decays.iter().zip(history.as_chunks().0);
         total(decays.fold([0.0; LANES], |sum, (decays, history)| {
@@ -155,7 +158,7 @@ impl TimeStep {
         }
     }
 
-    /// Load of an element at the end of a step without compression.
+    /// Load G_∞ u + Σ e_i e^(−Δt/τ_i) of an element at the end of a step without compression, over the unit of stress, \[m].
     pub(crate) fn relaxed_load(&self, displacement: f64, stresses: &[f64]) -> f64 {
         let branches = self.branches.iter().zip(stresses.as_chunks().0);
         let relaxed = branches.fold([0.0; LANES], |sum, (branches, stresses)| {
@@ -164,7 +167,8 @@ impl TimeStep {
         self.spring * displacement + total(relaxed)
     }
 
-    /// Compresses an element during the step; the length of `stresses` is a multiple of [`LANES`].
+    /// Compresses an element at constant rate during the step, from `displacement` by `compression` \[m], and advances the
+    /// `stresses` of its branches, whose number is a multiple of [`LANES`].
     pub(crate) fn compress(
         &self,
         displacement: f64,
@@ -182,7 +186,7 @@ impl TimeStep {
             dissipated = add_product(dissipated, per_stress, e);
             *stresses = add_product(product(branches.decay, e), branches.gain, u);
         }
-        // Add the spring, the dashpot, and branches that relax within the step.
+        // Add the spring, the dashpot, and the response of the branches to the compression itself.
         let spring = self.spring * (displacement + 0.5 * compression);
         let mean_load = total(mean) + spring + (self.dashpot + self.mean) * compression;
         StepWork {
@@ -214,7 +218,7 @@ fn total(lanes: Lanes) -> f64 {
 }
 
 /// Coefficients of a^k, k ≥ 1, in `once` φ(a) + `twice` φ(2a), with φ(a) = Σ (−a)^k/(k + 1)!.
-const fn coefficients(once: f64, twice: f64) -> [f64; N_PHI_TERMS] {
+const fn phi_series(once: f64, twice: f64) -> [f64; N_PHI_TERMS] {
     let mut coefficients = [0.0; N_PHI_TERMS];
     let (mut term, mut power, mut k) = (1.0, 1.0, 0);
     while k < N_PHI_TERMS {
@@ -226,7 +230,7 @@ const fn coefficients(once: f64, twice: f64) -> [f64; N_PHI_TERMS] {
     coefficients
 }
 
-/// Power series Σ c_k a^k from k = 1 on.
+/// Power series Σ c_k a^k from k = 1 on, of each lane.
 fn power_series(coefficients: &[f64; N_PHI_TERMS], a: Lanes) -> Lanes {
     let terms = coefficients.iter().rev();
     terms.fold([0.0; LANES], |sum, coefficient| {

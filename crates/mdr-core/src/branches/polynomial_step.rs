@@ -10,7 +10,8 @@
 
 use crate::line::{DEGREE, end_value, square_integral, start_value};
 
-/// Ratio a from which on the boundary layer is split off. Below, the terms of the expansion vanish like (a/2)^k/k!.
+/// Ratio a from which on the boundary layer is split off. Below, the terms of the expansion vanish like (a/2)^k/k!: with 28 of
+/// them for a = 4, which [`MAX_TERMS`] holds; a = 8 would need 37.
 const MIN_LAYER_RATIO: f64 = 4.0;
 /// Legendre terms of a stress: enough for the polynomial and an exponential of a = [`MIN_LAYER_RATIO`] to the last
 /// digit.
@@ -32,7 +33,7 @@ pub(crate) struct BranchStress {
     pub(crate) square_integral: f64,
 }
 
-/// The stress of a branch with `ratio` a and stress `start` = e(−1), driven by the rates G u'(t).
+/// The stress of a branch with `ratio` a and stress `start` = e(−1); `rates` are the Legendre coefficients of G u'(t).
 pub(crate) fn branch_stress(ratio: f64, start: f64, rates: &[f64]) -> BranchStress {
     let solve = if ratio < MIN_LAYER_RATIO {
         solve_by_expansion
@@ -46,6 +47,7 @@ pub(crate) fn branch_stress(ratio: f64, start: f64, rates: &[f64]) -> BranchStre
 fn solve_by_expansion(ratio: f64, start: f64, rates: &[f64]) -> BranchStress {
     let n_terms = rates.len() + exponential_terms(ratio);
     let slopes = solve_for_slopes(ratio, start, rates, n_terms);
+    // Integrate e' = Σ f_k P_k from e(−1) on, with (2k + 1) ∫ P_k dt = P_(k+1) − P_(k−1).
     let mut smooth = [0.0; MAX_TERMS];
     smooth[0] = start + slopes[0] - slopes[1] / 3.0;
     for k in 1..n_terms {
@@ -61,7 +63,8 @@ fn solve_by_expansion(ratio: f64, start: f64, rates: &[f64]) -> BranchStress {
     }
 }
 
-/// Number of Legendre terms beyond those of the rates from which on the terms of e^(−a t) are negligible.
+/// Number of Legendre terms beyond those of the rates from which on the terms of e^(−a t), of the size a^k/(2k − 1)!!, are
+/// negligible.
 fn exponential_terms(ratio: f64) -> usize {
     /// Size of the terms of e^(−a t) that are left out; it is below rounding.
     const NEGLIGIBLE_TERM: f64 = 1e-18;
@@ -75,7 +78,9 @@ fn exponential_terms(ratio: f64) -> usize {
 }
 
 /// Legendre coefficients f_k of e', by elimination in the tridiagonal system
-/// f_k + a (f_(k−1)/(2k − 1) − f_(k+1)/(2k + 3)) = G u'_k.
+/// f_k + a (f_(k−1)/(2k − 1) − f_(k+1)/(2k + 3)) = G u'_k, k ≥ 1, and f₀ + a (e(−1) + f₀ − f₁/3) = G u'_0.
+///
+/// The `rates` G u'_k are 0 beyond their last entry.
 fn solve_for_slopes(ratio: f64, start: f64, rates: &[f64], n_terms: usize) -> [f64; MAX_TERMS + 1] {
     // Forward elimination, then back substitution.
     let mut slopes = [0.0; MAX_TERMS + 1];
@@ -99,11 +104,11 @@ fn solve_for_slopes(ratio: f64, start: f64, rates: &[f64], n_terms: usize) -> [f
 
 /// The solution as a polynomial and a boundary layer.
 fn solve_with_layer(ratio: f64, start: f64, rates: &[f64]) -> BranchStress {
-    let smooth = particular(ratio, rates);
+    let smooth = particular_solution(ratio, rates);
     let layer = start - start_value(&smooth);
     let decay = (-2.0 * ratio).exp();
     // ∫ e^(−a(1+t)) p dt = [e^(−a(1+t)) s] with s' − a s = p.
-    let dual = particular(-ratio, &smooth[..rates.len()]);
+    let dual = particular_solution(-ratio, &smooth[..rates.len()]);
     let cross = decay * end_value(&dual) - start_value(&dual);
     let width = -(-2.0 * ratio).exp_m1() / ratio;
     let square_width = -(-4.0 * ratio).exp_m1() / (2.0 * ratio);
@@ -119,9 +124,10 @@ fn solve_with_layer(ratio: f64, start: f64, rates: &[f64]) -> BranchStress {
     }
 }
 
-/// The polynomial p with p' + a p = Σ r_k P_k, from its highest coefficient down.
-fn particular(ratio: f64, right_hand_side: &[f64]) -> [f64; MAX_TERMS] {
+/// Legendre coefficients of the polynomial p with p' + a p = Σ r_k P_k, from the highest one down.
+fn particular_solution(ratio: f64, right_hand_side: &[f64]) -> [f64; MAX_TERMS] {
     let mut solution = [0.0; MAX_TERMS];
+    // The coefficient k of p' is (2k + 1) (c_(k+1) + c_(k+3) + …): one running sum for even k, one for odd.
     let mut sums = [0.0; 2];
     for (k, rate) in right_hand_side.iter().enumerate().rev() {
         sums[k % 2] += solution[k + 1];

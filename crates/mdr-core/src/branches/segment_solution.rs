@@ -4,15 +4,17 @@ use super::foundation::{Branch, Foundation};
 use super::polynomial_step::{BranchStress, MAX_TERMS, branch_stress};
 use crate::line::{Segment, derivative, square_integral, start_value, value};
 
-/// Change of the dissipation per change of the displacement: the mean change of the rate over a segment, times 2 √2
-/// from the square.
+/// Factor s of the bound s c ‖r‖ δ for the change of a dissipation c ∫ r² dt over −1 ≤ t ≤ 1 by a change δ of the displacement.
+///
+/// Cauchy and Schwarz give 2 c ‖r‖ ‖δr‖. The rate is assumed to change by 2 √2 δ in the root mean square, so that
+/// ‖δr‖ = 4 δ.
 const DISSIPATION_SENSITIVITY: f64 = 8.0;
 
-/// Bounds of changes of a contact by a jump δ of the displacement, relative to δ.
+/// Bounds of the changes of a contact by a jump δ of the displacement, over δ; displacements are in depths.
 pub(crate) struct JumpSensitivity {
-    /// Change of ∫ w dξ, \[m].
+    /// Change of the load ∫ w dξ over δ, \[m].
     pub(crate) load: f64,
-    /// Change of the work.
+    /// Change of the work ∫ w h̃' dξ over δ.
     pub(crate) work: f64,
 }
 
@@ -26,17 +28,17 @@ pub(crate) struct Layer {
 
 /// Solution of the foundation under one segment of the line.
 pub(crate) struct SegmentSolution {
-    /// Legendre coefficients of the smooth part of w.
+    /// Legendre coefficients of the part of w that is a polynomial of t.
     smooth: [f64; MAX_TERMS],
     /// Number of these coefficients that may differ from 0.
     n_terms: usize,
     /// Boundary layers of w.
     pub(crate) layers: Vec<Layer>,
-    /// Load ∫ w dξ on the segment, \[m].
+    /// Load ∫ w dξ on the segment over depth and unit of stress, \[m].
     pub(crate) load: f64,
-    /// Energy that the dashpots dissipate, ∫ (η₀ v u'² + Σ e_i²/(G_i l_i)) dξ.
+    /// Energy ∫ (η₀ v u'² + Σ e_i²/(G_i l_i)) dξ that the dashpots dissipate, over the squared depth and the unit of stress.
     pub(crate) dissipation: f64,
-    /// Bound of the change of the dissipation per change of the displacement.
+    /// Bound of the change of the dissipation per change of the displacement by δ, see [`DISSIPATION_SENSITIVITY`].
     pub(crate) dissipation_change: f64,
     /// Error of the dissipation by rounding.
     pub(crate) dissipation_rounding: f64,
@@ -54,7 +56,8 @@ impl Foundation {
         lengths.fold(f64::INFINITY, f64::min)
     }
 
-    /// Bound of the change of ∫ w dξ by a displacement δ on a segment of this length, relative to δ, \[m].
+    /// Bound of the change of ∫ w dξ by a change δ of the displacement on a segment of a length \[m], over δ, \[m]: a branch keeps
+    /// its stress over its distance of relaxation at most.
     pub(crate) fn stiffness(&self, length: f64) -> f64 {
         let branches = self.branches.iter();
         let relaxing: f64 = branches.map(|b| b.modulus * length.min(b.length)).sum();
@@ -86,7 +89,7 @@ impl Foundation {
         }
     }
 
-    /// Solves the foundation under a segment of the line, from the stresses of the branches at its front end.
+    /// Solves the foundation under a segment of the line, from the `stresses` e_i of the branches at its front end.
     pub(crate) fn solve_segment(&self, segment: &Segment, stresses: &[f64]) -> SegmentSolution {
         let rates = derivative(&segment.displacements);
         let per_length = 2.0 / segment.length;
@@ -141,7 +144,7 @@ impl SegmentSolution {
         }
     }
 
-    /// Load potential w at −1 ≤ t ≤ 1, in the unit of stress.
+    /// Load potential w at −1 ≤ t ≤ 1, in depths times the unit of stress.
     pub(crate) fn potential(&self, t: f64) -> f64 {
         let layers = self.layers.iter();
         let decaying = layers.map(|layer| layer.amplitude * (-layer.ratio * (1.0 + t)).exp());

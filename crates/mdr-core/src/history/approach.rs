@@ -4,8 +4,9 @@
 //! F = 8/(2 (1 − ν)) [a w + Σ G_k e^(−(t − t₁)/τ_k) P_k(t₁)]        w = η₀ ḋ + Σ G_k [q_k(t) − e^(−(t − t₁)/τ_k) q_k(t₁)]
 //! q_k(t) = ∫ e^(−(t − s)/τ_k) ḋ ds        P_k(t) = ∫ e^(−(t − s)/τ_k) a(D) ḋ ds        D(s) = max d(s') up to s
 //! ```
-//! The element at the edge came into contact at t₁ and carries w. Where the contact shrinks w = 0, so that ∂F/∂t₁ ∝ w
-//! vanishes (Ting 1966, J. Appl. Mech. 33, 845).
+//! d is the depth, D its largest value so far, and a(D) the radius at which the line reaches the depth D. The branches G_k, τ_k
+//! include the lone spring, with 1/τ = 0. The element at the edge came into contact at t₁ and carries w. Where the contact
+//! shrinks w = 0, so that ∂F/∂t₁ ∝ w vanishes (Ting 1966, J. Appl. Mech. 33, 845).
 //!
 //! For each point of the path [`Approach::follow`] integrates q_k, and P_k while the contact grows, and finds t₁ by Halley's
 //! method inside a bracket. The derivatives need the integrals weighted by the time that has passed, too.
@@ -125,13 +126,13 @@ pub(super) struct Approach {
     partial_integrals: StepIntegrals,
 }
 
-/// Steps of the search for the edge that are not guarded by bisection; afterwards every other step halves the
-/// bracket.
+/// Steps of the search for the edge that are not guarded by bisection; afterwards every other step halves the bracket. Chosen:
+/// more only delay searches in which Halley's method does not converge.
 const UNGUARDED_EDGE_STEPS: usize = 16;
-/// Steps after which the search for the edge ends: the bracket is then as narrow as rounding.
+/// Steps after which the search for the edge ends: 92 of them have halved the bracket, which is then narrower than rounding.
 const MAX_EDGE_STEPS: usize = 200;
-/// Relative change of the depth of the edge at which its search ends. Derivatives are known to that, the force to its
-/// square and better.
+/// Relative change of the depth of the edge at which its search ends. Chosen: the derivatives have this relative error, the
+/// force its square or less.
 const EDGE_TOLERANCE: f64 = 1e-8;
 
 impl Approach {
@@ -388,7 +389,8 @@ impl Approach {
         }
     }
 
-    /// Grows over new elements, within a piece of the radii.
+    /// Grows over new elements, within a piece of the radii: appends their ring with the integrals at its beginning, and advances
+    /// the integrals to its end.
     fn grow(&mut self, from: DepthAt, to: DepthAt) {
         let deepest = self.deepest();
         let radius = self.radii.polynomial_between([deepest, to.depth]);
@@ -492,6 +494,7 @@ impl Approach {
         // Step along the line to the position at which the load potential w vanishes.
         let shift = edge.load / modulus;
         let curvature = 0.5 * shift * slope / modulus * (ring.duration / ring.rise);
+        // Halley's step only while its denominator 1 + curvature is far from 0.
         let is_moderate = curvature.abs() < 0.25;
         EdgeStep {
             shift: if is_moderate {
@@ -562,7 +565,8 @@ impl Approach {
         self.integrate_to_edge(0.0);
     }
 
-    /// Computes Φ_k/G_k from the edge, up to a last shift of its depth.
+    /// Computes the integral of the strain of each branch over the contact up to the edge that the search has found, and the
+    /// changes of load and radius by a last `shift` of the depth of the edge, \[m].
     fn integrate_to_edge(&mut self, shift: f64) {
         let EdgeElement { ring, theta, .. } = self.edge;
         let place = self.element_at(ring, theta);
@@ -619,7 +623,8 @@ impl Approach {
     }
 }
 
-/// Largest difference of the durations of two steps up to a time that may be rounding, \[s].
+/// Largest difference of two durations of about `step` that may be rounding, \[s]: four units in the last place of the `time` up
+/// to which they lead, and at most 1e-12 of the step, so that no real difference counts as rounding.
 fn duration_rounding(time: f64, step: f64) -> f64 {
     4.0 * f64::EPSILON * time.abs().min(1e3 * step)
 }

@@ -112,6 +112,7 @@ impl ForceDerivatives {
                 let (modulus, decay, lag) = (approach.moduli[k], edge.decays[k], edge.lag);
                 by_depth += modulus * decay * time_weighted.edge;
                 by_stretch += modulus * decay * time_weighted.stretch;
+                // ∂F/∂τ_k = −∂F/∂(1/τ_k)/τ_k², from integrals weighted by the time that has passed.
                 let slower = approach.now.time_weighted[k].depth
                     - decay * (time_weighted.depth + lag * at_contact.depth[k]);
                 let by_rate =

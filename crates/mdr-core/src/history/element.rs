@@ -5,7 +5,9 @@
 //! free since s:     u = Σ y_j e^(−(t − s)/λ_j)       w = 0
 //! y_j = (J_j/λ_j) [η₀ u + Σ G_k τ_k z_k/(1 − τ_k/λ_j)]      z_k = u − σ_k/G_k
 //! ```
-//! The last line expands u in the poles of 1/(s Ĝ(s)), with the stresses of the branches at s as initial values.
+//! h̃ is the height of the line over the element, q_k the strain integrals of `path.rs`, and J_j, λ_j a mode of recovery. The last
+//! line expands u in the poles of 1/(s Ĝ(s)), with Ĝ the Laplace transform of the relaxation modulus and the stresses of the
+//! branches at separation as initial values.
 
 use indenters::EquivalentProfile;
 use numerics::bracketed_root;

@@ -17,10 +17,11 @@ use super::{CurvePoint, HistoryOptions};
 use crate::MdrError;
 use crate::branches::decay_and_mean;
 
-/// Parts of all segments together beyond which the refinement under a force stops.
+/// Parts of all segments together beyond which the refinement under a force stops with [`MdrError::HistoryNotReached`]. Chosen: a
+/// limit of the time.
 const MAX_PARTS_UNDER_FORCE: usize = 1 << 14;
 
-/// Rounding of depths and radii that are roots of an equation, relative to them.
+/// Rounding of depths and radii that are roots of an equation, relative to them. Chosen: 450 units in the last place.
 const ROOT_ROUNDING: f64 = 1e-13;
 
 /// Error of a sum over elements by quadrature, as a part of the relative error that the depth may have: negligible
@@ -69,11 +70,12 @@ impl ForceHistory<'_> {
 
             // Stop by the change of the best extrapolated depths.
             let [before, better] = [&coarse, &table].map(|rows| &rows[rows.len() - 1]);
-            let depth_change = changes(before, better, |point| point.indentation_depth.value);
+            let depth_change =
+                largest_change(before, better, |point| point.indentation_depth.value);
             // Two changes, because one may be small by chance; both are at least of second order.
             let change =
                 depth_change.max(0.25 * std::mem::replace(&mut change_before, depth_change));
-            let radius_change = changes(before, better, |point| point.contact_radius.value);
+            let radius_change = largest_change(before, better, |point| point.contact_radius.value);
             let depths = better.iter().map(|point| point.indentation_depth.value);
             let deepest = depths.fold(0.0, f64::max);
             let asked = self.options.relative_error;
@@ -140,13 +142,14 @@ impl ForceHistory<'_> {
         let forces = self.points.iter().map(|[_, force]| *force);
         let normal_force = forces.fold(0.0, f64::max);
         let area = normal_force * compliance;
-        // A length of the problem, in any unit.
+        // Start from a length of the problem, and reduce it until ∫ a dd is at most 16 times what the largest force needs.
         let mut deepest = positive("area", finite("area", area)?)?.sqrt();
         let mut radii = radii_up_to(self.body, &mut deepest)?;
         while radii.area() > 16.0 * area {
             deepest *= 0.25;
             radii = radii_up_to(self.body, &mut deepest)?;
         }
+        // Increase it until ∫ a dd is at least twice that, or the line ends.
         while radii.area() < 2.0 * area {
             let wanted = 2.0 * deepest;
             deepest = wanted;
@@ -286,7 +289,10 @@ impl ForceHistory<'_> {
     }
 }
 
-/// Follows the body to the depth at which the sum of the loads is as needed; without load the body touches the surface.
+/// Follows the body to the depth at a `time` \[s] at which the sum of the loads is `needed` \[Pa m²]; without load the body touches
+/// the surface.
+///
+/// `largest` is the largest such sum of the history, `deepest` the largest depth of the radii, \[m].
 fn follow_to_load(
     contact: &mut Contact<'_>,
     time: f64,
@@ -335,8 +341,9 @@ fn shrinks(creep: &CreepSpectrum, retarded: &[f64], force: f64, step: f64, rise:
     evenly.chain(closer).any(|part| rate(part) < 0.0)
 }
 
-/// Equal intervals of a segment at whose ends the sign of d/dt ∫ J dF is checked; twice as many points halve the
-/// distance to the beginning of the interval. Chosen: the integral changes its sign a few times at most.
+/// Equal intervals of a segment at whose ends the sign of d/dt ∫ J dF is checked. It is also checked at twice as many points,
+/// each half as far from the beginning of the segment as the one before. Chosen: the integral changes its sign a few times at
+/// most.
 const N_SHRINKING_CHECKS: i32 = 24;
 
 /// The radii up to a depth, or as far as the line of the body rises; `deepest` is then reduced to that.
@@ -368,9 +375,13 @@ fn extrapolated(coarse: &[CurvePoint], fine: &[CurvePoint], order: i32) -> Vec<C
     coarse.iter().zip(fine).map(point).collect()
 }
 
-/// Largest change of a quantity between two curves.
-fn changes(coarse: &[CurvePoint], fine: &[CurvePoint], of: impl Fn(&CurvePoint) -> f64) -> f64 {
+/// Largest change of a quantity between two curves with the same times, in the unit of the quantity.
+fn largest_change(
+    coarse: &[CurvePoint],
+    fine: &[CurvePoint],
+    quantity: impl Fn(&CurvePoint) -> f64,
+) -> f64 {
     let pairs = coarse.iter().zip(fine);
-    let changes = pairs.map(|(one, other)| (of(one) - of(other)).abs());
+    let changes = pairs.map(|(one, other)| (quantity(one) - quantity(other)).abs());
     changes.fold(0.0, f64::max)
 }

@@ -116,8 +116,9 @@ impl StepIntegrals {
         self.moments[order * self.decays.len() + branch]
     }
 
-    /// Advances the integrals of ḋ over a step in which the contact does not grow.
+    /// Advances the integrals of ḋ over a step in which the contact does not grow and the depth increases by `rise`, \[m].
     pub(super) fn hold(&self, state: &mut HistoryIntegrals, rise: f64) {
+        // The weight t − s = (1 − θ) Δt makes differences of two moments.
         for (k, time_weighted) in state.time_weighted.iter_mut().enumerate() {
             let gained = rise * self.length * (self.moment(0, k) - self.moment(1, k));
             time_weighted.depth =
@@ -158,7 +159,7 @@ impl StepIntegrals {
         }
     }
 
-    /// Contribution of a ring to the time-weighted integrals of a branch.
+    /// Contribution of a ring to the time-weighted integrals of the branch k; `terms` are the coefficients of its radius over θ.
     fn time_weighted(&self, k: usize, ring: &Ring, terms: &[f64]) -> TimeWeightedIntegrals {
         let [mut load, mut edge, mut stretch] = [0.0; 3];
         let mut previous_moment = 0.0;

@@ -13,7 +13,8 @@ const GAUSS_RULE: [[f64; 2]; 3] = [
     [0.5, 8.0 / 18.0],
     [0.887_298_334_620_741_7, 5.0 / 18.0],
 ];
-/// Parts of all segments together beyond which the refinement of the work stops.
+/// Parts of all segments together beyond which the refinement of the work stops with [`MdrError::WorkNotReached`]. Chosen: a
+/// limit of the time.
 const MAX_PARTS_OF_WORK: usize = 1 << 13;
 
 /// The work ∫ F dd \[J] from the first point of a history to each point.
@@ -98,7 +99,8 @@ fn between(start: HistoryPoint, end: HistoryPoint, part: f64) -> HistoryPoint {
     }
 }
 
-/// Work ∫ F dd = F d − ∫ d dF up to each point of the history.
+/// Work ∫ F dd = F d − ∫ d dF up to each point of the history \[J], from a curve with the nodes of the rule on `parts` parts of
+/// each segment.
 fn cumulative_work(curve: &[CurvePoint], parts: usize) -> Vec<f64> {
     let is_force = is_force_given(curve);
     let mut work = 0.0;
@@ -125,7 +127,7 @@ fn cumulative_work(curve: &[CurvePoint], parts: usize) -> Vec<f64> {
     work_at_points
 }
 
-/// Force and depth of a point.
+/// Force \[N] and depth \[m] of a point, in this order.
 fn values(point: CurvePoint) -> [f64; 2] {
     [point.normal_force, point.indentation_depth].map(|known| known.value)
 }
@@ -135,7 +137,8 @@ fn is_force_given(curve: &[CurvePoint]) -> bool {
     curve.iter().all(|point| point.normal_force.error == 0.0)
 }
 
-/// Bound of the error of the work by the error of the depth, or of the force, \[J].
+/// Bound of the error of the work by the error of the depth, or of the force, \[J]: the largest error times the total variation
+/// of the other quantity, and for a given force twice its largest value more, for the products at both ends.
 fn work_error(curve: &[CurvePoint]) -> f64 {
     let largest = |of: fn(&CurvePoint) -> f64| curve.iter().map(of).fold(0.0, f64::max);
     let total_variation = |of: fn(&CurvePoint) -> f64| {

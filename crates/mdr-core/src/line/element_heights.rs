@@ -10,11 +10,11 @@ use crate::MdrError;
 
 /// Elements of a foundation at most.
 pub(crate) const MAX_ELEMENTS: usize = 1 << 22;
-/// On an infinite domain the line is sampled up to this multiple of the distance at which it was last below the
-/// largest needed height.
+/// On an infinite domain the line is sampled up to this multiple of the distance at which it was last below the largest needed
+/// height. Chosen: a part of the body that comes down farther out is overlooked.
 const LOOKOUT_DISTANCE_RATIO: usize = 1024;
-/// Distance, in elements, up to which each element is looked at for a higher part of the body; farther out the stride is the distance over
-/// this number.
+/// Distance from the anchor, in elements, up to which every element is sampled in the search for the last one below the largest
+/// needed height; farther out the stride is the distance over this number. Chosen: see [`ElementHeights::below`].
 const LOOKOUT_STRIDE: usize = 64;
 /// Relative margin above the height asked for, so that rounding cannot lift the contact over the last element.
 const MAX_HEIGHT_MARGIN: f64 = 1e-9;
@@ -124,7 +124,8 @@ struct Ray<'a> {
 }
 
 impl Ray<'_> {
-    /// The heights up to one element beyond the last one below the largest needed height; `None` if there are too many.
+    /// The heights \[m] up to one element beyond the last one below the largest needed height, from the anchor outwards; `None` if
+    /// they are more than [`MAX_ELEMENTS`].
     fn heights(&self) -> Result<Option<Vec<f64>>, MdrError> {
         let Some(n_needed) = self.count_needed()? else {
             return Ok(None);
@@ -214,7 +215,7 @@ pub(crate) fn lowest_candidate(line: &dyn RigidLine) -> Result<f64, MdrError> {
     lowest.map(|(_, position)| position).ok_or_else(failed)
 }
 
-/// The lowest point within one spacing of the lowest sample, by golden section.
+/// Position \[m] of the lowest point within one `spacing` of the lowest sample, which is at `position`, by golden section.
 fn refine_lowest(line: &dyn RigidLine, position: f64, spacing: f64) -> f64 {
     let [rear, front] = line.domain();
     let [low, high] = [position - spacing, position + spacing];
@@ -223,7 +224,7 @@ fn refine_lowest(line: &dyn RigidLine, position: f64, spacing: f64) -> f64 {
     if is_lower { lowest } else { position }
 }
 
-/// Height of the line; `+∞` is allowed (no body there), `−∞` and NaN are not.
+/// Height of the line, \[m]; `+∞` is allowed (no body there), `−∞` and NaN are [`MdrError::InvalidHeight`].
 pub(crate) fn checked_height(line: &dyn RigidLine, position: f64) -> Result<f64, MdrError> {
     let height = line.height(position);
     if height.is_nan() || height == f64::NEG_INFINITY {

@@ -6,13 +6,14 @@ use numerics::whole_part;
 use super::element_heights::{ElementHeights, checked_height};
 use crate::MdrError;
 
-/// Cells of the table per element of the foundation.
+/// Cells of the table per element of the foundation. Chosen: more cells make the cubics accurate closer to a kink, and the table
+/// longer.
 const CELLS_PER_ELEMENT: usize = 4;
 /// Error of a cubic through four nodes, relative to the largest height in the table, up to which the table is used in
-/// a cell. It is far below the error of the elements.
+/// a cell; the line itself is evaluated in the others. Chosen: far below the error of the elements.
 const CUBIC_TOLERANCE: f64 = 1e-10;
 
-/// Rounding of positions, relative to the length of a cell.
+/// Rounding of positions, relative to the length of a cell. Chosen.
 const POSITION_ROUNDING: f64 = 1e-9;
 
 /// Table of the heights above the lowest point, \[m].
@@ -23,6 +24,7 @@ pub(crate) struct HeightTable<'a> {
     lowest: f64,
     /// Position of the lowest point, \[m].
     anchor: f64,
+    /// Position of the first node of the table, \[m].
     start: f64,
     /// Number of cells per length, \[1/m].
     cells_per_metre: f64,
@@ -81,7 +83,8 @@ impl<'a> HeightTable<'a> {
         Ok(checked_height(self.line, point.unwrap_or(x))? - self.lowest)
     }
 
-    /// Writes the heights over a row of elements, whose first one is at the position `x` on the line, \[m].
+    /// Replaces `row` by the heights \[m] over a row of elements with the spacing of the foundation, whose first one is at the
+    /// position `x` on the line, \[m].
     pub(crate) fn fill_row(
         &self,
         x: f64,
@@ -137,7 +140,7 @@ pub(crate) struct HeightRow {
 }
 
 impl HeightRow {
-    /// Height over an element of the row.
+    /// Height over an element of the row, \[m]; `element` is its index in the foundation.
     pub(crate) fn over(&self, element: usize) -> f64 {
         self.heights[element - self.first]
     }
@@ -168,7 +171,7 @@ impl HeightRow {
     }
 }
 
-/// Splits a list of cells by their position in an element.
+/// Splits a list of cells by their position in an element: entry k of the list goes to the part k mod [`CELLS_PER_ELEMENT`].
 fn split_by_subcell<T: Copy>(cells: &[T]) -> [Vec<T>; CELLS_PER_ELEMENT] {
     std::array::from_fn(|subcell| {
         cells
@@ -180,7 +183,7 @@ fn split_by_subcell<T: Copy>(cells: &[T]) -> [Vec<T>; CELLS_PER_ELEMENT] {
     })
 }
 
-/// Weights of Lagrange's cubic through four nodes, at a fraction `t` of the cell in their middle.
+/// Weights of Lagrange's cubic through four equidistant nodes, at a fraction `t` of the cell in their middle.
 fn weights(t: f64) -> [f64; 4] {
     let (r, s, q) = (t + 1.0, 1.0 - t, 2.0 - t);
     [

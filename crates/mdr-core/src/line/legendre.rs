@@ -2,17 +2,18 @@
 
 use numerics::{legendre_values, lobatto_rule};
 
-/// Degree of the polynomial that stands for one piece of a line.
+/// Degree of the polynomial that stands for one piece of a line. Chosen: pieces are halved until it is enough, so that it decides
+/// on the time only.
 pub(crate) const DEGREE: usize = 10;
 
-/// Coefficients of one piece of a line.
+/// Legendre coefficients c_0, c_1, … of one piece of a line.
 pub(crate) type Polynomial = [f64; DEGREE + 1];
 
 /// Interpolation at the Gauss–Lobatto nodes: −1, 1 and the zeros of P'_n.
 pub(crate) struct Interpolation {
     /// Gauss–Lobatto nodes on [−1, 1].
     nodes: Polynomial,
-    /// Row k gives the coefficient c_k from the values at the nodes.
+    /// Row k holds the weights of the values at the nodes in the coefficient c_k.
     rows: [Polynomial; DEGREE + 1],
 }
 

@@ -16,12 +16,13 @@ use super::range::Range;
 use super::segment::Segment;
 use crate::MdrError;
 
-/// Positions along the whole range at which the polynomials are compared with the line, besides their nodes.
+/// Positions along the whole range at which the polynomials are compared with the line, besides their nodes. Chosen: narrower
+/// details between nodes may be overlooked.
 const N_STATIONS: f64 = 64.0;
-/// Samples of the slope of a piece in the search for its turning points.
+/// Samples of the slope of a piece in the search for its turning points: the slope, of degree nine, has nine zeros at most.
 const N_SLOPE_SAMPLES: usize = 24;
 /// Length of a piece, relative to the shortest distance of relaxation, below which it acts through the heights of its
-/// ends alone.
+/// ends alone. Chosen.
 const SHORT_PIECE_RATIO: f64 = 0.125;
 
 /// Maximum number of polynomials of a line; more take seconds for each trial depth.
@@ -61,7 +62,7 @@ pub(crate) struct Piece {
     /// Compression that the piece imposes when the lowest point of the line is one depth deep. While the pieces are made, it is
     /// relative to that of the anchor.
     pub(crate) segment: Segment,
-    /// Size of the first terms that are left out, in depths.
+    /// Estimated sum of the terms that are left out, in depths.
     pub(crate) tail: f64,
     /// True if the piece is as short as possible, and still not resolved.
     pub(crate) singular: bool,
@@ -117,7 +118,7 @@ impl Piece {
         self.segment.position(t).clamp(rear, front)
     }
 
-    /// Sum of the moduli of all terms but the mean, in depths.
+    /// Bound Σ |c_k|, k ≥ 1, of the deviation of the compression from its mean, in depths.
     fn rise(&self) -> f64 {
         self.terms()[1..].iter().map(|c| c.abs()).sum()
     }
@@ -134,6 +135,7 @@ impl Piece {
 
     /// Turning point of the line inside the piece, as t; `None` without one.
     fn turning_point(&self) -> Option<f64> {
+        // |P'_k| ≤ k (k + 1)/2: the slope has no zero if its first term outweighs all others.
         let (terms, degree) = (self.terms(), self.segment.degree);
         let bound = (2..=degree).map(|k| (k * (k + 1) / 2) as f64 * terms[k].abs());
         if terms[1].abs() >= bound.sum::<f64>() {
@@ -159,7 +161,7 @@ impl Piece {
         self
     }
 
-    /// Drops the terms that are rounding.
+    /// Sets the highest terms to 0 as long as they are rounding, and reduces the degree accordingly.
     fn trim(&mut self) {
         let segment = &mut self.segment;
         let sizes = segment.displacements.iter().map(|c| c.abs());
@@ -184,7 +186,7 @@ struct Builder<D> {
 }
 
 impl<D: Fn(f64) -> Result<f64, MdrError>> Builder<D> {
-    /// Adds the pieces between two positions, from the front to the rear.
+    /// Appends the pieces between two positions `[front, rear]` \[m], from the front to the rear.
     fn resolve(&self, ends: [f64; 2], pieces: &mut Vec<Piece>) -> Result<(), MdrError> {
         let mut waiting = vec![ends];
         while let Some(ends) = waiting.pop() {
@@ -231,7 +233,7 @@ impl<D: Fn(f64) -> Result<f64, MdrError>> Builder<D> {
         Ok(())
     }
 
-    /// The polynomial between two positions, and the size of its tail.
+    /// The polynomial between two positions `[front, rear]` \[m], with the estimate of its tail.
     fn interpolate_piece(&self, ends: [f64; 2]) -> Result<Piece, MdrError> {
         let mut piece = Piece {
             segment: Segment {

@@ -8,13 +8,13 @@ use super::profile::MIN_PIECE_LENGTH;
 use crate::MdrError;
 use crate::error::non_finite;
 
-/// Samples of the line per doubling of the distance from the anchor. Narrower parts that come down again between
+/// Samples of the line per doubling of the distance from the anchor. Chosen: narrower parts that come down again between
 /// kinks may be overlooked.
 const STATIONS_PER_OCTAVE: f64 = 16.0;
 /// On an endless line the search begins at this multiple of the distance at which the line first rises above the
-/// height limit.
+/// height limit. Chosen: a part that comes down farther out is overlooked.
 const SEARCH_DISTANCE_RATIO: f64 = 1024.0;
-/// Factor by which the search for a first height above the height limit goes outwards on an endless line.
+/// Factor by which the search for a first height above the height limit goes outwards on an endless line. Chosen.
 const OUTWARD_STRIDE: f64 = 8.0;
 
 /// Distance from a vertical edge, such as the equator of a sphere, up to which a body is followed, as a part of its
@@ -101,10 +101,10 @@ pub(crate) fn vertical_edge(line: &dyn RigidLine) -> Result<Option<VerticalEdge>
     Ok(Some(VerticalEdge { position, height }))
 }
 
-/// The outermost position between the anchor and the end at which the line lies below the height limit.
+/// The outermost position \[m] between the anchor and the end at which the line lies below the height limit.
 ///
-/// `pieces` are the intervals between kinks, the outermost first; a piece beyond a gap is found by its inner
-/// end.
+/// `excess` is the height above the limit at a position, \[m]. `pieces` are the intervals `[inner, outer]` between kinks, the
+/// outermost first; a piece beyond a gap is found by its inner end.
 fn outermost_of(
     excess: impl Fn(f64) -> Result<f64, MdrError> + Copy,
     [anchor, end]: [f64; 2],
@@ -118,7 +118,9 @@ fn outermost_of(
     piece.map_or(Ok(found), |[inner, outer]| outermost(excess, inner, outer))
 }
 
-/// The outermost position between `anchor` and `end` at which the line lies below the height limit, by samples from outside.
+/// The outermost position \[m] between `anchor` and `end` at which the line lies below the height limit, by samples from outside.
+///
+/// `excess` is the height above the limit at a position, \[m].
 fn outermost(
     excess: impl Fn(f64) -> Result<f64, MdrError>,
     anchor: f64,
@@ -151,7 +153,8 @@ fn outermost(
     }
 }
 
-/// A distance, with its sign, at which an endless line lies above the height limit.
+/// A distance \[m] from the anchor, with the `sign` of its side, at which an endless line lies above the height limit;
+/// [`MdrError::NotRising`] if there is none.
 fn first_above(
     excess: impl Fn(f64) -> Result<f64, MdrError>,
     anchor: f64,

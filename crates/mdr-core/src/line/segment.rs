@@ -41,7 +41,7 @@ impl Segment {
         end_value(&self.displacements)
     }
 
-    /// The part of the segment between two values of t.
+    /// The part of the segment between two values of t, as a polynomial of its own −1 ≤ t ≤ 1.
     pub(crate) fn between(&self, interpolation: &Interpolation, [from, to]: [f64; 2]) -> Self {
         if from <= -1.0 && to >= 1.0 {
             return self.clone();

@@ -5,14 +5,15 @@
 
 use indenters::RigidLine;
 
-/// First distance from a kink at which the slope is computed, relative to the position of the kink.
+/// First distance from a kink at which the slope is computed, relative to the position of the kink. Chosen: close enough for
+/// the leading term of the slope, far above the rounding of positions.
 const FIRST_KINK_DISTANCE: f64 = 1.0 / (1 << 20) as f64;
-/// Ratio of the second distance from a kink to the first, and of the third to the second.
+/// Ratio of the second distance from a kink to the first, and of the third to the second. It makes an inverse root grow by 2.
 const KINK_DISTANCE_RATIO: f64 = 0.25;
 /// Smallest ratio of the differences of slopes from distance to distance at a steep kink: 2 for an inverse root, less
 /// a margin for smaller powers.
 const MIN_DIFFERENCE_RATIO: f64 = 1.99;
-/// Differences of slopes below this part of them are rounding.
+/// Part of the slopes below which their differences are rounding. Chosen.
 const SLOPE_ROUNDING: f64 = 1e-9;
 
 /// A side of a kink on which the slope is unbounded.
@@ -53,7 +54,8 @@ impl SteepKink {
     }
 }
 
-/// True if the slope grows towards the kink at least like the inverse root of the distance.
+/// True if the slope grows towards the kink at `position` \[m] at least like the inverse root of the distance, on the `side` −1 or
+/// 1 of it.
 fn is_steep(line: &dyn RigidLine, position: f64, side: f64) -> bool {
     let parts = [
         1.0,

@@ -18,7 +18,7 @@ use crate::branches::{Foundation, Mode};
 /// Norm of the residual with which conjugate gradients end, relative to that of the right-hand side, both in the
 /// preconditioned norm. Measured by `evidence tuning`.
 const CG_TOLERANCE: f64 = 1e-8;
-/// Iterations of conjugate gradients at most.
+/// Iterations of conjugate gradients at most; the last iterate is used if they do not suffice. Chosen.
 const MAX_CG_ITERATIONS: usize = 200;
 
 /// Contacts of all elements over a cycle; the default has no elements and records nothing.
@@ -86,7 +86,7 @@ impl ContactHistory {
         }
     }
 
-    /// Residual F of all elements and modes, for a cycle from the amplitudes `state` to `end`.
+    /// Residual F \[m] of all modes, element by element, for a cycle from the amplitudes `state` to `end` in the same order.
     pub(super) fn residual(&self, modes: &[Mode], state: &[f64], end: &[f64]) -> Vec<f64> {
         let n_history = state.len() / self.elements.len();
         let mut residual = vec![0.0; state.len()];
@@ -168,7 +168,8 @@ impl<'a> CycleJacobian<'a> {
         }
     }
 
-    /// Step δ that covers n cycles instead of all: with κ = e^(−T/λ), F and β are multiplied by (1 − κ)/(1 − κ + κ/n).
+    /// Step δ \[m] of all amplitudes that covers n `cycles` instead of all: with κ = e^(−T/λ), F and β are multiplied by
+    /// (1 − κ)/(1 − κ + κ/n).
     pub(super) fn step(&self, modes: &[Mode], cycles: f64, residual: &[f64]) -> Vec<f64> {
         let n_history = residual.len() / self.contact_history.elements.len();
         let factors = modes.iter().map(|mode| {
@@ -209,7 +210,7 @@ impl<'a> CycleJacobian<'a> {
         step
     }
 
-    /// The product M v.
+    /// The product M v: changes of the mean load of each element by changes `v` of its mean free displacement.
     fn multiply(&self, v: &[f64]) -> Vec<f64> {
         let weights = self.moduli.iter().zip(&self.contact_fractions);
         let mut product: Vec<f64> = weights.zip(v).map(|((k, part), v)| k * part * v).collect();
@@ -242,8 +243,8 @@ impl<'a> CycleJacobian<'a> {
         product
     }
 
-    /// Load response M v for the v that solves v = free − compliance · M v, by conjugate gradients, preconditioned by the M of a prescribed
-    /// depth, which is diagonal.
+    /// Load response M v for the v that solves v = `free` − `compliance` · M v, by conjugate gradients. The preconditioner uses the M
+    /// of a prescribed depth, which is diagonal.
     fn load_response(&self, free: &[f64], compliance: f64) -> Vec<f64> {
         let precondition = |r: &[f64]| -> Vec<f64> {
             let weights = self.moduli.iter().zip(&self.contact_fractions);
@@ -284,7 +285,7 @@ impl<'a> CycleJacobian<'a> {
     }
 }
 
-/// Adds a number to all elements in the runs, in a list of differences from element to element.
+/// Adds a number to all elements in the runs `[start, end)`, in a list of differences from element to element.
 fn add_to_runs(differences: &mut [f64], runs: &[[usize; 2]], number: f64) {
     for [start, end] in runs {
         differences[*start] += number;
@@ -292,7 +293,7 @@ fn add_to_runs(differences: &mut [f64], runs: &[[usize; 2]], number: f64) {
     }
 }
 
-/// Sum over the elements of the runs, from cumulative sums.
+/// Sum over the elements of the runs `[start, end)`, from cumulative sums that begin with 0.
 fn sum_over_runs(sums: &[f64], runs: &[[usize; 2]]) -> f64 {
     runs.iter()
         .map(|[start, end]| sums[*end] - sums[*start])

@@ -39,7 +39,7 @@ struct CumulativeWork {
 }
 
 impl CumulativeWork {
-    /// Prefix sums over the steps: of their lengths, and of force times length.
+    /// Prefix sums over the steps: of their lengths \[m], and of force times length \[J].
     fn new(step_lengths: &[f64], forces: impl Iterator<Item = f64>) -> Self {
         let (mut distance, mut work) = (vec![0.0], vec![0.0]);
         let mut sums = [0.0, 0.0];
@@ -51,7 +51,7 @@ impl CumulativeWork {
         Self { distance, work }
     }
 
-    /// Work up to a distance, \[J].
+    /// Work up to a distance \[m], linear within a step, \[J].
     fn up_to(&self, length: f64) -> f64 {
         let last = self.distance.len() - 1;
         let index = self

@@ -111,7 +111,9 @@ impl<'a> Elements<'a> {
 
     /// Advances an element to the end of a step, over which the line above it moves linearly from one displacement to another.
     ///
-    /// `imposed` are the displacements that the line imposes at both ends of the step, `unloaded` is its [unloaded displacement](Self::unloaded_displacement). `None` if it is never loaded in the step.
+    /// `imposed` are the displacements that the line imposes at both ends of the step, −∞ without a body, and `unloaded` is its
+    /// [unloaded displacement](Self::unloaded_displacement), \[m]; `end_time` is in \[s]. `None` if the element is not in contact at
+    /// either end of the step.
     pub(crate) fn advance(
         &mut self,
         element: usize,
@@ -181,7 +183,8 @@ impl<'a> Elements<'a> {
         self.history_of(last).fill(0.0);
     }
 
-    /// Separates a loaded element instantly; returns the energy that was stored in it.
+    /// Separates a loaded element instantly at a `time` \[s]; returns the energy that was stored in it, over the unit of stress,
+    /// \[m²], and 0 if it is not loaded.
     pub(super) fn separate_instantly(&mut self, element: usize, time: f64) -> f64 {
         let ElementState::Loaded { displacement } = self.states[element] else {
             return 0.0;
@@ -191,7 +194,8 @@ impl<'a> Elements<'a> {
         stored
     }
 
-    /// Brings an element that recovers to `limit` into contact instantly; returns the energy stored in it.
+    /// Brings an element that recovers to the displacement `limit` into contact instantly, with the displacement that the line
+    /// imposes, \[m]; returns the energy stored in it, over the unit of stress, \[m²].
     pub(crate) fn make_contact_instantly(
         &mut self,
         element: usize,

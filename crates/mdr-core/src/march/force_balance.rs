@@ -85,7 +85,7 @@ impl ForceBalance<'_> {
 }
 
 impl TrialDepth {
-    /// The depth at which the same elements are compressed by `needed` in sum.
+    /// The depth \[m] at which the compressions of the same elements add up to `needed`, \[m].
     fn newton_depth(self, needed: f64) -> f64 {
         self.depth + (needed - self.compression) / self.n_below as f64
     }

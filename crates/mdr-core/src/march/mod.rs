@@ -34,23 +34,23 @@ use crate::steady::LineProblem;
 use motion_problem::MotionProblem;
 pub use slide::{Sliding, SlidingStep, slide, slide_memory};
 
-/// Elements along the contact beyond which a refinement stops: a limit of the time.
+/// Elements along the contact beyond which a refinement stops. Chosen: a limit of the time.
 const MAX_ELEMENTS_ALONG_CONTACT: usize = 4096;
 /// Power of the number of elements with which the work grows: the number of steps grows in proportion to it.
 const WORK_EXPONENT: f64 = 2.0;
 /// Largest order of convergence that is assumed. Smooth bodies have a better one, but the place of their contact boundary
 /// between the elements makes it unsafe to assume more.
 const MAX_ORDER: f64 = 1.0;
-/// Elements of a foundation per element of the contact, about and at most, for the estimate of memory.
+/// Elements of a foundation per element of the contact, for the estimate of memory. Chosen: an upper bound for usual bodies.
 const FOUNDATION_PER_CONTACT: f64 = 4.0;
 
-/// Elements times steps of all cycles that a refinement does not exceed to reach an error: about a minute of one
+/// Largest product of elements, steps and cycles of a resolution that a refinement takes up. Chosen: about a minute of one
 /// thread.
 const MAX_WORK: f64 = 5e8;
-/// Elements from which on a friction that changes by more than its own size counts as error of the elements, so that
-/// the refinement stops: a limit of the time.
+/// Elements along the contact from which on the refinement of a limit cycle stops if the friction is smaller than its change by
+/// the last halving of the spacing: it is then only an error of the elements. Chosen: a limit of the time.
 const MIN_ELEMENTS_TO_GIVE_UP: usize = 128;
-/// Order of convergence below the exponent of a tip or cusp, because its place between two elements is arbitrary.
+/// Order of convergence that is lost against the exponent p of an apex x^p, because its place between two elements is arbitrary.
 const TIP_ORDER_LOSS: f64 = 0.5;
 /// Order of convergence behind a steep kink, where the line rises like the root of the distance.
 const STEEP_KINK_ORDER: f64 = 0.5;
@@ -212,7 +212,7 @@ impl Progress for WorkLimit<'_> {
     }
 }
 
-/// Elements along the contact where a relative error is first sought.
+/// Elements along a contact of a `length` \[m] on the resolution where a relative error is first sought.
 fn first_elements(load: &MovingLoad, length: f64) -> usize {
     if !load.is_cycle() {
         return FIRST_ELEMENTS;
@@ -235,7 +235,7 @@ fn contact_length(
     Ok(positive("contact length", length)?)
 }
 
-/// Order in the spacing with which the friction of a motion converges.
+/// Order in the spacing with which the friction of a motion is assumed to converge, at most [`MAX_ORDER`].
 fn convergence_order(line: &dyn RigidLine) -> f64 {
     if has_steep_kinks(line) {
         STEEP_KINK_ORDER

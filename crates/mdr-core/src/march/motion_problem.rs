@@ -16,7 +16,7 @@ use crate::branches::{Foundation, n_history};
 use crate::error::enough_elements;
 use crate::line::{ElementHeights, MAX_ELEMENTS, has_steep_kinks};
 
-/// Steps of a motion, or of one cycle, beyond which it is refused: a limit of the time.
+/// Steps of a motion, or of one cycle, beyond which it is refused. Chosen: a limit of the time.
 const MAX_STEPS: f64 = 4e6;
 /// Duration of the first pressing, at rest, relative to that of the first step. Measured by `evidence tuning`.
 pub(super) const FIRST_PRESSING_DURATION: f64 = 1e-3;
@@ -29,9 +29,9 @@ const MAX_FORCE_CORRECTION: f64 = 0.25;
 /// fastest sliding. Measured by `evidence tuning`.
 const FIRST_CONTACT_REACH: f64 = 0.75;
 
-/// Memory of an element besides its history variables, about and at most, \[bytes].
+/// Memory of an element besides its history variables, estimated from above, \[bytes].
 pub(super) const MOTION_BYTES_PER_ELEMENT: f64 = 200.0;
-/// Copies of all history variables that the search for a limit cycle holds, about and at most.
+/// Copies of all history variables that the search for a limit cycle holds, estimated from above.
 const N_STORED_STATES: f64 = 8.0;
 
 /// A line, its motion and the foundation under it.
@@ -143,7 +143,8 @@ impl<'a> MotionProblem<'a> {
         Ok(n_steps * per_step as f64 + n_elements * per_element)
     }
 
-    /// Height of the line about where the contact may end, \[m]; the contact length where that is not positive.
+    /// Height of the line about where the contact may end, above its height at x = 0, \[m]: the lower one of both sides, and the
+    /// contact length if that is not positive and finite.
     fn rise(&self) -> f64 {
         let lowest = self.line.height(0.0);
         let sides = [
@@ -255,8 +256,8 @@ impl<'a> MotionProblem<'a> {
     }
 }
 
-/// Correction of the relative force at the end of the next step, from the part of the force that the mean over this step
-/// lacks.
+/// Correction of the relative force at the end of the next step, from the fraction `missing` of the force that the mean over this
+/// step lacks; 0 for large fractions, where the force begins or ends.
 ///
 /// The chord of a step lies below the path of an element under a round body. With the prescribed force at the ends of all
 /// steps their mean is therefore too small, by the square of the step. Half of the difference is corrected, because a step

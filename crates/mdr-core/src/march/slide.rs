@@ -36,17 +36,18 @@ use subgrid::{LastContact, SubgridForces};
 /// about 20 are needed. Chosen.
 const MAX_CONTACT_LENGTHS: f64 = 100.0;
 /// Margin of the first foundation above the stationary depth, relative to it: more than the error with which that depth is
-/// known.
+/// known. Chosen.
 const DEPTH_MARGIN: f64 = 1e-6;
 /// Relative change of depth and friction coefficient over one contact length below which the state is stationary.
 ///
 /// The approach is exponential with the contact length as its length, so that the remaining distance to the limit is
 /// below `DRIFT_TOLERANCE`/(e − 1). Chosen.
 const DRIFT_TOLERANCE: f64 = 1e-9;
-/// Rounding of forces times slopes, relative to the mean slope.
+/// Rounding of sums of forces times slopes, relative to the mean slope, and of sliding distances. Chosen: 4500 units in the last
+/// place.
 const FRICTION_ROUNDING: f64 = 1e-12;
 /// Largest ratio of the changes over two successive contact lengths that counts as exponential decay; slower changes
-/// are rounding.
+/// are rounding. Chosen: it bounds the remaining change by 99 times the last one.
 const MAX_CHANGE_RATIO: f64 = 0.99;
 /// Error of the ends of the contact in steps: an end lies within a step of the outermost element, which is loaded
 /// within one more.
@@ -209,8 +210,11 @@ pub fn slide_memory(
 
 /// A line, its load and the foundation under it.
 struct SlidingProblem<'a> {
+    /// Rigid line that slides.
     line: &'a dyn RigidLine,
+    /// Law of an element, with lengths that are times in \[s].
     foundation: Foundation,
+    /// Normal force, velocity and sliding distance.
     load: &'a SlidingLoad,
     /// Normal force F_N, \[N].
     normal_force: f64,
@@ -228,10 +232,13 @@ struct Schedule {
 
 /// The steps on one resolution.
 struct SlidingRecord {
+    /// All steps from first touch on.
     steps: Vec<SlidingStep>,
+    /// Positions of the elements around the last contact \[m] from the rear to the front, and the load per length there \[N/m].
     load: Vec<[f64; 2]>,
-    /// Difference between the normal force and its mean over the last step, relative to it.
+    /// Difference between the normal force and its mean over the last step, relative to the normal force.
     force_error: f64,
+    /// Elements under the line, with their spacing.
     elements: ElementHeights,
 }
 
@@ -376,7 +383,7 @@ impl<'a> SlidingProblem<'a> {
         }))
     }
 
-    /// Friction coefficient, depth, rear and front end of the contact at the end.
+    /// Friction coefficient, depth \[m], rear and front end of the contact \[m] at the end of the march, in this order.
     ///
     /// The friction of a step belongs to its middle; before the stationary state the end is half a step further.
     fn end_values(&self, steps: &[SlidingStep]) -> [f64; 4] {
@@ -478,13 +485,14 @@ impl<'a> SlidingProblem<'a> {
 }
 
 impl SlidingStep {
-    /// Estimate of the mean slope in the contact.
+    /// Estimate of the mean slope of the line in the contact: depth over contact length.
     fn steepness(&self, spacing: f64) -> f64 {
         self.indentation_depth / (self.n_contact as f64 * spacing)
     }
 }
 
-/// Scatter of a value from step to step, by elements that come into contact or separate at its ends.
+/// Scatter of a value from step to step, by elements that come into contact or separate at the ends of the contact: the largest
+/// second difference over the last [`N_SCATTER_STEPS`] steps, in the unit of the value.
 fn scatter(steps: &[SlidingStep], value: fn(&SlidingStep) -> f64) -> f64 {
     let last = &steps[steps.len().saturating_sub(N_SCATTER_STEPS)..];
     let jump = |steps: &[SlidingStep]| value(&steps[0]) - 2.0 * value(&steps[1]) + value(&steps[2]);

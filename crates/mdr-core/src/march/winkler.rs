@@ -29,7 +29,7 @@ const FOUNDATION_MARGIN: f64 = 2.0;
 /// Gap, relative to the depth, up to which an element with a dashpot counts as in contact when the foundation is
 /// reloaded: the rounding of positions and heights. Chosen.
 const DASHPOT_CONTACT_TOLERANCE: f64 = 1e-9;
-/// Motion in a step, relative to the spacing, up to which the line counts as at rest: rounding of positions.
+/// Motion in a step, relative to the spacing, up to which the line counts as at rest: rounding of positions. Chosen.
 const REST_DISPLACEMENT: f64 = 1e-7;
 /// Height up to which elements are in the window of a step, relative to the depth before it. A deeper step enlarges
 /// the window and is repeated. Measured by `evidence tuning`.
@@ -83,14 +83,14 @@ pub(super) struct WinklerFoundation<'a> {
     contact_history: ContactHistory,
 }
 
-/// Sums over the elements in a step, in the units of the foundation.
+/// Sums over the elements in a step, over the unit of stress of the foundation.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct StepSums {
-    /// Mean of Σ w over the step.
+    /// Mean of Σ w over the step, \[m].
     pub(super) normal_load: f64,
-    /// Mean of Σ w h̃' over the step.
+    /// Mean of Σ w h̃' over the step, \[m].
     pub(super) tangential_load: f64,
-    /// Energy that the dashpots dissipate, also after the separation of an element.
+    /// Energy that the dashpots dissipate, with that stored in elements that separate, \[m²].
     pub(super) dissipated: f64,
     /// The rearmost and the foremost loaded element at the end.
     ends: Option<[usize; 2]>,
@@ -147,7 +147,8 @@ impl<'a> WinklerFoundation<'a> {
         })
     }
 
-    /// Moves the line to a position within `duration`; `None` if the depth needs more elements than the foundation has.
+    /// Moves the line to a `position` \[m] along the surface within a `duration` \[s], and its elements with it; `None` if the depth
+    /// exceeds the heights of the sampled elements.
     pub(super) fn advance(
         &mut self,
         duration: f64,
@@ -290,7 +291,7 @@ impl<'a> WinklerFoundation<'a> {
         }
     }
 
-    /// Depth at the end of the step, \[m].
+    /// Depth at the end of the step \[m], given or from the balance of forces over the window.
     fn solve_depth(&self, prescribed: Prescribed) -> f64 {
         let balance = ForceBalance {
             heights: &self.heights,
@@ -333,7 +334,8 @@ impl<'a> WinklerFoundation<'a> {
         }
     }
 
-    /// Mean slope of the line over an element while the line moves to a position.
+    /// Mean slope h̃' of the line over an element while the line moves to a position, with the `heights` over the element at the
+    /// beginning and the end of the step, \[m]; at rest, the mean slope over the width of the element.
     fn slope(&self, element: usize, heights: [f64; 2], position: f64) -> f64 {
         let moved = position - self.body.position;
         let spacing = self.sampled.spacing;

@@ -10,7 +10,8 @@ use crate::MdrError;
 use crate::branches::{Foundation, FreeSurface, SegmentSolution};
 use crate::line::{Piece, Profile, Segment};
 
-/// Positions in a segment at which the signs of load and gap are checked.
+/// Positions in a segment at which the signs of load and gap are checked. Chosen: a contact or gap between two of them may be
+/// overlooked.
 const N_SEGMENT_SAMPLES: usize = 12;
 /// Penetration, in depths, up to which a gap counts as open: rounding.
 const GAP_ROUNDING: f64 = 16.0 * f64::EPSILON;
@@ -20,7 +21,7 @@ const ELASTIC_END_DISPLACEMENT: f64 = 1e-6;
 /// Smallest width of a boundary layer, and of a part of a drawn load, in units of t, that is sampled.
 const MIN_LAYER_WIDTH: f64 = 1e-9;
 /// Deviation of the load from its chord, relative to the load, up to which the list of loads is straight between two
-/// positions.
+/// positions. Chosen: it concerns the returned list of loads only.
 const CHORD_TOLERANCE: f64 = 1e-3;
 /// Compression, in depths, by which a contact may begin late through rounding of positions; more is a jump.
 const MAX_MISSED_COMPRESSION: f64 = 1e-12;
@@ -28,7 +29,7 @@ const MAX_MISSED_COMPRESSION: f64 = 1e-12;
 /// so close to the end begins there: the dissipation of a dashpot in so short a part is the square of rounding over
 /// its length.
 const MIN_CONTACT_PART: f64 = 1e-13;
-/// Contact intervals of one line at most.
+/// Contact intervals of one line at most. Chosen: a limit of the time.
 const MAX_CONTACTS: usize = 1 << 12;
 
 /// Sums over one pass.
@@ -36,7 +37,8 @@ const MAX_CONTACTS: usize = 1 << 12;
 pub(super) struct SweepSums {
     /// Load ∫ w dx, a quarter of the normal force over depth and unit of stress, \[m].
     pub(super) load: f64,
-    /// Work ∫ w h̃' dx, a quarter of the friction force over the square of the depth and the unit of stress.
+    /// Work ∫ w h̃' dx, a quarter of the friction force over the square of the depth and the unit of stress, summed as dissipated
+    /// energy.
     pub(super) work: f64,
     /// Error of `load` by the polynomials of the line, \[m].
     pub(super) load_error: f64,
@@ -230,7 +232,8 @@ impl SurfaceMarch<'_> {
         self.sums.work_error += compression.abs() * sensitivity.work;
     }
 
-    /// Releases the surface at t in the segment; `start` are the stresses at the beginning of the segment.
+    /// Releases the surface at t in the segment; `start` are the stresses at the beginning of the segment, `tail` is the error of
+    /// its polynomial in depths.
     fn release_at(&mut self, start: &[f64], segment: &Segment, t: f64, tail: f64) {
         let mut stresses = start.to_vec();
         if 1.0 + t > MIN_CONTACT_PART {
@@ -244,7 +247,7 @@ impl SurfaceMarch<'_> {
         self.surface = Surface::Free(self.foundation.release(displacement, &stresses));
     }
 
-    /// Adds the solution under a segment to the sums.
+    /// Adds the solution under a segment to the sums; `tail` is the error of the polynomial of the segment, in depths.
     fn add_solution(&mut self, solution: &SegmentSolution, segment: &Segment, tail: f64) {
         self.sums.load += solution.load;
         self.sums.work += solution.dissipation;
@@ -322,7 +325,8 @@ fn straight_parts(value: impl Fn(f64) -> f64) -> impl Iterator<Item = [f64; 2]> 
     points.into_iter()
 }
 
-/// Position t from which on the load would be tensile; `None` if it stays compressive.
+/// Position t from which on the load would be tensile; `None` if it stays compressive. `may_jump` is true if a lone dashpot can
+/// make the load jump at the beginning of the segment.
 fn first_tension(solution: &SegmentSolution, may_jump: bool) -> Option<f64> {
     // With a lone dashpot the load jumps where the slope does.
     if may_jump && solution.potential(-1.0) < 0.0 {

@@ -16,9 +16,9 @@ use crate::MdrError;
 use crate::branches::{Foundation, FreeSurface};
 use crate::line::{Profile, Range};
 
-/// Passes of the track after which the search for the periodic state is given up.
+/// Passes of the track after which the search for the periodic state is given up. Chosen: a limit of the time.
 const MAX_PASSES: usize = 300;
-/// Remaining distance to the periodic state, in depths, at which the search ends.
+/// Remaining distance to the periodic state, in depths, at which the search ends. Chosen: it is part of the error.
 const PERIODICITY_TOLERANCE: f64 = 1e-11;
 /// Rounding of one pass, in depths. Multiplied by the number of passes that a mode needs to recover, it bounds the
 /// tolerance from below.
@@ -33,7 +33,8 @@ pub(super) fn check_length(track: f64, range: &Range) -> Result<(), MdrError> {
     Err(MdrError::TrackTooShort { track, needed })
 }
 
-/// The pass whose surface ahead is that behind the pass before.
+/// Sums over the pass whose surface ahead is that behind the pass before, on a `track` of a length \[m]. [`MdrError::NotPeriodic`]
+/// if it is not found.
 pub(super) fn sweep_until_periodic(
     foundation: &Foundation,
     profile: &Profile,
@@ -42,6 +43,7 @@ pub(super) fn sweep_until_periodic(
 ) -> Result<SweepSums, MdrError> {
     // Depths that are too large for the track only occur during the search for a depth, which needs a monotone force.
     let free = (track - profile.length).max(0.0);
+    // Passes that the slowest mode needs to recover: the distance to the periodic state is as many changes of one pass.
     let slowness = -(-track / foundation.longest_recovery()).exp_m1().recip();
     let tolerance = PERIODICITY_TOLERANCE.max(PERIODICITY_ROUNDING * slowness);
     let mut remaining_change = 0.0;

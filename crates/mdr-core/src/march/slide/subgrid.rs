@@ -5,7 +5,8 @@
 //! H' = 4 [w' Δx/2 |h̃'| + (η₀ v + Σ_k G_k l_k) (∫ h̃'² dx − r²/Δx) + Σ_k ½ G_k min(1, Δx/(v τ_k)) Σ_j (r_j − r_(j−1))²]
 //! δd = d F'/F_N,   δμ = H'/F_N + 2 μ F'/F_N
 //! ```
-//! F' and H' bound the missing normal and tangential force; r_j is the rise of the line over element j up to the depth.
+//! F' and H' bound the normal and tangential force that one resolution misses; G_k, τ_k are the branches of the material, over
+//! 2 (1 − ν), and η₀ is its lone dashpot; r_j is the rise of the line over element j up to the depth, r that of a single element.
 //!
 //! - The contact may continue behind its rearmost element, where the slope h̃' is not the mean slope of the element behind.
 //!   The load that this difference δh̃' gives is w' = (η₀ v + Σ_k G_k l_k) |δh̃'|, at most that of the rearmost element. The
@@ -20,9 +21,10 @@ use rheology::Material;
 
 use crate::line::{ElementHeights, has_steep_kinks};
 
-/// Number of chords that approximate the profile inside the element that holds the lowest point.
+/// Number of chords that approximate the profile on either side of the lowest point over one element: the innermost ends at 1e-8
+/// of the element.
 const N_TIP_CHORDS: usize = 64;
-/// Distance from the lowest point to the inner end of a chord, relative to that to its outer end.
+/// Distance from the lowest point to the inner end of a chord, relative to that to its outer end. Chosen.
 const TIP_CHORD_RATIO: f64 = 0.75;
 /// Factor on the sum over the chords of a tip; of a power x⁴ they leave out a tenth.
 const TIP_EXCESS_FACTOR: f64 = 1.25;
@@ -39,7 +41,9 @@ struct StepScaleModuli {
 
 /// The contact at the end of sliding.
 pub(super) struct LastContact<'a> {
+    /// Rigid line that slides.
     pub(super) line: &'a dyn RigidLine,
+    /// Elements under the line, with their spacing.
     pub(super) elements: &'a ElementHeights,
     /// Positions \[m] and loads per length \[N/m].
     pub(super) load: &'a [[f64; 2]],
@@ -49,10 +53,12 @@ pub(super) struct LastContact<'a> {
     pub(super) velocity: f64,
 }
 
-/// Contributions to tangential and normal force, \[N].
+/// Bounds of the forces that one resolution misses.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct SubgridForces {
+    /// Tangential force H', \[N].
     pub(super) tangential: f64,
+    /// Normal force F', \[N].
     pub(super) normal: f64,
 }
 
@@ -75,7 +81,7 @@ impl StepScaleModuli {
 }
 
 impl LastContact<'_> {
-    /// H' and F'.
+    /// Bounds H' and F' of the forces that this resolution misses, on a material with relaxation branches.
     pub(super) fn subgrid_forces(&self, material: &dyn Material) -> SubgridForces {
         let spacing = self.elements.spacing;
         let moduli = StepScaleModuli::new(material, self.velocity, spacing);
@@ -94,7 +100,9 @@ impl LastContact<'_> {
         forces
     }
 
-    /// Contribution of the contact behind the rearmost element; none at the rear end of the line.
+    /// Contribution of the contact behind the rearmost loaded element; 0 at the rear end of the line.
+    ///
+    /// `loads` are the loads per length \[N/m] of all elements, 0 of free ones.
     fn behind_rearmost(&self, moduli: &StepScaleModuli, loads: &[f64]) -> SubgridForces {
         let Some(rear) = loads
             .iter()
@@ -123,7 +131,7 @@ impl LastContact<'_> {
 
     /// ∫ h̃'² dx beyond that of the mean slopes, in the loaded elements next to the lowest point, \[m].
     ///
-    /// It is summed over chords that become shorter towards that point.
+    /// It is summed over chords that become shorter towards that point. `loads` are those per length of all elements.
     fn tip_excess(&self, loads: &[f64]) -> f64 {
         let ElementHeights {
             anchor_index,
