@@ -66,7 +66,7 @@ impl fmt::Display for Estimate {
     }
 }
 
-/// Smallest relative error that is written: what is smaller comes from rounding, and is written as this.
+/// Smallest relative error that is written; a smaller one comes from rounding, and is written as this one. Chosen.
 const MIN_RELATIVE_ERROR: f64 = 1e-9;
 /// Largest number of characters of an exact number that is not rounded: those of 0.1234567.
 const MAX_EXACT_LENGTH: usize = 9;

@@ -13,7 +13,8 @@
 /// Number of evaluations before the first combination: two for a difference, and one that checks it. From 2 to 5 no
 /// answer changes by more than 0.2 % of its bar.
 const PLAIN_EVALUATIONS: usize = 3;
-/// Largest number of evaluations that are combined: a limit of the memory, which holds four states for each.
+/// Largest number of evaluations that are combined: a limit of the memory, which holds four states for each (point, value,
+/// residual, difference of residuals).
 const MAX_COMBINED: usize = 8;
 /// Smallest squared norm of a residual difference after orthogonalisation, relative to before. A smaller one is
 /// rounding: the difference depends linearly on the others and is left out. From 1e-20 to 1e-8 no digit of an answer
@@ -120,7 +121,7 @@ impl Evaluation {
     }
 }
 
-/// Replaces the last value, which is the state, by the combination with the smallest residual.
+/// Replaces the last value g_n, which is the state, by the combination g_n − Σ γ_k (g_n − g_k) with the smallest residual.
 fn combine(evaluated: &[Evaluation], state: &mut [f64]) {
     // The residuals f_k, and their differences f_n − f_k to the last one.
     let residuals: Vec<Vec<f64>> = evaluated
@@ -151,6 +152,7 @@ fn minus(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a - b).collect()
 }
 
+/// Inner product of two vectors of equal length.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
@@ -162,7 +164,8 @@ fn subtract(a: &mut [f64], factor: f64, b: &[f64]) {
     }
 }
 
-/// The weights γ_k that minimise |b − Σ γ_k a_k|, by modified Gram–Schmidt orthogonalisation.
+/// The weights γ_k that minimise |b − Σ γ_k a_k| for the `vectors` a_k and the `target` b, by modified Gram–Schmidt
+/// orthogonalisation.
 ///
 /// A vector that depends linearly on later ones has the weight 0.
 fn least_squares_weights(vectors: &[Vec<f64>], target: &[f64]) -> Vec<f64> {

@@ -6,7 +6,7 @@ const MAX_SERIES_ANGLE: f64 = 1e-2;
 /// Power spectrum |∫ f e^(ikx) dx|² of a piecewise linear function f at the wave number k.
 ///
 /// The function is linear between `points` [x, f], whose positions do not decrease, and 0 outside of them. Two points at one
-/// position are a jump.
+/// position are a jump. The unit is the square of that of x f; the wave number has the unit of 1/x.
 ///
 /// ```text
 /// ∫ f e^(ikx) dx over [m − l, m + l] = l e^(ikm) [(f₁ + f₀) sin θ/θ + i (f₁ − f₀) (sin θ/θ − cos θ)/θ],        θ = k l

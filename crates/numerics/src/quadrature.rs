@@ -77,7 +77,7 @@ struct NodeSums {
     modulus: f64,
 }
 
-/// Weighted sums of the integrand and its modulus over the nodes t = ±(first + k step), k = 0, 1, ….
+/// Weighted sums of the integrand and its modulus over the nodes t = ±(`first` + k `step`), k = 0, 1, …, up to [`LAST_NODE`].
 fn node_sums(
     integrand: &impl Fn(f64, f64) -> f64,
     interval: [f64; 2],

@@ -47,7 +47,7 @@ pub struct Minimum {
     pub model: QuadraticModel,
 }
 
-/// Largest number of steps that lower the sum: a limit of the time.
+/// Largest number of steps that lower the sum. Chosen: a limit of the time.
 const MAX_STEPS: usize = 100;
 /// Damping λ of the first step, relative to the diagonal: the customary 1e-3. It changes the path to the minimum, not
 /// the minimum.
@@ -60,10 +60,11 @@ const DAMPING_INCREASE: f64 = 4.0;
 /// Damping at which the search gives up lowering the sum: a step is then 1e-9 of that without damping along each
 /// parameter. A limit of the time.
 const MAX_DAMPING: f64 = 1e9;
-/// Damping of a step by the model alone, relative to the diagonal, which keeps a singular matrix positive definite:
+/// Damping of a step by the model alone, relative to the diagonal, which keeps a singular matrix positive definite. Chosen:
 /// above rounding, and far below what changes a step.
 const MODEL_STEP_DAMPING: f64 = 1e-9;
-/// Fraction of the sufficient decrease below which a step counts as no decrease, so that the search ends. Chosen.
+/// Fraction of the sufficient decrease below which a step counts as no decrease, so that the search ends. Chosen: a larger one
+/// ends searches earlier.
 const STAGNATION_FRACTION: f64 = 0.1;
 /// Fraction of the largest step above which a step counts as limited by it; below 1 because of rounding.
 const LIMITED_STEP_FRACTION: f64 = 0.999;
@@ -131,7 +132,8 @@ impl StoppingRule {
     }
 }
 
-/// The loop of Levenberg and Marquardt; `None` if there is no finite sum at the start.
+/// The loop of Levenberg and Marquardt from a start, whose parameters stay within their `ranges`; `None` if there is no finite sum
+/// at the start.
 fn descend(
     mut evaluate: impl FnMut(&[f64]) -> Option<QuadraticModel>,
     start: Vec<f64>,
@@ -205,7 +207,7 @@ fn descend(
 }
 
 impl QuadraticModel {
-    /// Decrease of the sum between two points by the model.
+    /// Decrease 2 descent·s − s·matrix·s of the sum between two points by the model, with the step s from one `to` the other.
     fn predicted_decrease(&self, from: &[f64], to: &[f64]) -> f64 {
         let step: Vec<f64> = to.iter().zip(from).map(|(to, from)| to - from).collect();
         let rows = self.matrix.chunks(step.len()).zip(&self.descent);

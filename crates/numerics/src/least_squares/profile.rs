@@ -126,7 +126,8 @@ impl Trial {
     }
 }
 
-/// Relative root √(rise of the minimal sum/required rise) with the parameter held at a distance from the minimum.
+/// Relative root √(rise of the minimal sum/required rise) with the parameter held at the distance `step` from the minimum; the
+/// others start along the `tangent`. The minimisation ends early at a sum below `target`.
 ///
 /// Infinite where there is no finite sum, or where the required rise is 0: the end is before.
 fn root_rise(
@@ -161,7 +162,8 @@ fn root_rise(
     }
 }
 
-/// Derivatives of the other parameters with respect to one, along the minimal sum of the model at the minimum.
+/// Derivatives of all parameters with respect to one, 1 for itself, along the minimal sum of the model at the minimum: its column
+/// of the inverse normal matrix over the diagonal entry.
 fn tangent(best: &Minimum, parameter: usize) -> Vec<f64> {
     let n = best.parameters.len();
     match inverse(&best.model.matrix, n) {
