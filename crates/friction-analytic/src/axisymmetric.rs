@@ -59,7 +59,7 @@ pub(crate) fn no_stationary_state(error: IndenterError) -> FrictionError {
     }
 }
 
-/// Refuses a contact from `rear` to `front` over which ∫ h̃'² dx is infinite.
+/// Refuses a contact from `rear` to `front` \[m] at a `depth` \[m] over which ∫ h̃'² dx is infinite.
 pub(crate) fn refuse_divergence(
     body: &dyn Axisymmetric,
     rear: f64,

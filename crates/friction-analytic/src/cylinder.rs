@@ -31,11 +31,12 @@ use rheology::{Material, check_spectra};
 use crate::FrictionError;
 use crate::error::representable;
 
-/// Intervals of a trapezoidal rule of length 0; with both numbers of intervals, Bessel functions have all digits.
+/// Intervals of a trapezoidal rule besides those by its length. Chosen: with both numbers of intervals, the Bessel functions have
+/// all digits, because the rule converges exponentially.
 const MIN_INTERVALS: f64 = 64.0;
-/// Additional intervals of a trapezoidal rule per unit of its length.
+/// Additional intervals of a trapezoidal rule per unit of its length. Chosen with [`MIN_INTERVALS`].
 const INTERVALS_PER_UNIT_LENGTH: f64 = 8.0;
-/// Requested relative accuracy of a pressure, a few hundred units in the last place.
+/// Requested relative accuracy of a pressure. Chosen: a few hundred units in the last place.
 const PRESSURE_ACCURACY: f64 = 1e-13;
 
 /// Length and speed of a sliding line contact.
@@ -151,7 +152,8 @@ impl CylinderSliding {
     }
 }
 
-/// Ratios I₁/I₀ and I₂/I₀ of Bessel functions of z > 0, from ∫₀^π e^(z cos θ) sin^(2n) θ dθ (NIST DLMF 10.32.2).
+/// Ratios I₁/I₀ and I₂/I₀ of modified Bessel functions of z > 0, in this order, from ∫₀^π e^(z cos θ) sin^(2n) θ dθ (NIST DLMF
+/// 10.32.2); 1 at infinity.
 fn bessel_i_ratios(z: f64) -> [f64; 2] {
     if z.is_infinite() {
         return [1.0; 2];
@@ -167,7 +169,7 @@ fn bessel_i_ratios(z: f64) -> [f64; 2] {
     ]
 }
 
-/// Ratio K₀/K₁ of Bessel functions of k > 0, from ∫₀^∞ e^(−k cosh t) cosh νt dt (NIST DLMF 10.32.9).
+/// Ratio K₀/K₁ of modified Bessel functions of k > 0, from ∫₀^∞ e^(−k cosh t) cosh νt dt (NIST DLMF 10.32.9); 1 at infinity.
 fn bessel_k_ratio(k: f64) -> f64 {
     if k.is_infinite() {
         return 1.0;

@@ -105,7 +105,8 @@ pub fn high_speed_friction(
     checked_limit(force, friction, friction)
 }
 
-/// Normal force and coefficients of friction on line and half space, if they are positive and finite.
+/// The limit with a normal force \[N] and coefficients of friction on line and half space, or [`FrictionError::OutOfRange`] if
+/// one is not positive and finite.
 fn checked_limit(
     normal_force: f64,
     line: f64,

@@ -31,16 +31,18 @@ pub fn line_sliding(
     let contact = contact_line(line, depth).map_err(no_stationary_state)?;
     let energy = slope_energy(line, &contact.intervals)?;
     let intervals = contact.intervals;
-    let ends = intervals.iter().map(|[_, end]| end_term(line, *end)).sum();
+    let fronts = intervals.iter().map(|[_, front]| *front);
+    let ends = fronts.map(|front| end_sensitivity(line, front)).sum();
     Ok(StationarySliding::from_energy(
         depth, intervals, energy, ends,
     ))
 }
 
-/// Change of ∫ h̃'² dx per relative change of the position and of the height of a contact end, which are both rounded, \[m].
-fn end_term(line: &dyn RigidLine, end: f64) -> f64 {
-    let slope = line.slope(end).abs();
-    slope * (slope * end.abs() + line.height(end).abs())
+/// Change of ∫ h̃'² dx per relative change of the position and of the height of the `front` of a contact interval, which are both
+/// rounded, \[m].
+fn end_sensitivity(line: &dyn RigidLine, front: f64) -> f64 {
+    let slope = line.slope(front).abs();
+    slope * (slope * front.abs() + line.height(front).abs())
 }
 
 /// Integral of the squared slope, ∫ h̃'² dx, over the contact intervals, (11), \[m], with separate integrals between the kinks of the line.

@@ -224,20 +224,20 @@ pub fn persson_of_spectrum(
     }
 }
 
-/// Number of terms of an energy factor, and of the friction.
+/// Number of terms of an energy factor, S = 1, P² and P⁴, and of the friction.
 const N_TERMS: usize = 3;
 /// Number of results: the area fraction, the variance of the pressure, and the terms of the friction.
 const N_RESULTS: usize = N_TERMS + 2;
 /// Relative difference up to which the lengths of two wave vectors count as equal: some thousand units in the last
 /// place, for the rounding of their components.
 const EQUAL_LENGTHS: f64 = 1e-12;
-/// Steps of Simpson's rule on each of the two ranges below and above the roll-off, on the coarsest grid; they are
+/// Steps of Simpson's rule on each of the two ranges below and above the roll-off, on the coarsest grid. Chosen: they are
 /// doubled until the requested error is reached.
 const MIN_STEPS: usize = 16;
 /// Steps of Simpson's rule on each of the two ranges from which on they are not doubled: a limit of the time.
 const MAX_STEPS: usize = 1 << 14;
-/// Requested relative error of the integrals over the angle, a few hundred units in the last place. The error that is
-/// reached is part of the bar.
+/// Requested relative error of the integrals over the angle. Chosen: a few hundred units in the last place. The error that is
+/// reached is part of the error bar.
 const ANGULAR_TOLERANCE: f64 = 1e-13;
 
 impl SelfAffineSpectrum {
@@ -256,7 +256,8 @@ impl SelfAffineSpectrum {
         Ok(())
     }
 
-    /// Squared slope of the waves per logarithm of the wave number over 2π, q⁴ C(q), normalised by 2π ∫ q³ C dq = ⟨|∇h|²⟩.
+    /// Squared slope of the waves per logarithm of the wave number over 2π, q⁴ C(q), at the wave number q \[1/m], normalised by
+    /// 2π ∫ q³ C dq = ⟨|∇h|²⟩.
     fn squared_slope_density(&self, q: f64) -> f64 {
         let waves = [self.longest_wavelength, self.shortest_wavelength];
         let [ratio_long, ratio_short] = waves.map(|wave| self.roll_off_wavelength / wave);
@@ -292,7 +293,8 @@ impl LoadedMaterial {
         })
     }
 
-    /// Responses |E*/σ₀|²/8 and |cos φ| Im E*/(2 σ₀) of a wave at an angle φ to the motion; NaN if the frequency overflows.
+    /// Responses |E*/σ₀|²/8 and |cos φ| Im E*/(2 σ₀) of a wave of the wave number q \[1/m] at an angle φ to the motion, with its
+    /// `cosine`; NaN if the frequency overflows.
     fn response(&self, cosine: f64, q: f64) -> [f64; 2] {
         let modulus = self.relaxation.complex_modulus(q * cosine * self.velocity);
         modulus.map_or([f64::NAN; 2], |modulus| {
@@ -302,7 +304,7 @@ impl LoadedMaterial {
         })
     }
 
-    /// The integrals of both responses over all angles; `max_error` is raised to their relative error.
+    /// Integrals of both responses at the wave number q \[1/m] over all angles; `max_error` is raised to their relative error.
     fn angular_integrals(&self, q: f64, max_error: &mut f64) -> [f64; 2] {
         [0, 1].map(|index| {
             let integrand = |end: f64, distance: f64| {
@@ -391,12 +393,13 @@ impl SpectralIntegrals {
     }
 }
 
-/// Persson's area fraction for a variance of the pressure over the square of the mean pressure.
+/// Persson's area fraction erf(1/√(2V)) for a variance V of the pressure over the square of the mean pressure.
 fn area_fraction(variance: f64) -> f64 {
     libm::erf((0.5 / variance).sqrt())
 }
 
-/// The results with their absolute errors, if they are numbers.
+/// The results with their absolute errors, in the order of [`SpectralIntegrals::results`]; [`FrictionError::OutOfRange`] if they are
+/// no numbers.
 fn sliding_with_errors(
     results: [f64; N_RESULTS],
     errors: [f64; N_RESULTS],

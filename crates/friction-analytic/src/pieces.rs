@@ -12,7 +12,8 @@ const REQUESTED_ACCURACY: f64 = 1e-12;
 /// known less accurately (docs/conventions.md, "Errors and tolerances").
 const ACCEPTED_ACCURACY: f64 = 1e2 * REQUESTED_ACCURACY;
 
-/// The integral over the pieces between successive `ends`.
+/// Integral over the pieces between successive `ends`, each of which may have a singular end; its error is the sum of theirs, each
+/// requested to [`REQUESTED_ACCURACY`].
 pub(crate) fn integrate_pieces(integrand: impl Fn(f64) -> f64, ends: &[f64]) -> Estimate {
     let piece = |ends: &[f64]| integrate(&integrand, [ends[0], ends[1]], REQUESTED_ACCURACY);
     ends.windows(2).map(piece).sum()

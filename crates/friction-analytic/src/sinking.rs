@@ -77,7 +77,7 @@ struct ContactSums {
 }
 
 impl ContactSums {
-    /// The sums over intervals that must be in order and not empty.
+    /// The sums over intervals \[m] that must be in order and not empty.
     fn new(line: &dyn RigidLine, contact: &[[f64; 2]]) -> Result<Self, FrictionError> {
         // Check that the intervals follow one another and are not empty.
         let mut lower = f64::NEG_INFINITY;

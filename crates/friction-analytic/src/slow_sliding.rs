@@ -72,7 +72,7 @@ const AREA_BOUND: f64 = 2.5;
 const REAR_BOUND: f64 = 2.0;
 /// Bound on the relative change of the depth, over Λ v² h̃'(a)/(a d). Boundary elements find up to 0.13.
 const DEPTH_BOUND: f64 = 0.25;
-/// Upper bound of the relative error of the integrals of the first term.
+/// Upper bound of the relative error of the integrals of the first term: those with a larger error are refused.
 const QUADRATURE_ERROR: f64 = 1e-10;
 /// Distance from the apex, over a, beyond which changes of the slope are in the other terms. Chosen; the bounds of
 /// the terms were measured with it.

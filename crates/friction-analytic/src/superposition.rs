@@ -26,7 +26,7 @@ pub fn superposition_sliding(
     let radius = radius_with_friction(profile, depth)?;
     // Heights of the terms at the front of the contact.
     let heights = line_heights(profile.terms(), radius)?;
-    // The double sum, and that of the moduli of its terms, which scales the rounding error.
+    // The double sum, and that of the absolute values of its terms, which scales the rounding error.
     let mut sum = 0.0;
     let mut modulus = 0.0;
     for (p, height) in &heights {

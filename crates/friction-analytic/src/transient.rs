@@ -155,7 +155,7 @@ impl TransientScales {
         }
     }
 
-    /// State of a paraboloid at a sliding distance over x_d.
+    /// State of a paraboloid after a sliding distance, in stationary contact lengths x_d.
     fn paraboloid_at(&self, distance: f64) -> TransientSliding {
         // k = D/x_d², so that √(k D) = k x_d = D/x_d.
         let slope = self.depth / self.length;
@@ -202,7 +202,8 @@ fn distance_since_lift_off(y: f64) -> f64 {
 /// Newton steps for y: the start is within e^z < ½ of the root, and 6 steps of quadratic convergence reach rounding.
 const NEWTON_STEPS: usize = 8;
 
-/// Relative distance y from the stationary state, y ≤ ½ with y e^(−y) = ½ e^(−1/2 − T), T ≥ 0, the lower branch of −W₀(−½ e^(−1/2 − T)).
+/// Relative distance y from the stationary state at the distance T ≥ 0 since lift-off, over x_d: y = −W₀(−½ e^(−1/2 − T)) ≤ ½ with
+/// Lambert's function, or y e^(−y) = ½ e^(−1/2 − T).
 ///
 /// Newton's method for z = ln y in e^z − z = c, c = ½ + ln 2 + T: the function is convex and falls where y < 1, so from
 /// z = −c, which is left of the root, the steps approach it from one side, and neither late nor early times lose digits.

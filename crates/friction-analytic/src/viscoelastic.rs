@@ -120,7 +120,8 @@ struct RelativeSliding {
     friction: f64,
 }
 
-/// The cone for Y = x_r/l: `∫ w dx = −G s l² ln(1 − q²)`, `∫ w h̃' dx = 2 G s² l² (artanh q − q)`.
+/// The cone on a Maxwell foundation for the `ratio` Y = x_r/l, with q = 1 − e^(−Y): `∫ w dx = −G s l² ln(1 − q²)`,
+/// `∫ w h̃' dx = 2 G s² l² (artanh q − q)`.
 fn maxwell_cone(ratio: f64) -> RelativeSliding {
     let q = -(-ratio).exp_m1();
     // −ln(1 − q²) = Y − ln(1 + q).
@@ -144,7 +145,7 @@ fn maxwell_cone(ratio: f64) -> RelativeSliding {
     }
 }
 
-/// The paraboloid for Y = x_r/l, with the functions φ_k of [`Phi`].
+/// The paraboloid on a Maxwell foundation for the `ratio` Y = x_r/l, with the functions φ_k of [`Phi`].
 fn maxwell_paraboloid(ratio: f64) -> Result<RelativeSliding, FrictionError> {
     // Solve Y = z φ₂/φ₁, where x_r < x_r − x_l < 2 x_r.
     let ratio_excess = |z: f64| {

@@ -13,7 +13,7 @@ const INITIAL_NODES: usize = 9;
 const NODE_GROWTH: usize = 3;
 /// Largest number of nodes: a limit of the time, beyond which the caller judges the tail.
 const MAX_NODES: usize = 243;
-/// Number of last coefficients whose largest modulus estimates the truncation error: two may vanish by the symmetry
+/// Number of last coefficients whose largest absolute value estimates the truncation error: two may vanish by the symmetry
 /// of a function, three do not. Chosen.
 const TAIL_TERMS: usize = 3;
 /// Coefficients below this fraction of the tolerance are dropped; a hundred of them are within it.
@@ -24,7 +24,7 @@ const DROPPED_FRACTION: f64 = 0.01;
 pub(super) struct ChebyshevPair {
     /// Coefficients c_k of both functions.
     coefficients: Vec<[f64; 2]>,
-    /// Largest modulus of the last coefficients before any was dropped, which estimates the truncation error.
+    /// Largest absolute value of the last coefficients before any was dropped, which estimates the truncation error.
     pub(super) tail: f64,
 }
 
@@ -79,7 +79,7 @@ impl ChebyshevPair {
         self
     }
 
-    /// Values of both functions, by Clenshaw's recurrence.
+    /// Values of both functions at −1 ≤ x ≤ 1, by Clenshaw's recurrence.
     pub(super) fn evaluate(&self, x: f64) -> [f64; 2] {
         let [mut current, mut next] = [[0.0; 2]; 2];
         for terms in self.coefficients[1..].iter().rev() {

@@ -79,7 +79,7 @@ pub(super) struct WaveQuadrature {
 struct WavePair {
     /// Distance of both nodes from L/2, over L/2.
     t: f64,
-    /// Root of (2/π) (1 − M) times the weight, at both nodes.
+    /// Root √(w (2/π) (1 − M)) with the weight w of the rule, at both nodes.
     root_weights: [f64; 2],
 }
 
@@ -275,7 +275,7 @@ impl ContactDisc {
         self.equivalent_radius
     }
 
-    /// Solution φ of the flat punch at the edge.
+    /// Solution φ(a) of the flat punch at the edge of the contact.
     fn punch_at_edge(&self) -> f64 {
         self.punch[self.punch.len() - 1] / self.root_weight_at_edge
     }

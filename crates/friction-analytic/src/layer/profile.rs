@@ -23,7 +23,7 @@ use super::chebyshev::ChebyshevPair;
 use super::equation::{ContactDisc, EquivalentLine, WaveQuadrature};
 use crate::FrictionError;
 
-/// Largest modulus of the last coefficients, relative to the radius, at which a Chebyshev series is not refined
+/// Largest absolute value of the last coefficients, relative to the radius, at which a Chebyshev series is not refined
 /// further. Chosen at the accuracy of the equations (case of `evidence tuning`).
 const SERIES_TOLERANCE: f64 = 1e-8;
 /// Largest sum of the last coefficients of both series with which a profile is still accepted: 1e-6 of the radius
@@ -35,16 +35,15 @@ const MAX_TAIL: f64 = 1e-6 / ERROR_OVER_TAIL;
 const ERROR_OVER_TAIL: f64 = 20.0;
 /// Upper bound of the relative error of a radius by the small terms that the series skip; the error of the truncated tail is added to it.
 const LEFT_OUT_TERMS_ERROR: f64 = 2e-8;
-/// Upper bound of the contact radius on a layer over that on the half space at the same depth; the ratio is largest on a film.
+/// Upper bound of the contact radius on a layer over that on the half space at the same depth; the ratio is largest on a film. A
+/// larger one costs wave numbers that are not needed.
 const MAX_RADIUS_RATIO: f64 = 3.0;
-/// Factor on the radius per step of the search for a depth. It changes the number of evaluations only: the root is
-/// the same.
+/// Factor on the radius per step of the search for a depth. Chosen: it changes the number of evaluations only.
 const SEARCH_GROWTH: f64 = 1.25;
 /// Depth that the radius found is to reach, over the depth sought. Chosen close to 1: the cost of the equations grows
 /// like the cube of the radius.
 const DEPTH_MARGIN: f64 = 1.02;
-/// Largest parameter σ of a [`GradedMap`], with which it is linear in y to 2e-3, the relative size 1/(6 σ²) of the
-/// next term.
+/// Largest parameter σ of a [`GradedMap`]. With it, x ↦ y is linear to 2e-3, the relative size 1/(6 σ²) of the next term.
 const MAX_SIGMA: f64 = 10.0;
 /// Grading exponents of the maps that are tried one after the other. The first is a plain map; the second is needed
 /// for bodies of several powers, such as r + r^1.3. Chosen; the tail decides which is taken.
@@ -104,18 +103,18 @@ impl GradedMap {
         }
     }
 
-    /// Coordinate y from 0 to 1 for x from −1 to 1.
+    /// Coordinate y from 0 to 1 at a position x from −1 to 1.
     fn y(&self, x: f64) -> f64 {
         self.sigma * (0.5 * (1.0 + x) * self.asinh).sinh()
     }
 
-    /// The value of the interval at x.
+    /// The value of the interval at a position x from −1 to 1.
     fn value(&self, x: f64) -> f64 {
         let [start, end] = self.ends;
         start + (end - start) * self.y(x).powf(self.power)
     }
 
-    /// Coordinates y and x of a value in the interval.
+    /// Coordinates y and x, in this order, of a value in the interval.
     fn inverse(&self, value: f64) -> [f64; 2] {
         let [start, end] = self.ends;
         let y = ((value - start) / (end - start)).powf(self.power.recip());
@@ -354,7 +353,7 @@ impl<'a> LayerProblem<'a> {
         }
     }
 
-    /// The contact of a radius, \[m].
+    /// The contact of a radius \[m], from the equations of its disc.
     fn contact(&self, radius: f64) -> Result<ContactOnLayer, FrictionError> {
         let disc = ContactDisc::new(self.waves, radius / self.thickness)?;
         Ok(ContactOnLayer {
@@ -437,7 +436,7 @@ impl<'a> LayerProblem<'a> {
         })
     }
 
-    /// Expands the contacts between two radii, \[m].
+    /// Expands the contacts between two radii \[m] into series over a map with the exponent `grading`, twice that behind a kink.
     fn contact_series(
         &self,
         radii: [f64; 2],
@@ -460,7 +459,8 @@ impl<'a> LayerProblem<'a> {
         })
     }
 
-    /// Inverts the depth of a series of contacts, and expands both radii over the depth.
+    /// Inverts the depth of a series of contacts, and expands both radii over the depth from `start_depth` on, \[m], on a map with
+    /// the same exponent `grading`.
     fn invert_depth(
         &self,
         contacts: &ContactSeries,
@@ -513,7 +513,7 @@ impl<'a> LayerProblem<'a> {
     }
 }
 
-/// Refuses a body that would have to be lifted for its contact to grow.
+/// Refuses a body that would have to be lifted for its contact to grow; `depth` is that of a contact radius, both in \[m].
 fn check_increasing(
     contact_radii: &GradedMap,
     depth: impl Fn(f64) -> f64,
