@@ -36,9 +36,9 @@ pub enum RheologyError {
     /// A temperature at which the WLF law has no meaning.
     #[error("the temperature must be above {}, the pole of the WLF law, but is {}", MessageNumber(*pole), MessageNumber(*temperature))]
     BelowWlfPole {
-        /// The refused temperature.
+        /// The refused temperature, in the unit of the law.
         temperature: f64,
-        /// Temperature at which the shift factor becomes infinite.
+        /// Temperature T_r − C₂ at which the shift factor becomes infinite, in the same unit.
         pole: f64,
     },
     /// A temperature outside the measured range of a shift law.
@@ -61,9 +61,9 @@ pub enum RheologyError {
         MessageNumber(*nearest), MessageNumber(*temperature)
     )]
     NoShiftLaw {
-        /// Reference temperature asked for.
+        /// Reference temperature asked for, in the unit of the table of isotherms.
         temperature: f64,
-        /// Temperature of the nearest isotherm.
+        /// Temperature of the nearest isotherm, in the same unit.
         nearest: f64,
     },
     /// Too few measurements.

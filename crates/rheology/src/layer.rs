@@ -7,9 +7,9 @@
 //!
 //! With a constant Poisson ratio the ratio does not depend on time, whatever the relaxation spectrum.
 
-/// Argument s above which M is computed as 1 − [`layer_deficit`], without cancellation (chosen).
+/// Argument s above which M is computed as 1 − [`layer_deficit`] (chosen): the deficit is then below rounding.
 const DEFICIT_FORM_FROM: f64 = 24.0;
-/// Argument s above which the exponentials underflow.
+/// Largest argument s that is distinguished: e^(−2s) is 0 there, and s² no overflow.
 const MAX_ARGUMENT: f64 = 1e3;
 
 /// Ratio M(s) of the compliance of a layer on a rigid base to that of the half space, for s = |q|t ≥ 0 and −1 < ν ≤ 1/2.
@@ -38,17 +38,18 @@ pub fn layer_factor(s: f64, poisson_ratio: f64) -> f64 {
 pub fn layer_deficit(s: f64, poisson_ratio: f64) -> f64 {
     let s = s.min(MAX_ARGUMENT);
     let (kappa, decay) = (3.0 - 4.0 * poisson_ratio, (-2.0 * s).exp());
-    let rest = kappa * decay + 2.0 * s * (1.0 + s) + constant(poisson_ratio);
+    let rest = kappa * decay + 2.0 * s * (1.0 + s) + denominator_constant(poisson_ratio);
     2.0 * decay * rest / denominator(s, poisson_ratio)
 }
 
 /// Denominator of M, multiplied by 2 e^(−2s).
 fn denominator(s: f64, poisson_ratio: f64) -> f64 {
     let (kappa, decay) = (3.0 - 4.0 * poisson_ratio, (-2.0 * s).exp());
-    2.0 * decay * (constant(poisson_ratio) + 2.0 * s * s) + kappa * (1.0 + decay * decay)
+    2.0 * decay * (denominator_constant(poisson_ratio) + 2.0 * s * s)
+        + kappa * (1.0 + decay * decay)
 }
 
 /// Constant 5 − 4ν(3 − 2ν) in the denominator of M.
-fn constant(poisson_ratio: f64) -> f64 {
+fn denominator_constant(poisson_ratio: f64) -> f64 {
     5.0 - 4.0 * poisson_ratio * (3.0 - 2.0 * poisson_ratio)
 }

@@ -85,6 +85,7 @@ const MAX_SPECTRUM_MISMATCH: f64 = 1e-6;
 /// [`InvalidParameter`] with the largest deviation of the product from 1.
 pub fn check_spectra(material: &(impl Material + ?Sized)) -> Result<(), InvalidParameter> {
     let (relaxation, creep) = (material.relaxation(), material.creep());
+    // Frequencies at which one of the spectra changes, and others far below and above.
     let branches = relaxation.branches().iter();
     let elements = creep.elements().iter();
     let times = branches
@@ -97,6 +98,7 @@ pub fn check_spectra(material: &(impl Material + ?Sized)) -> Result<(), InvalidP
     let lowest = frequencies.iter().copied().fold(f64::INFINITY, f64::min);
     let highest = frequencies.iter().copied().fold(0.0, f64::max);
     frequencies.extend([1e-3 * lowest, 1e3 * highest]);
+    // Largest deviation of the product from 1.
     let mut largest = 0.0_f64;
     for frequency in frequencies {
         let modulus = relaxation.complex_modulus(frequency);

@@ -112,6 +112,7 @@ impl Shift {
         })
     }
 
+    /// Refuses a temperature \[°C] outside the measured range of the law.
     fn check_range(&self, temperature: f64) -> Result<(), RheologyError> {
         check_within(temperature, self.temperature_range)
     }
@@ -151,7 +152,8 @@ fn check_table(table: &[[f64; 2]]) -> Result<(), InvalidParameter> {
     .map(drop)
 }
 
-/// ln of the factor at a temperature, from a table that is ordered and not empty.
+/// ln of the modulus factor at a temperature \[°C], straight between the rows of a table that is ordered and not empty; refuses a
+/// temperature outside the table.
 fn interpolate_log_factor(table: &[[f64; 2]], temperature: f64) -> Result<f64, RheologyError> {
     check_within(temperature, [table[0][0], table[table.len() - 1][0]])?;
     let next = table.partition_point(|entry| entry[0] < temperature);

@@ -82,6 +82,7 @@ impl ExponentialStep {
     /// The errors of [`creep`](Self::creep).
     pub fn creep_linear(spectrum: &CreepSpectrum, time_step: f64) -> Result<Self, RheologyError> {
         let mut step = Self::creep(spectrum, time_step)?;
+        // Response to the previous input if it is linear over the whole step, and its ratio β/α to the response to the new one.
         let delayed = spectrum.elements().iter().map(|one| one.lead(time_step));
         let leads = delayed.chain((spectrum.fluidity() > 0.0).then_some(0.5));
         let whole: f64 = leads
@@ -90,6 +91,7 @@ impl ExponentialStep {
             .map(|(lead, field)| lead * field.gain)
             .sum();
         let alternation = whole / (step.response() - whole);
+        // Move a share of each gain to the previous input, less than all where the ratio is too large.
         let share = ((1.0 - alternation) / (1.0 - MAX_ALTERNATION)).clamp(0.0, 1.0);
         for (lead, field) in leads.zip(&mut step.fields) {
             field.gain_before = share * lead * field.gain;
@@ -154,6 +156,7 @@ impl ExponentialStep {
         if history.is_empty() {
             return;
         }
+        // Sum the history variables as they decay, and the response to the previous input.
         for (field, values) in self.fields.iter().zip(state.chunks_exact(history.len())) {
             for (sum, value) in history.iter_mut().zip(values) {
                 *sum += field.decay * value;
@@ -178,6 +181,7 @@ impl ExponentialStep {
         if input.is_empty() {
             return;
         }
+        // An input that is held at its new value.
         if !self.keeps_input {
             for (field, values) in self.fields.iter().zip(state.chunks_exact_mut(input.len())) {
                 for (value, input) in values.iter_mut().zip(input) {
@@ -186,6 +190,7 @@ impl ExponentialStep {
             }
             return;
         }
+        // An input that is linear from the previous one, which is stored behind the history variables.
         let (state, before) = state.split_at_mut(n_values - input.len());
         for (field, values) in self.fields.iter().zip(state.chunks_exact_mut(input.len())) {
             for ((value, input), before) in values.iter_mut().zip(input).zip(&*before) {

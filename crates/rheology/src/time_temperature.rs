@@ -9,7 +9,7 @@
 use crate::{RelaxationBranch, RelaxationSpectrum, RheologyError};
 use numerics::{finite, positive};
 
-/// Gas constant R, [J/(mol K)].
+/// Gas constant R, [J/(mol K)], exact in the SI since 2019.
 const GAS_CONSTANT: f64 = 8.314_462_618_153_24;
 
 /// The law of Williams, Landel and Ferry; temperatures may be in °C or in K.
@@ -108,11 +108,12 @@ impl WlfShift {
     }
 }
 
-/// Number of updates of the weights of the linear equations (chosen).
+/// Number of updates of the weights of the linear equations (chosen); convergence is not tested.
 const N_REWEIGHTINGS: usize = 30;
 
 /// Weighted least-squares solution C₁ and C₂ of the linear equations for pairs of ΔT and log₁₀ a_T.
 fn linear_constants(pairs: &[[f64; 2]], weight: impl Fn(f64) -> f64) -> [f64; 2] {
+    // Weighted sums of products of d = ΔT and l = log₁₀ a_T.
     let [mut dd, mut dl, mut ll, mut ddl, mut dll] = [0.0; 5];
     for &[d, l] in pairs {
         let w = weight(d);
@@ -143,6 +144,7 @@ impl ArrheniusShift {
     /// # Errors
     /// [`RheologyError::InvalidParameter`] when no positive energy describes the pairs.
     pub fn fit(shifts: &[[f64; 2]], reference_temperature: f64) -> Result<Self, RheologyError> {
+        // The logarithm is proportional to the energy: a straight line through the origin.
         let per_energy = Self::new(1.0, reference_temperature)?;
         let [mut products, mut squares] = [0.0; 2];
         for &[temperature, log] in shifts {

@@ -15,9 +15,11 @@ pub(super) struct KnownShift {
     pub(super) log_factor: f64,
 }
 
-/// Largest number of known pairs, the nearest ones (chosen): on the other side of a glass transition another law holds.
+/// Largest number of known pairs, the nearest ones, to which the law is fitted (chosen): with more, some may lie on the other side
+/// of a glass transition, where another law holds.
 const MAX_PAIRS: usize = 4;
-/// Largest misfit of ln a for which the law holds: a tenth of a decade (chosen).
+/// Largest misfit of ln a for which the law holds, and largest distance from the law at which a doubtful placement is kept: a tenth
+/// of a decade (chosen).
 pub(super) const LAW_TOLERANCE: f64 = 0.1 * LN_10;
 /// Largest misfit relative to the shift of a pair (chosen: 0.5 K and 0.5 K of error in pairs 10 K apart).
 const LAW_RELATIVE_TOLERANCE: f64 = 0.15;
@@ -99,7 +101,7 @@ pub(super) fn shift_by_law(mut known: Vec<KnownShift>, sought: [f64; 2]) -> Opti
 /// Ridge of the normal equations, relative to their diagonal (chosen: above rounding).
 const NORMAL_ROUNDING: f64 = 1e-9;
 
-/// WLF law d ln a/dT = −k/(T − T_∞)².
+/// WLF law d ln a/dT = −k/(T − T_∞)² with the pole T_∞.
 struct Law {
     /// Lowest temperature of the isotherms T_c, \[K].
     coldest: f64,
@@ -110,23 +112,23 @@ struct Law {
 }
 
 impl Law {
-    /// Ratios (T_c − T_∞)/(T − T_∞) at both temperatures.
+    /// Ratios (T_c − T_∞)/(T − T_∞) at both temperatures \[K].
     fn relative_poles(&self, temperatures: [f64; 2]) -> [f64; 2] {
         temperatures.map(|temperature| self.pole / (temperature - self.coldest + self.pole))
     }
 
-    /// Shift ln a of a pair per unit of steepness.
+    /// Shift ln a of a pair of temperatures \[K] by a law of steepness 1: the difference of the ratios, second less first.
     fn shift_per_steepness(&self, temperatures: [f64; 2]) -> f64 {
         let [from, to] = self.relative_poles(temperatures);
         to - from
     }
 
-    /// Shift ln a of a pair.
+    /// Shift ln a of the second isotherm of a pair less that of the first, at their temperatures \[K].
     fn shift(&self, temperatures: [f64; 2]) -> f64 {
         self.steepness * self.shift_per_steepness(temperatures)
     }
 
-    /// Derivatives of the shift by the steepness and by ln of the pole distance.
+    /// Derivatives of the shift of a pair of temperatures \[K] by the steepness and by ln of the pole distance, in this order.
     fn derivatives(&self, temperatures: [f64; 2]) -> Vector2<f64> {
         // d r/d ln p = r (1 − r) for r = p/(T − T_c + p).
         let [from, to] = self

@@ -23,7 +23,7 @@ pub struct CreepPoint {
     pub compliance: f64,
 }
 
-/// Number of retardation times per decade (chosen).
+/// Number of retardation times per decade (chosen): neighbouring times differ by a factor of 1.33.
 const TIMES_PER_DECADE: f64 = 8.0;
 /// Largest root mean square relative error of the series for a creeping material (chosen).
 const MAX_RMS_ERROR: f64 = 0.2;
@@ -58,7 +58,7 @@ pub fn relaxation_of_creep(points: &[CreepPoint]) -> Result<Vec<RelaxationPoint>
     points.iter().map(point).collect()
 }
 
-/// Nonnegative least-squares fit of the creep series, with times from the shortest to the longest.
+/// Nonnegative least-squares fit of the creep series, with retardation times from the shortest to the longest time \[s].
 fn creep_spectrum(
     points: &[CreepPoint],
     [shortest, longest]: [f64; 2],

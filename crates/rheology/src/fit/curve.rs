@@ -54,11 +54,11 @@ pub struct MeasuredCurve {
 pub(super) struct JoinedIsotherms {
     /// Temperatures in the unit of the table.
     pub(super) temperatures: Vec<f64>,
-    /// Shifts ln a of the frequencies.
+    /// Shifts ln a of the frequencies, in the order of the temperatures.
     pub(super) log_factors: Vec<f64>,
     /// Pairs of isotherms shifted onto each other, from the reference outwards.
     pub(super) links: Vec<Link>,
-    /// Undecided ln b of the moduli; empty if they are decided.
+    /// Shifts ln b of the moduli of an ideal rubber if the data leave them undecided; empty otherwise.
     pub(super) undecided: Vec<f64>,
 }
 
@@ -74,8 +74,10 @@ impl JoinedIsotherms {
         self.links.iter().any(finds_shift).then_some(first.fixed)
     }
 
-    /// Slope d ln a/dT at every isotherm, by central differences; 0 for a single isotherm.
+    /// Slope d ln a/dT at every isotherm \[1/K], by central differences over the temperatures, one-sided at both ends; 0 for a
+    /// single isotherm.
     pub(super) fn secants(&self) -> Vec<f64> {
+        // Neighbours by temperature; at both ends the isotherm itself is one of the two.
         let n = self.temperatures.len();
         let mut order: Vec<usize> = (0..n).collect();
         order.sort_by(|a, b| self.temperatures[*a].total_cmp(&self.temperatures[*b]));
@@ -221,7 +223,7 @@ fn check_increasing(
     in_range(parameter, value, is_increasing, allowed)
 }
 
-/// First and last frequency or time of at least two points.
+/// First and last frequency \[rad/s] or time \[s] of at least two points; `given` is the number of points, for the error.
 fn ends(rows: &[Measurement], given: usize) -> Result<[f64; 2], RheologyError> {
     match rows {
         [first, .., last] if given >= 2 => Ok([first.at, last.at]),

@@ -18,11 +18,12 @@ use crate::{RelaxationSpectrum, RheologyError};
 
 /// Numbers of branches per decade, tried in this order (chosen).
 const BRANCHES_PER_DECADE: [f64; 7] = [1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0];
-/// Number of samples per decade of time, and of frequencies at which the error is found (chosen).
+/// Number of samples per decade of time, and of frequencies at which the error is found (chosen): more than two for each branch of
+/// the densest series.
 const SAMPLES_PER_DECADE: f64 = 32.0;
 /// Fraction of the tolerance for each tail of the function, at times that are not sampled (chosen).
 const TAIL_ERROR_FRACTION: f64 = 0.1;
-/// Bound on the number of decades beyond an end of the range (chosen).
+/// Bound on the number of decades beyond an end of the range (chosen); what is left then counts as error.
 const MAX_TAIL_DECADES: i32 = 30;
 
 /// Prony series within `relative_error` of a relaxation function G(t) \[Pa] over a range of times \[s].
@@ -148,7 +149,7 @@ impl RelaxationFunction<'_> {
         }
     }
 
-    /// Samples of the function, equally spaced in the logarithm.
+    /// Samples of the function between two times \[s], equally spaced in the logarithm.
     fn samples(&self, ends: [f64; 2]) -> Vec<RelaxationPoint> {
         let point = |time| RelaxationPoint {
             time,
@@ -182,6 +183,7 @@ impl RelaxationFunction<'_> {
     ) -> Result<f64, RheologyError> {
         let [shortest, longest] = self.time_range;
         let mut worst = 0.0_f64;
+        // Errors of G at the samples, relative to G within the range.
         let mut differences = Vec::new();
         for point in samples {
             let difference = point.modulus - series.relaxation_modulus(point.time)?;
@@ -190,6 +192,7 @@ impl RelaxationFunction<'_> {
                 worst = worst.max((difference / point.modulus).abs());
             }
         }
+        // Errors of G* at the frequencies of the range; the exact G* is that of the series and the difference.
         for time in log_spaced(self.time_range, SAMPLES_PER_DECADE) {
             let omega = time.recip();
             let [storage, loss] = modulus_difference(&differences, omega);
@@ -201,7 +204,7 @@ impl RelaxationFunction<'_> {
     }
 }
 
-/// Real and imaginary part of ΔG*(ω), from pairs of time and ΔG.
+/// Real and imaginary part of ΔG*(ω) \[Pa] at an angular frequency \[rad/s], from pairs of time \[s] and ΔG \[Pa].
 fn modulus_difference(differences: &[[f64; 2]], omega: f64) -> [f64; 2] {
     let mut sum = [differences[0][1], 0.0];
     for pair in differences.windows(2) {

@@ -112,9 +112,10 @@ impl From<Identification> for PronyExpansion {
 /// The loss modulus of a branch then exceeds its value at the end of the window by at most (m + 1/m)/2 = 1.25. A branch
 /// farther outside would be determined by its flank only.
 const WINDOW_MARGIN: f64 = 2.0;
-/// Number of branches per decade of the reference series that shows the attainable error (chosen).
+/// Number of branches per decade of the reference series that shows the attainable error (chosen): neighbouring times differ by a
+/// factor of 1.8, less than the width of the response of one branch.
 const DENSE_BRANCHES_PER_DECADE: f64 = 4.0;
-/// Largest number of branches (chosen).
+/// Largest number of branches (chosen): a limit of the time.
 pub(super) const MAX_BRANCHES: usize = 200;
 
 /// Prony series with moduli ≥ 0 and the smallest mean squared relative error.
@@ -137,6 +138,7 @@ pub fn identify(
             ..found
         })
     });
+    // Say what is wrong with the data rather than that a fit is bad or has failed.
     if !matches!(found, Err(RheologyError::InvalidParameter(_))) {
         plausible::check(curve, options.long_time_limit, found.as_ref().ok())?;
     }
@@ -200,6 +202,7 @@ impl FitProblem {
     ///
     /// With contradicting moduli G'', mostly the smaller one, would degrade the fit of G'.
     fn set_weights(&mut self) -> Result<(), RheologyError> {
+        // Error of G' with weights by |G*|, then with individual ones, of at least a tenth of |G*|.
         let before = self.storage_error()?;
         let by_magnitude = self.rows.clone();
         for row in &mut self.rows {
@@ -211,14 +214,14 @@ impl FitProblem {
         Ok(())
     }
 
-    /// Root mean square error of G' for the dense series.
+    /// Root mean square error of G' relative to its size, for the dense series with the present weights; 0 for G(t).
     fn storage_error(&self) -> Result<f64, RheologyError> {
         let series = self.fit_moduli(self.log_spaced_times(self.dense_branch_count()), 0.0)?;
         let error = self.error_of(&series, Quantity::Storage);
         Ok(error.map_or(0.0, |error| error.rms))
     }
 
-    /// Number of branches of the dense series.
+    /// Number of branches of the dense series, [`DENSE_BRANCHES_PER_DECADE`] of the measured window, at least 2.
     fn dense_branch_count(&self) -> usize {
         let decades = (self.window[1] / self.window[0]).log10();
         let inner =
@@ -226,7 +229,7 @@ impl FitProblem {
         2 + inner.count()
     }
 
-    /// Relaxation times equally spaced in the logarithm, from end to end of the measured window.
+    /// Relaxation times \[s] equally spaced in the logarithm, from end to end of the measured window.
     fn log_spaced_times(&self, n_branches: usize) -> Vec<f64> {
         let [shortest, longest] = self.window;
         if n_branches == 1 {
@@ -237,11 +240,12 @@ impl FitProblem {
         (0..n_branches).map(time).collect()
     }
 
-    /// Nonnegative least-squares fit of the moduli at given times; `smoothing` weights their second differences.
+    /// Nonnegative least-squares fit of the moduli at given relaxation times \[s]; `smoothing` ≥ 0 weights their second differences.
     fn fit_moduli(&self, times: Vec<f64>, smoothing: f64) -> Result<Series, RheologyError> {
         let is_solid = self.long_time_limit == LongTimeLimit::Solid;
         let [n_rows, n_branches] = [self.rows.len(), times.len()];
         let n_columns = n_branches + usize::from(is_solid);
+        // The columns are the responses of branches of unit modulus, and of a spring for a solid.
         let mut matrix = DMatrix::from_fn(n_rows, n_columns, |index, k| {
             let row = &self.rows[index];
             let response = times.get(k).map(|&time| row.branch(time)[0]);
@@ -257,6 +261,7 @@ impl FitProblem {
             below.copy_from(&differences);
             target = target.resize_vertically(matrix.nrows(), 0.0);
         }
+        // Moduli ≥ 0, that of the spring last.
         let mut moduli: Vec<f64> = nnls(&matrix, &target)?.data.into();
         let spring = is_solid.then(|| moduli.pop()).flatten();
         let branches = moduli
@@ -271,6 +276,7 @@ impl FitProblem {
 
     /// Series of at most `n_branches` with relaxation times at a local optimum.
     fn fit_moduli_and_times(&self, n_branches: usize) -> Result<Series, RheologyError> {
+        // Fit the moduli at equally spaced times, move times and moduli together, and fit the moduli again, which may be zero.
         let [shortest, longest] = self.window;
         let window = [shortest / WINDOW_MARGIN, longest * WINDOW_MARGIN];
         let start = self.fit_moduli(self.log_spaced_times(n_branches), 0.0)?;
@@ -283,6 +289,7 @@ impl FitProblem {
 
     /// Series with the fewest branches whose error is within the `tolerance` of the dense series.
     fn fit_fewest_branches(&self, tolerance: f64) -> Result<Series, RheologyError> {
+        // The dense series shows the attainable error; take the fewest branches that come near to it.
         let dense_branch_count = self.dense_branch_count();
         let best = self.fit_moduli(self.log_spaced_times(dense_branch_count), 0.0)?;
         let allowed = (1.0 + tolerance).powi(2) * best.squares(&self.rows);
@@ -301,6 +308,7 @@ impl FitProblem {
         curve: &MeasuredCurve,
         series: &Series,
     ) -> Result<Identification, RheologyError> {
+        // Errors are relative to |G*| whatever the weights of the fit were.
         let spring = series.spring.unwrap_or_default();
         let spectrum = RelaxationSpectrum::new(spring, 0.0, series.branches.clone())?;
         let measured = Self {
@@ -335,11 +343,12 @@ impl FitProblem {
         Some(errors.len()).filter(|n| *n > 0).map(of_all)
     }
 
+    /// Sign changes of the residuals of one measured quantity, series less data; `None` without measurements of it.
     fn sign_changes_of(&self, series: &Series, quantity: Quantity) -> Option<SignChanges> {
         SignChanges::count(&self.rows, quantity, |row| series.value(row) - row.value)
     }
 
-    /// Squared relative errors of all points; the two rows of a frequency are one point.
+    /// Squared weighted errors of all points; the two numbers G' and G'' of a frequency are one point.
     fn point_errors(&self, series: &Series) -> Vec<f64> {
         let square = |row: &Measurement| (row.weight * (series.value(row) - row.value)).powi(2);
         let points = self
@@ -350,7 +359,7 @@ impl FitProblem {
 }
 
 impl Series {
-    /// The series with small positive moduli in place of zeros, from which they can grow.
+    /// The series with a hundredth of the smallest positive modulus in place of smaller ones, from which they can grow.
     fn with_positive_moduli(&self) -> Self {
         let mut series = self.clone();
         let moduli = series.branches.iter().map(|branch| branch.modulus);
@@ -378,7 +387,7 @@ fn second_differences(columns: &DMatrixView<f64>) -> DMatrix<f64> {
     })
 }
 
-/// Checks a number of branches.
+/// Returns a number of branches from 1 to [`MAX_BRANCHES`], and refuses others.
 fn valid_branch_count(n_branches: usize) -> Result<usize, InvalidParameter> {
     let is_valid = (1..=MAX_BRANCHES).contains(&n_branches);
     in_range("n_branches", n_branches as f64, is_valid, "from 1 to 200").map(|_| n_branches)

@@ -60,6 +60,7 @@ impl MasterCurve {
         log10_factor: f64,
         modulus_factor: f64,
     ) -> Result<Self, RheologyError> {
+        // Longer times are lower frequencies; the shifts become relative to the new temperature.
         let factor = 10_f64.powf(log10_factor);
         for point in &mut self.points {
             point.angular_frequency /= factor;
@@ -95,6 +96,7 @@ pub fn shifted_master_curve(
     options: &SuperpositionOptions,
 ) -> Result<MasterCurve, RheologyError> {
     let chain = Chain::new(isotherms, temperature)?;
+    // Shifts by the law, relative to the reference isotherm.
     let log_factor = |isotherm: &Isotherm| Ok(LN_10 * log10_factor(isotherm.temperature)?);
     let known = isotherms.iter().map(log_factor);
     let mut known: Vec<f64> = known.collect::<Result<_, RheologyError>>()?;
@@ -126,6 +128,7 @@ pub fn automatic_master_curve(
     temperature: f64,
     options: &SuperpositionOptions,
 ) -> Result<MasterCurve, RheologyError> {
+    // An isotherm of one frequency overlaps with no other.
     let is_single = |isotherm: &&Isotherm| isotherm.points.len() == 1;
     if let Some(first) = isotherms.iter().find(is_single)
         && isotherms.len() > 1
@@ -153,8 +156,9 @@ struct Chain {
 }
 
 impl Chain {
-    /// Chain from the isotherm whose temperature is nearest.
+    /// Chain from the isotherm whose temperature is nearest to the given one, through its neighbours by temperature.
     fn new(isotherms: &[Isotherm], temperature: f64) -> Result<Self, RheologyError> {
+        // Order the isotherms by temperature, and go from the nearest one upwards, then downwards.
         let mut order: Vec<usize> = (0..isotherms.len()).collect();
         let temperature_of = |place: usize| isotherms[place].temperature;
         order.sort_by(|&a, &b| temperature_of(a).total_cmp(&temperature_of(b)));
@@ -177,7 +181,7 @@ impl Chain {
     }
 }
 
-/// Master curve of superposed isotherms.
+/// Master curve of all points of the isotherms, with the shifts of their superposition along a chain.
 fn join(
     isotherms: &[Isotherm],
     chain: &Chain,
@@ -187,6 +191,7 @@ fn join(
     for link in &superposed.links {
         by_law[link.moved] = by_law[link.fixed] || matches!(link.by, LinkedBy::Law(_));
     }
+    // A pair that the law has placed makes all isotherms beyond it depend on the law.
     let shift = |place: usize| IsothermShift {
         temperature: isotherms[place].temperature,
         log10_factor: superposed.log_factors[place] / LN_10,
@@ -194,6 +199,7 @@ fn join(
         placed_by_law: by_law[place],
     };
     let shifts: Vec<IsothermShift> = (0..isotherms.len()).map(shift).collect();
+    // Reduce frequencies and moduli, and sort all points by frequency.
     let pairs = isotherms.iter().zip(&shifts).enumerate();
     let shifted = pairs.flat_map(|(place, (isotherm, shift))| {
         let factor = 10_f64.powf(shift.log10_factor);

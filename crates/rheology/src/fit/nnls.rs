@@ -7,13 +7,16 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::RheologyError;
 
-/// Solution x ≥ 0 that minimises |A x − b|, for a matrix without a column of zeros.
+/// Solution x ≥ 0 that minimises |A x − b|, for a `matrix` A without a column of zeros and a `target` b.
+///
+/// [`RheologyError::FitNotConverged`] after 10 n + 10 changes of the active set for n unknowns.
 pub(super) fn nnls(
     matrix: &DMatrix<f64>,
     target: &DVector<f64>,
 ) -> Result<DVector<f64>, RheologyError> {
     let norms = DVector::from_iterator(matrix.ncols(), matrix.column_iter().map(|a| a.norm()));
     let (matrix, target) = compress(matrix, &norms, target);
+    // Gradients by unit columns up to this size are rounding.
     let tolerance = 1e2 * f64::EPSILON * target.norm();
     let mut set = ActiveSet {
         solution: DVector::zeros(matrix.ncols()),
@@ -53,7 +56,8 @@ struct ActiveSet {
 }
 
 impl ActiveSet {
-    /// Index of the unknown at zero with the largest negative gradient; `None` if the iterate is optimal.
+    /// Index of the unknown at zero along which the sum of squares falls most steeply, but for those that are `refused`; `None` if
+    /// it falls along none by more than the `tolerance`.
     fn entering_unknown(&self, refused: &[usize], tolerance: f64) -> Option<usize> {
         let residuals = &self.target - &self.matrix * &self.solution;
         let gradients = self.matrix.tr_mul(&residuals);
@@ -125,7 +129,7 @@ fn compress(
     (all.remove_column(last), target)
 }
 
-/// Least-squares solution x, which minimises |A x − b|.
+/// Least-squares solution x, which minimises |A x − b|, by a QR factorisation and back substitution.
 fn least_squares(matrix: DMatrix<f64>, target: &DVector<f64>) -> DVector<f64> {
     let norms: Vec<f64> = matrix.column_iter().map(|column| column.norm()).collect();
     let qr = matrix.qr();

@@ -74,11 +74,12 @@ impl Place {
     }
 }
 
-/// Smallest sum of weights of an overlap, about one and a half intervals between points (chosen).
+/// Smallest sum of weights of an overlap, about one and a half intervals between points (chosen): a pair with less is placed by the
+/// law of other pairs, or refused.
 const MIN_OVERLAP: f64 = 2.5;
 /// Largest root mean square distance of ln G' for isotherms that meet: a quarter of the modulus (chosen).
 const MAX_RMS_DISTANCE: f64 = 0.23;
-/// Number of trial shifts, from contact at one end to contact at the other (chosen).
+/// Number of trial shifts, from contact at one end to contact at the other (chosen): the best one is refined by golden section.
 const N_TRIALS: u32 = 1000;
 
 impl LogCurves {
@@ -94,7 +95,7 @@ impl LogCurves {
         Self([line(|point| point.storage), line(|point| point.loss)])
     }
 
-    /// Squared scatter of single points of G' and G'', one for each point with two neighbours on each side.
+    /// Squared scatter of ln G' and ln G'' of single points, one for each point with two neighbours on each side.
     pub(super) fn scatter(&self) -> [Vec<f64>; 2] {
         [0, 1].map(|quantity| {
             let points = self.0[quantity].0.windows(5);
@@ -122,11 +123,12 @@ fn squared_scatter(five: &[[f64; 2]]) -> f64 {
 }
 
 impl LogCurve {
+    /// Lowest and highest ln ω of the curve; NaN for a curve without points.
     fn ends(&self) -> [f64; 2] {
         [self.0.first(), self.0.last()].map(|point| point.map_or(f64::NAN, |p| p[0]))
     }
 
-    /// Linear interpolation; `None` outside the curve.
+    /// Linear interpolation at ln ω; `None` outside the curve.
     fn interpolate(&self, log_frequency: f64) -> Option<Interpolated> {
         let next = self.0.partition_point(|point| point[0] < log_frequency);
         let [below, above] = [self.0.get(next.checked_sub(1)?)?, self.0.get(next)?];
@@ -152,6 +154,7 @@ pub(super) fn taper(next: usize, n_points: usize, part: f64) -> f64 {
 impl Residuals {
     /// Residuals in the overlap at a shift ln a, of the points of either curve from the line through the other.
     fn new(fixed: &LogCurve, moved: &LogCurve, shift: f64) -> Self {
+        // Points of the moved curve against the line of the fixed one, then the reverse with the opposite sign.
         let mut residuals = Self::default();
         for (points, line, offset, sign) in
             [(moved, fixed, shift, 1.0), (fixed, moved, -shift, -1.0)]
@@ -168,13 +171,13 @@ impl Residuals {
         residuals
     }
 
-    /// Weighted sum of squares after division of the moved moduli by a factor.
+    /// Weighted sum of squares after division of the moved moduli by a factor b, from ln b.
     fn squares(&self, log_modulus: f64) -> f64 {
         let squares = self.squares - log_modulus * (2.0 * self.sum - log_modulus * self.weight);
         squares.max(0.0)
     }
 
-    /// Weighted mean square after division of the moved moduli by a factor; 0 without overlap.
+    /// Weighted mean square after division of the moved moduli by a factor b, from ln b; 0 without overlap.
     fn mean_square(&self, log_modulus: f64) -> f64 {
         if self.weight > 0.0 {
             self.squares(log_modulus) / self.weight
@@ -185,7 +188,7 @@ impl Residuals {
 }
 
 impl Pair<'_> {
-    /// Residuals of both moduli at a shift ln a.
+    /// Residuals of ln G' and ln G'' at a shift ln a.
     fn residuals(&self, shift: f64) -> [Residuals; 2] {
         [0, 1].map(|k| Residuals::new(&self.fixed.0[k], &self.moved.0[k], shift))
     }
@@ -203,7 +206,7 @@ impl Pair<'_> {
         }
     }
 
-    /// Placement at a given shift; `None` if the isotherms overlap too little there.
+    /// Placement at a given shift ln a; `None` if the isotherms overlap too little there.
     pub(super) fn place_at(&self, log_factor: f64, factor: ModulusFactor) -> Option<Place> {
         let place = self.place(log_factor, factor, self.scatter);
         let variances = [0, 1].map(|k| self.scatter[k] + place.mean_squares[k]);
@@ -222,6 +225,7 @@ impl Pair<'_> {
     /// is its smallest mean square at shifts that the storage modulus admits. A plateau of the storage modulus admits all
     /// shifts, so that the loss modulus decides.
     pub(super) fn best_place(&self, factor: ModulusFactor) -> Option<Place> {
+        // Residuals at trial shifts between those at which only the ends meet.
         let [fixed, moved] = [self.fixed, self.moved].map(|lines| lines.0[0].ends());
         let [lowest, highest] = [fixed[0] - moved[1], fixed[1] - moved[0]];
         let step = (highest - lowest) / f64::from(N_TRIALS);

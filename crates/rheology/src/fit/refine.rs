@@ -15,9 +15,9 @@ pub(super) struct Series {
     pub(super) branches: Vec<RelaxationBranch>,
 }
 
-/// Relative improvement of the sum of squares below which the iteration ends (chosen).
+/// Relative improvement of the sum of squares below which the iteration ends (chosen); a smaller one costs more steps.
 const SUFFICIENT_IMPROVEMENT: f64 = 1e-4;
-/// Largest change of a logarithm in one step (chosen).
+/// Largest change of the logarithm of a modulus or time in one step (chosen): a factor of 7.4.
 const MAX_LOG_STEP: f64 = 2.0;
 
 /// Moves positive moduli and times to a local minimum of the squared residuals, with the times in the `window` \[s].
@@ -26,6 +26,7 @@ pub(super) fn refine(rows: &[Measurement], start: Series, window: [f64; 2]) -> S
         bounds,
         largest_step: MAX_LOG_STEP,
     };
+    // Moduli may take any positive value, times those of the window.
     let anywhere = range([f64::NEG_INFINITY, f64::INFINITY]);
     let within = range(window.map(f64::ln));
     let spring = start.spring.map(|_| anywhere);
@@ -45,7 +46,7 @@ pub(super) fn refine(rows: &[Measurement], start: Series, window: [f64; 2]) -> S
 }
 
 impl Series {
-    /// Logarithms of the equilibrium modulus, then of modulus and time of every branch.
+    /// Logarithms of the equilibrium modulus if there is one, then of modulus and time of every branch.
     fn logarithms(&self) -> Vec<f64> {
         let branches = self
             .branches
@@ -55,7 +56,7 @@ impl Series {
         parameters.map(f64::ln).collect()
     }
 
-    /// The series of the same form with other logarithms.
+    /// The series of the same form with other [logarithms](Self::logarithms).
     fn with_logarithms(&self, logarithms: &[f64]) -> Self {
         let (spring, branches) = logarithms.split_at(usize::from(self.spring.is_some()));
         let branch = |pair: &[f64]| RelaxationBranch::new(pair[0].exp(), pair[1].exp());
@@ -65,7 +66,7 @@ impl Series {
         }
     }
 
-    /// Value of the series for a measured number.
+    /// Value of the series for a measured number: G', G'' or G(t) at its frequency or time, \[Pa].
     pub(super) fn value(&self, row: &Measurement) -> f64 {
         let branches = self.branches.iter();
         let relaxing =
@@ -73,7 +74,7 @@ impl Series {
         self.spring.unwrap_or_default() * row.spring() + relaxing.sum::<f64>()
     }
 
-    /// Sum of squared relative errors.
+    /// Sum of squared weighted errors.
     pub(super) fn squares(&self, rows: &[Measurement]) -> f64 {
         let error = |row: &Measurement| row.weight * (self.value(row) - row.value);
         rows.iter().map(error).map(|error| error * error).sum()
@@ -82,6 +83,7 @@ impl Series {
     /// Quadratic model of the sum of squares, by the logarithms of all parameters.
     fn linearise(&self, rows: &[Measurement]) -> QuadraticModel {
         let n = self.branches.len() * 2 + usize::from(self.spring.is_some());
+        // Weighted residuals, data less series, and their derivatives in one column for each number.
         let mut slopes = DMatrix::zeros(n, rows.len());
         let errors = rows.iter().zip(slopes.column_iter_mut());
         let errors =

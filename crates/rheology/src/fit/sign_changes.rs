@@ -26,7 +26,8 @@ impl SignChanges {
         f64::from(self.found) < 0.5 * (possible - CHANCE_STANDARD_DEVIATIONS * possible.sqrt())
     }
 
-    /// Sign changes of one measured quantity; `None` without measurements of it.
+    /// Sign changes of the residuals of one measured quantity, whose `rows` are by increasing frequency or time; `None` without
+    /// measurements of it.
     pub(super) fn count(
         rows: &[Measurement],
         quantity: Quantity,

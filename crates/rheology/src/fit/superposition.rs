@@ -110,7 +110,7 @@ pub(super) struct Superposed {
     pub(super) undecided: Vec<f64>,
 }
 
-/// Smallest ln of the likelihood ratio that decides between two kinds of vertical shift (chosen).
+/// Smallest ln of the likelihood ratio that decides between two kinds of vertical shift (chosen): odds of 20 to 1.
 const MIN_LOG_LIKELIHOOD_RATIO: f64 = 3.0;
 /// Largest deviation of ln b from the kind without constants that an instrument explains.
 ///
@@ -205,9 +205,10 @@ fn scatter(curves: &[LogCurves]) -> [f64; 2] {
     })
 }
 
-/// Median of the square of a standard normal variable.
+/// Median of the square of a standard normal variable, 0.4549.
 const MEDIAN_OF_SQUARED_NORMAL: f64 = 0.455;
-/// Variance of the distance of a point from the line through two others, relative to that of a point (derived: 1.5 to 2).
+/// Variance of the distance of a point from the line through two others, relative to that of a point (derived: 1.5 half way
+/// between them, 2 beside one of them).
 const RESIDUAL_VARIANCE_RATIO: f64 = 1.5;
 /// Relative scatter that is assumed for isotherms of fewer than five points (chosen).
 const DEFAULT_SCATTER: f64 = 0.01;
@@ -228,7 +229,8 @@ struct Placed {
 }
 
 impl Placed {
-    /// Placement with the best agreement in the overlap.
+    /// Placement with the best agreement in the overlap; `modulus_spread` is the prior standard deviation of ln b, `None` if b was
+    /// given.
     fn found(place: Place, modulus_spread: Option<f64>) -> Self {
         Self {
             log_factor: place.log_factor,
@@ -242,7 +244,7 @@ impl Placed {
         }
     }
 
-    /// Placement at a given shift.
+    /// Placement at a given shift ln a, with the factor b that the overlap determines if it is free.
     fn given(log_factor: f64, factor: ModulusFactor, place: Option<Place>) -> Self {
         let free = place.zip(factor.spread);
         Self {
@@ -299,7 +301,7 @@ impl Superposition<'_> {
         self.isotherms[isotherm].temperature + self.options.kelvin_at_zero
     }
 
-    /// Shift ln b between two isotherms for a vertical shift without constants.
+    /// Shift ln b from a fixed to a moved isotherm for a vertical shift without constants; 0 for a free one.
     fn log_modulus(&self, vertical: VerticalShift, [fixed, moved]: [usize; 2]) -> f64 {
         match vertical {
             VerticalShift::Entropic => (self.kelvin(moved) / self.kelvin(fixed)).ln(),
@@ -308,6 +310,8 @@ impl Superposition<'_> {
     }
 
     /// Placements of all pairs with a vertical shift without constants, or with free ones around it.
+    ///
+    /// `spread` is the prior standard deviation of a free ln b; `None` if b_T is bound to the vertical shift.
     fn place_pairs(
         &self,
         vertical: VerticalShift,
@@ -332,7 +336,7 @@ impl Superposition<'_> {
         // Shifts with the best agreement; those that are forced are replaced by the law of the others.
         let places = pairs.map(|(pair, factor)| self.pair(*pair).best_place(*factor));
         let places: Vec<Option<Place>> = places.collect();
-        let forced = forced(&places);
+        let forced = forced_placements(&places);
         let of_link = |link: usize| {
             let factor = factors[link];
             let law = forced[link]
@@ -373,7 +377,7 @@ impl Superposition<'_> {
         is_elsewhere && pair.is_compatible(log_factor, factor)
     }
 
-    /// Shift of a pair by the law of the accepted pairs around it.
+    /// Shift of the pair `link` by the law of the accepted pairs around it; `None` if there is no such law.
     fn by_law(&self, places: &[Option<Place>], forced: &[bool], link: usize) -> Option<LawShift> {
         let temperatures = |link: usize| self.chain[link].map(|one| self.kelvin(one));
         let known = (0..places.len())
@@ -425,7 +429,8 @@ impl Superposition<'_> {
         })
     }
 
-    /// ln of the likelihood ratio of two lists of placements, each with its maximum-likelihood variances.
+    /// ln of the likelihood ratio of two lists of placements of the same pairs, `one` over `other`, each with its maximum-likelihood
+    /// variances.
     fn log_likelihood_ratio(&self, one: &[Placed], other: &[Placed]) -> f64 {
         let pairs = one
             .iter()
@@ -523,8 +528,9 @@ impl Superposition<'_> {
     }
 }
 
-/// Rejected placements: no overlap, the smallest admissible overlap, or residuals far above the median.
-fn forced(places: &[Option<Place>]) -> Vec<bool> {
+/// True for each pair whose placement is rejected: without overlap, with nearly the smallest admissible one, or with residuals far
+/// above the median of all pairs.
+fn forced_placements(places: &[Option<Place>]) -> Vec<bool> {
     let medians = [0, 1].map(|quantity| {
         let squares = places
             .iter()

@@ -11,8 +11,11 @@ use crate::complex::debye;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub(super) enum Quantity {
+    /// Storage modulus G' over the angular frequency.
     Storage,
+    /// Loss modulus G'' over the angular frequency.
     Loss,
+    /// Relaxation modulus G over the time.
     Relaxation,
 }
 
@@ -46,7 +49,7 @@ impl Measurement {
         }
     }
 
-    /// Response of a branch of unit modulus, and its derivative by ln τ.
+    /// Response of a branch of unit modulus and of a relaxation time \[s], and its derivative by ln τ.
     pub(super) fn branch(&self, relaxation_time: f64) -> [f64; 2] {
         let [in_phase, out_of_phase] = debye(self.at * relaxation_time);
         match self.quantity {

@@ -61,6 +61,7 @@ impl ContinuousSpectrum<'_> {
         validate(band, relative_error)?;
         let mut best = f64::INFINITY;
         for round in 0..MAX_REFINEMENTS {
+            // Aim at a quarter of the error before: the estimates of the step and of the range are asymptotic.
             let target = relative_error * 0.25_f64.powf(f64::from(round));
             let spectrum = self.series(band, target)?;
             let reached = self.error_of(&spectrum, band)?;
@@ -79,7 +80,8 @@ impl ContinuousSpectrum<'_> {
         })
     }
 
-    /// The series of the trapezoidal rule over the logarithm of the rate, for a band of frequencies and a target error.
+    /// The series of the trapezoidal rule over the logarithm of the rate, for a band of angular frequencies \[rad/s] and a relative
+    /// error `target`.
     fn series(
         &self,
         [low, high]: [f64; 2],
@@ -103,17 +105,18 @@ impl ContinuousSpectrum<'_> {
         let indices = successors(Some(first), |index| Some(index + 1.0));
         let inner = indices.take_while(|&index| index <= last).map(branch);
         let mut branches: Vec<RelaxationBranch> = inner.collect();
-        let slow = sum(|k| moment(0.0, first - f64::from(k)));
-        let viscosity = sum(|k| moment(1.0, last + f64::from(k)));
+        // Add up the branches beyond both ends: slow ones are a spring, fast ones a dashpot or a branch of the same viscosity.
+        let slow = sum_of_series(|k| moment(0.0, first - f64::from(k)));
+        let viscosity = sum_of_series(|k| moment(1.0, last + f64::from(k)));
         if !self.has_glass_modulus {
             return RelaxationSpectrum::new(slow, viscosity, branches);
         }
-        let modulus = sum(|k| moment(0.0, last + f64::from(k)));
+        let modulus = sum_of_series(|k| moment(0.0, last + f64::from(k)));
         branches.push(RelaxationBranch::new(modulus, viscosity / modulus));
         RelaxationSpectrum::new(slow, 0.0, branches)
     }
 
-    /// Largest relative error of a series in a band of frequencies.
+    /// Largest |G*/G*_exact − 1| of a series in a band of angular frequencies, \[rad/s].
     fn error_of(
         &self,
         series: &RelaxationSpectrum,
@@ -132,8 +135,8 @@ impl ContinuousSpectrum<'_> {
     }
 }
 
-/// Sum over k = 1, 2, … of terms that eventually decrease at least geometrically.
-fn sum(term: impl Fn(u32) -> f64) -> f64 {
+/// Sum over k = 1, 2, … of positive terms that eventually decrease at least geometrically, up to a term below rounding.
+fn sum_of_series(term: impl Fn(u32) -> f64) -> f64 {
     let mut sum = 0.0;
     for k in 1..=MAX_TERMS {
         let next = term(k);
@@ -148,7 +151,7 @@ fn sum(term: impl Fn(u32) -> f64) -> f64 {
 /// Bound on the number of terms (derived: the slowest decay is e^(−0.01 h) per term with h > 0.1).
 const MAX_TERMS: u32 = 100_000;
 
-/// Checks a band of frequencies and a relative error.
+/// Refuses a band of angular frequencies \[rad/s] that is empty or not positive, and a relative error outside 1e-12 to 0.1.
 pub(crate) fn validate([low, high]: [f64; 2], relative_error: f64) -> Result<(), RheologyError> {
     positive("lowest_frequency", low)?;
     positive("highest_frequency", high)?;
@@ -165,7 +168,7 @@ pub(crate) fn validate([low, high]: [f64; 2], relative_error: f64) -> Result<(),
     Ok(())
 }
 
-/// Checks that the exponent of a fractional element is neither that of a spring nor that of a dashpot.
+/// Returns the exponent of a fractional element from 0.01 to 0.99, and refuses one that is nearly that of a spring or a dashpot.
 pub(super) fn fractional_exponent(exponent: f64) -> Result<f64, InvalidParameter> {
     let is_valid = (0.01..=0.99).contains(&exponent);
     in_range("exponent", exponent, is_valid, "from 0.01 to 0.99")

@@ -91,7 +91,7 @@ impl FractionalMaxwell {
         continuous.expand(band, relative_error)
     }
 
-    /// Logarithm of the spectral density at the logarithm of a relaxation rate.
+    /// Logarithm of the spectral density H \[Pa] at the logarithm ln s of a relaxation rate \[1/s].
     fn log_density(&self, log_rate: f64) -> f64 {
         let given = self.parameters;
         // r^a + r^(−a) + 2 cos(π a) without the cancellation at r = 1, a = 1.

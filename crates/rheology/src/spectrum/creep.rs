@@ -192,7 +192,7 @@ impl RetardationElement {
     }
 }
 
-/// Langevin function ℒ(y) = coth y − 1/y for y > 0.
+/// Langevin function ℒ(y) = coth y − 1/y for y > 0, to rounding.
 fn langevin(y: f64) -> f64 {
     if y < 0.02 {
         // Power series; the next term is below rounding.

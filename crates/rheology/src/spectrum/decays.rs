@@ -9,7 +9,7 @@ use numerics::{in_range, not_negative, positive};
 /// Derived: the mean time in place of two times that differ by δ changes every response by less than δ²/8, here 1e-17.
 const MERGE_TOLERANCE: f64 = 1e-8;
 
-/// An exponential decay.
+/// An exponential decay, of a branch in relaxation or an element in creep.
 #[derive(Clone, Copy)]
 pub(super) struct Decay {
     /// Amplitude, a modulus \[Pa] or a compliance \[1/Pa].

@@ -67,7 +67,7 @@ struct Balance {
 }
 
 impl Secular<'_> {
-    /// The root between the poles `upper − 1` and `upper`.
+    /// The root between the poles of the indices `upper − 1` and `upper`, as the offset from the nearer one.
     fn root_in_gap(&self, upper: usize) -> RootPosition {
         let [below, above] = [self.poles[upper - 1], self.poles[upper]];
         let half_gap = 0.5 * (above.position - below.position);
@@ -136,7 +136,7 @@ impl Secular<'_> {
         place(distance)
     }
 
-    /// Positive and negative terms of S at a point.
+    /// Sums of the positive and of the negative terms of S at a point, with their slopes.
     fn balance(&self, place: RootPosition) -> Balance {
         let mut balance = Balance {
             up: 0.0,
@@ -159,12 +159,12 @@ impl Secular<'_> {
         balance
     }
 
-    /// Difference x − p_i without cancellation.
+    /// Difference x − p_i of a point and the pole with this index, without cancellation.
     fn above_pole(&self, place: RootPosition, pole: usize) -> f64 {
         (self.poles[place.near].position - self.poles[pole].position) + place.offset
     }
 
-    /// −1/(x S') at one of the roots, from the product over all roots and poles.
+    /// Value −1/(x S'(x)) at the root of an `index` in `places`, which holds all roots, from the product over all roots and poles.
     ///
     /// ```text
     /// S(x) = −e Π(x − x_l)/Π(x − p_l)         −S'(x_k) = e Π_{l≠k} |x_k − x_l| / Π |x_k − p_l|

@@ -11,13 +11,14 @@ use crate::fit::system::Measurement;
 /// Smallest ridge of the normal equations, relative to the trace of XᵀX (chosen: above rounding).
 const TRACE_ROUNDING: f64 = 1e-12;
 
-/// Weighted data, linearised around the series.
+/// Weighted data, linearised around the series; data are in the order of the measured numbers, moduli begin with that of the
+/// spring if there is one.
 pub(super) struct Linear {
-    /// Matrix X: derivatives of the weighted data by the relative changes of the moduli.
+    /// Matrix X, data by moduli: derivatives of the weighted data by the relative changes of the moduli.
     pub(super) columns: DMatrix<f64>,
-    /// Matrix A: derivatives of the relative changes of the moduli by the weighted data.
+    /// Matrix A, moduli by data: derivatives of the relative changes of the moduli by the weighted data.
     pub(super) gain: DMatrix<f64>,
-    /// Derivatives of the weighted data by ln ω.
+    /// Derivatives of the weighted data by ln ω, or by ln t of a relaxation with the opposite sign.
     pub(super) slopes: DVector<f64>,
     /// Weighted residuals, data less series.
     pub(super) residuals: DVector<f64>,
@@ -32,7 +33,7 @@ pub(super) fn moduli(spectrum: &RelaxationSpectrum) -> Vec<f64> {
 }
 
 impl Linear {
-    /// Linearises the weighted data around a series; `None` if the normal equations are singular.
+    /// Linearises the weighted data around a series; `None` if the normal matrix is not positive definite.
     pub(super) fn new(rows: &[Measurement], spectrum: &RelaxationSpectrum) -> Option<Self> {
         let spring = Some(spectrum.equilibrium_modulus()).filter(|modulus| *modulus > 0.0);
         let first = usize::from(spring.is_some());
@@ -52,6 +53,7 @@ impl Linear {
             row.weight * parts.sum::<f64>()
         };
         let slopes = DVector::from_iterator(rows.len(), rows.iter().map(slope));
+        // Least squares with a ridge give A = (XᵀX + λ)⁻¹ Xᵀ.
         let values = rows.iter().map(|row| row.weight * row.value);
         let residuals = DVector::from_iterator(rows.len(), values) - columns.column_sum();
         let normal = columns.tr_mul(&columns);
@@ -69,7 +71,7 @@ impl Linear {
         })
     }
 
-    /// Covariance matrix C of the relative changes of the moduli.
+    /// Covariance matrix C of the relative changes of the moduli, with all terms of the parent module.
     pub(super) fn covariance(&self, effects: &ShiftEffects, scatter: &Scatter) -> DMatrix<f64> {
         let n = self.gain.nrows();
         let unknown = DMatrix::identity(n, n) - &self.gain * &self.columns;
@@ -111,18 +113,19 @@ impl Residuals {
         Self { left, right }
     }
 
-    /// Product R M.
+    /// Product R M with a matrix M of errors of the data, one column for each.
     pub(super) fn apply(&self, errors: &DMatrix<f64>) -> DMatrix<f64> {
         errors - &self.left * (&self.right * errors)
     }
 
-    /// Product Mᵀ R.
+    /// Product Mᵀ R with a matrix M of weights of the residuals, one column for each sum.
     pub(super) fn transpose_apply(&self, weights: &DMatrix<f64>) -> DMatrix<f64> {
         weights.transpose() - weights.tr_mul(&self.left) * &self.right
     }
 
     /// Diagonal of R Rᵀ: the fraction of the variance of every number that remains in its residual.
     pub(super) fn remaining_variances(&self) -> Vec<f64> {
+        // With R = 1 − L M the diagonal is 1 − 2 (L M)_ii + (L M Mᵀ Lᵀ)_ii, without the square matrix R.
         let products = &self.left * outer_square(&self.right);
         let part = |row: usize| {
             let left = self.left.row(row);

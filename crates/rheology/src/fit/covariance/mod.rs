@@ -8,7 +8,7 @@
 //! ```
 //! - The first term is the prior of directions that the data do not determine.
 //! - Σ has the scatter of single points, separately for G' and G'', and that of a factor common to an isotherm.
-//! - B ε is the error of the shifts ln a_T of the isotherms, D their effect on the weighted data.
+//! - B ε is the error of the shifts ln a_T and ln b_T of the isotherms, D their effect on the weighted data.
 //!
 //! Two terms are added: the error of the temperature of the reference isotherm, which changes all times by one factor; and,
 //! if the isotherms leave undecided whether their moduli change with the absolute temperature, half the square of that effect.
@@ -95,6 +95,7 @@ pub(super) fn covariance(
     curve: &MeasuredCurve,
     spectrum: &RelaxationSpectrum,
 ) -> Option<ModuliCovariance> {
+    // Linearise the fit and the shifts, estimate the scatter from the residuals, and propagate it.
     let fit = Linear::new(rows, spectrum)?;
     let joined = ShiftEffects::new(&fit, rows, curve.joined.as_ref());
     let residuals = Residuals::new(&fit, &joined);

@@ -10,16 +10,18 @@ use super::outer_square;
 use super::shifts::ShiftEffects;
 use crate::fit::system::{Measurement, Quantity};
 
-/// Prior scale of the relative factor of an isotherm (chosen): geometry, clamps and gauges of one instrument.
+/// Prior scale of the relative factor of an isotherm (chosen): geometry, clamps and gauges of one instrument. It is the standard
+/// deviation as far as the isotherms do not determine it.
 pub(super) const FACTOR_SCALE: f64 = 0.01;
-/// Prior scale of the temperature error of an isotherm, \[K] (chosen).
+/// Prior scale of the temperature error of an isotherm, \[K] (chosen): the standard deviation as far as the isotherms do not
+/// determine it.
 pub(super) const TEMPERATURE_SCALE: f64 = 0.5;
 
 /// Variance components.
 pub(super) struct Scatter {
     /// Variances of the weighted errors of all numbers, enlarged for the correlation of neighbours.
     noise: DVector<f64>,
-    /// Variance of each measured quantity.
+    /// Variance of the weighted errors of single points of each measured quantity, in the order G', G'' or G(t) alone.
     quantities: Vec<f64>,
     /// Variance of the relative factor of an isotherm.
     pub(super) factor: f64,
@@ -90,6 +92,7 @@ impl Scatter {
             .column_iter()
             .map(|one| one.norm_squared())
             .collect();
+        // Subtract the factor that each isotherm has in common.
         let of_isotherms = effects.factors.column_iter().zip(&squares);
         // Sums are 0 for an isotherm all of whose points were averaged with those of others.
         let means = of_isotherms
@@ -102,6 +105,7 @@ impl Scatter {
                 .get(isotherm)
                 .map_or(0.0, |all| effects.factors[(row, isotherm)].powi(2) / all)
         };
+        // Variance and correlation of each quantity.
         for quantity in [Quantity::Storage, Quantity::Loss, Quantity::Relaxation] {
             let own: Vec<usize> = (0..rows.len())
                 .filter(|row| rows[*row].quantity == quantity)
@@ -123,7 +127,7 @@ impl Scatter {
         }
     }
 
-    /// Product M Σ^½ with the standard deviations of all numbers.
+    /// Product M Σ^½ of a matrix with one column per number and the diagonal matrix of their standard deviations.
     pub(super) fn scaled(&self, matrix: &DMatrix<f64>) -> DMatrix<f64> {
         let mut scaled = matrix.clone();
         for (mut column, variance) in scaled.column_iter_mut().zip(self.noise.iter()) {
@@ -141,7 +145,9 @@ impl Scatter {
     }
 }
 
-/// Correlation of the residuals of neighbouring points of an isotherm, at least 0.
+/// Correlation of the residuals of neighbouring points of an isotherm, from 0 to [`MAX_CORRELATION`].
+///
+/// `own` are the indices of the numbers of one quantity by increasing frequency or time.
 fn correlation(rows: &[Measurement], own: &[usize], residuals: &DVector<f64>) -> f64 {
     let mut last: Vec<Option<f64>> = Vec::new();
     let [mut products, mut squares] = [0.0; 2];
@@ -175,7 +181,9 @@ struct EffectInResiduals {
 }
 
 impl EffectInResiduals {
-    /// Sums of residuals with the weights of an effect on the weighted data, whose columns are independent.
+    /// Sums of residuals over the columns of an effect on the weighted data, one unknown error for each column.
+    ///
+    /// Their weights are those of the effect in the residuals, R times `effect`, over the variances of the noise.
     fn new(
         effect: &DMatrix<f64>,
         fit: &Linear,
@@ -201,7 +209,7 @@ impl EffectInResiduals {
         }
     }
 
-    /// Posterior mean of s² for a half-normal prior of this scale.
+    /// Posterior mean of s² for a half-normal prior of this `scale`, by the midpoint rule over s.
     fn mean_square(&self, scale: f64) -> f64 {
         let n = self.sum.len();
         let ridge = COVARIANCE_ROUNDING * (self.others.trace() + scale * scale * self.own.trace());
@@ -215,6 +223,7 @@ impl EffectInResiduals {
                     + (s / scale).powi(2)),
             )
         };
+        // Weight s² by the posterior density, relative to its maximum against underflow.
         let places = (0..INTEGRATION_POINTS)
             .map(|k| (f64::from(k) + 0.5) / f64::from(INTEGRATION_POINTS) * MAX_SCALES * scale);
         let known: Vec<[f64; 2]> = places

@@ -86,7 +86,7 @@ impl ShiftEffects {
         !self.by_temperature.is_empty()
     }
 
-    /// Standard errors of ln a and ln b of all isotherms from the scatter of points and factors.
+    /// Standard errors of ln a and ln b of all isotherms, in this order, from the scatter of points and factors.
     pub(super) fn shift_errors(&self, scatter: &Scatter) -> Vec<[f64; 2]> {
         let n = self.factors.ncols();
         let of_points = scatter.scaled(&self.shift_gain);
@@ -204,7 +204,8 @@ fn temperature_effect_on_shifts(
     shifts
 }
 
-/// Derivatives of ln a and ln b of the moved isotherm of a link by the weighted data.
+/// Derivatives of ln a and ln b of the moved isotherm of a link, relative to the fixed one, by the weighted data; 0 unless the overlap
+/// decides.
 fn pair_gain(fit: &Linear, rows: &[Measurement], link: &Link) -> [RowDVector<f64>; 2] {
     let nothing = || RowDVector::zeros(rows.len());
     let LinkedBy::Overlap {
@@ -240,7 +241,7 @@ fn pair_gain(fit: &Linear, rows: &[Measurement], link: &Link) -> [RowDVector<f64
     squares.solve(*finds_shift, *modulus_spread)
 }
 
-/// Normal equations of the residuals in the overlap of two isotherms, for ln a and ln b.
+/// Normal equations of the weighted residuals in the overlap of two isotherms, for ln a and ln b in this order.
 struct LeastSquares {
     /// Normal matrix.
     normal: Matrix2<f64>,
@@ -249,9 +250,10 @@ struct LeastSquares {
 }
 
 impl LeastSquares {
-    /// Adds the residual of a point from the line through the points of the `other` isotherm.
+    /// Adds the residual of the point `row` from the line through the points of the `other` isotherm, all of one quantity; none if
+    /// the point lies outside that line.
     ///
-    /// The weight is negative for points of the fixed isotherm.
+    /// The weight is the inverse variance of the residual, negative for points of the fixed isotherm.
     fn add(
         &mut self,
         fit: &Linear,
@@ -283,6 +285,9 @@ impl LeastSquares {
         }
     }
 
+    /// Derivatives of ln a and ln b by the weighted data; 0 for a shift that is given.
+    ///
+    /// `finds_shift` is true if ln a is fitted; `modulus_spread` is the prior standard deviation of ln b, `None` if b is given.
     fn solve(self, finds_shift: bool, modulus_spread: Option<f64>) -> [RowDVector<f64>; 2] {
         let [[squares, both], [_, moduli]] = self.normal.transpose().into();
         let [shift_by_data, modulus_by_data] = self.by_data;
@@ -315,7 +320,7 @@ struct FittedLaw {
     constants: DMatrix<f64>,
 }
 
-/// Fits the WLF law to the shifts, or a straight line if no WLF law describes them.
+/// Fits the WLF law to the shifts ln a of all isotherms about the `reference`, or a straight line if no WLF law describes them.
 fn fit_law(isotherms: &JoinedIsotherms, reference: usize) -> FittedLaw {
     // Measure temperatures and shifts from the reference isotherm.
     let [about, origin] = [

@@ -117,6 +117,7 @@ fn rises(points: &[[f64; 2]], sign: f64) -> bool {
     if points.len() < MIN_TREND_POINTS {
         return false;
     }
+    // The slope must exceed its standard error, and change the modulus noticeably over the curve.
     let slope = sign * sum(0, 1) / sum(0, 0);
     let scatter = (sum(1, 1) - slope * slope * sum(0, 0)).max(0.0) / (n - 2.0);
     let width = points[points.len() - 1][0] - points[0][0];
