@@ -33,7 +33,7 @@ pub struct ProfilePoint {
 }
 
 impl ProfilePoint {
-    /// Value beyond the end of the body.
+    /// Value beyond the end of the body, infinite in all parts.
     pub const ENDED: Self = Self {
         height: f64::INFINITY,
         slope: f64::INFINITY,
@@ -159,6 +159,7 @@ pub fn abel_slope(body: &(impl Axisymmetric + ?Sized), x: f64) -> f64 {
     if x == 0.0 {
         return apex_slope(body);
     }
+    // The smooth part, and the inverse roots behind the kinks.
     let smooth = integrate_quarter_turn(body, x, |r| moment_slope(body, r));
     let kinks = body.kinks().into_iter().filter(|kink| kink.radius < x);
     let leg = |b: f64| ((x - b) * (x + b)).sqrt();
@@ -166,7 +167,7 @@ pub fn abel_slope(body: &(impl Axisymmetric + ?Sized), x: f64) -> f64 {
     smooth + singular.sum::<f64>()
 }
 
-/// Derivative (r h')' = h' + r h'' of the moment r h'.
+/// Derivative (r h')' = h' + r h'' of the moment r h' at a radius r \[m].
 fn moment_slope(body: &(impl Axisymmetric + ?Sized), r: f64) -> f64 {
     let point = body.profile(r);
     let change = r * point.curvature;
@@ -186,7 +187,7 @@ fn apex_slope(body: &(impl Axisymmetric + ?Sized)) -> f64 {
     }
 }
 
-/// Integral ∫₀^{π/2} f(x sin φ) dφ, split at the kinks of the body.
+/// Integral ∫₀^{π/2} f(x sin φ) dφ of an integrand f of the radius \[m], split at the kinks of the body.
 fn integrate_quarter_turn(
     body: &(impl Axisymmetric + ?Sized),
     x: f64,

@@ -8,9 +8,10 @@ use crate::leading_edge::crossing;
 use crate::{Axisymmetric, EquivalentLine, IndenterError};
 use numerics::{InvalidParameter, bracketed_root, in_range, positive};
 
-/// Ratio 2^(1/8) of neighbouring radii of the search (chosen).
+/// Ratio 2^(1/8) of neighbouring radii of the search (chosen): narrower valleys of the line are missed.
 const SEARCH_STEP: f64 = 1.090_507_732_665_257_7;
-/// Number of octaves over which the line must follow its leading power to count as the apex (chosen).
+/// Number of octaves over which the line must follow its leading power to count as the apex (chosen): 12 decades, so that a power
+/// of a small region is not taken for it.
 const APEX_OCTAVES: u32 = 40;
 /// Largest relative deviation of the local exponent from the leading exponent near the apex (chosen).
 const APEX_EXPONENT_TOLERANCE: f64 = 1e-2;
@@ -71,7 +72,7 @@ struct Search<'a, P: ?Sized> {
 }
 
 impl<P: Axisymmetric + ?Sized> Search<'_, P> {
-    /// Height of the equivalent line, refused if it is NaN.
+    /// Height of the equivalent line at a position \[m], refused if it is NaN, \[m].
     fn line_height(&self, x: f64) -> Result<f64, InvalidParameter> {
         let value = self.body.line_height(x);
         let is_number = !value.is_nan();
@@ -83,7 +84,8 @@ impl<P: Axisymmetric + ?Sized> Search<'_, P> {
         )
     }
 
-    /// Radius below the contact radius inside which the line rises like its leading power.
+    /// Radius \[m] below the contact radius inside which the line rises like its leading power; refuses a depth that is exceeded at
+    /// the smallest positive radius.
     fn start_radius(&self) -> Result<f64, InvalidParameter> {
         // Halve the radius from the end of the body, its first kink or 1 m; the result does not depend on the choice.
         let first_kink = self.body.kinks().first().map(|kink| kink.radius);
@@ -114,7 +116,7 @@ impl<P: Axisymmetric + ?Sized> Search<'_, P> {
         })
     }
 
-    /// Radius of the highest point in an interval in which the line falls; `None` if it does not fall.
+    /// Radius \[m] of the highest point in an interval of radii in which the line falls; `None` if it does not fall.
     fn turning_point(&self, [inner, outer]: [f64; 2]) -> Result<Option<f64>, InvalidParameter> {
         let Some(falling) = self.falling_point([inner, outer])? else {
             return Ok(None);
@@ -134,7 +136,8 @@ impl<P: Axisymmetric + ?Sized> Search<'_, P> {
         in_range("slope of the equivalent line", turn, is_number, "a number").map(Some)
     }
 
-    /// A radius in an interval at which the line falls, by bisection while the height is lower at the outer end.
+    /// A radius \[m] in an interval at which the line falls, by bisection while the height is lower at the outer end; `None` if there
+    /// is none.
     fn falling_point(&self, [inner, outer]: [f64; 2]) -> Result<Option<f64>, InvalidParameter> {
         let [mut start, mut end] = [inner, outer];
         while !self.falls(end)? {
@@ -154,7 +157,7 @@ impl<P: Axisymmetric + ?Sized> Search<'_, P> {
         Ok(Some(end))
     }
 
-    /// Whether the slope is negative by more than rounding.
+    /// Whether the slope of the line at a radius \[m] is negative by more than rounding.
     fn falls(&self, x: f64) -> Result<bool, InvalidParameter> {
         Ok(x * self.body.line_slope(x) < -FALL_TOLERANCE * self.line_height(x)?)
     }
@@ -168,7 +171,7 @@ impl<P: Axisymmetric + ?Sized> Search<'_, P> {
         }
     }
 
-    /// Result at the end of the body: its radius for a flat punch, otherwise an error.
+    /// Result at the end of the body, at a radius \[m]: this radius for a flat punch, otherwise an error.
     fn end_of_body(&self, radius: f64) -> Result<f64, IndenterError> {
         let available = self.line_height(radius)?;
         let flat = available == 0.0 && self.body.profile_exponent() == f64::INFINITY;

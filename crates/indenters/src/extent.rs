@@ -1,10 +1,12 @@
 //! Search for the extent of the points of a surface that are lower than a given height.
 
-/// Half widths of the smallest and the largest square that is searched, in units of the height (chosen).
+/// Half widths of the smallest and the largest square that is searched, in units of the height (chosen): an end near the largest
+/// counts as infinite.
 const SEARCH_HALF_WIDTHS: [f64; 2] = [1e-9, 1e60];
-/// The search ends when no lower point lies between a square and one this many times as wide (chosen).
+/// The search ends when no lower point lies between a square and one this many times as wide (chosen): parts that are farther out
+/// are missed.
 const SEARCH_MARGIN: f64 = 1024.0;
-/// Number of intervals of a search grid along each axis (chosen).
+/// Number of intervals of a search grid along each axis (chosen): parts narrower than one of them may be missed.
 const GRID_INTERVALS: i32 = 128;
 /// Bound on the number of refined grids, each over twice the rectangle found on the previous one (chosen).
 const MAX_REFINEMENTS: usize = 40;
@@ -12,7 +14,7 @@ const MAX_REFINEMENTS: usize = 40;
 /// Ends `[[x_min, x_max], [y_min, y_max]]` of a rectangle, \[m].
 type Rectangle = [[f64; 2]; 2];
 
-/// The extent of the points that are lower than a height; see [`Surface::extent_below`](crate::Surface::extent_below).
+/// The extent \[m] of the points that are lower than a height \[m]; see [`Surface::extent_below`](crate::Surface::extent_below).
 pub(crate) fn search(height: f64, is_lower: impl Fn([f64; 2]) -> bool) -> Rectangle {
     if height.is_nan() || height <= 0.0 {
         return [[0.0; 2]; 2];
@@ -31,10 +33,12 @@ pub(crate) fn search(height: f64, is_lower: impl Fn([f64; 2]) -> bool) -> Rectan
     })
 }
 
-/// Bounding box of the lower points on grids over squares about the origin, each twice as wide as the previous one.
+/// Bounding box of the lower points on grids over squares about the origin, each twice as wide as the previous one, from the
+/// half width `first` to `last` \[m].
 fn search_squares(is_lower: impl Fn([f64; 2]) -> bool, [first, last]: [f64; 2]) -> Rectangle {
     let mut found = [[-first, first]; 2];
     let mut half_width = first;
+    // Go on while lower points were found within the margin, or none at all.
     let mut lower_at = if is_lower([0.0; 2]) { first } else { last };
     while half_width <= SEARCH_MARGIN * lower_at && half_width < last {
         let inner = bounding_box(&is_lower, [[-half_width, half_width]; 2]);
@@ -75,7 +79,7 @@ fn tighten(is_lower: impl Fn([f64; 2]) -> bool, mut rectangle: Rectangle) -> Rec
     rectangle
 }
 
-/// Bounding box of the origin and of the lower points of one grid.
+/// Bounding box of the origin and of the lower points of one grid over the rectangle `searched`.
 fn bounding_box(is_lower: impl Fn([f64; 2]) -> bool, searched: Rectangle) -> Rectangle {
     let mut inner = [[0.0_f64; 2]; 2];
     for x in grid_coordinates(searched[0]) {
@@ -90,7 +94,7 @@ fn bounding_box(is_lower: impl Fn([f64; 2]) -> bool, searched: Rectangle) -> Rec
     inner
 }
 
-/// Coordinates of the points of a search grid along one axis.
+/// Coordinates \[m] of the points of a search grid along one axis, with both ends.
 fn grid_coordinates([start, end]: [f64; 2]) -> impl Iterator<Item = f64> {
     (0..=GRID_INTERVALS).map(move |step| {
         let part = f64::from(step) / f64::from(GRID_INTERVALS);

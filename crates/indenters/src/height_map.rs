@@ -53,7 +53,7 @@ impl HeightMap {
         for height in &heights {
             finite("height", *height)?;
         }
-        let lowest = lowest(shape, &heights);
+        let lowest = lowest_node(shape, &heights);
         let base = heights[lowest[0] * shape[1] + lowest[1]];
         for height in &mut heights {
             *height = finite("height above the lowest", *height - base)?;
@@ -111,6 +111,7 @@ impl HeightMap {
 
     /// The cell along an axis that holds a coordinate \[m], and the position in the cell, from 0 to 1; `None` outside.
     fn cell(&self, axis: usize, coordinate: f64) -> Option<(usize, f64)> {
+        // Points beyond the edge by rounding count as on it.
         let node = coordinate / self.spacing[axis] + self.lowest[axis] as f64;
         let last = self.shape[axis] - 1;
         let end = last as f64;
@@ -133,7 +134,7 @@ impl HeightMap {
 }
 
 /// Row and column of the lowest height; among equal ones, of the nearest to the middle.
-fn lowest(shape: [usize; 2], heights: &[f64]) -> [usize; 2] {
+fn lowest_node(shape: [usize; 2], heights: &[f64]) -> [usize; 2] {
     let place = |index: usize| [index / shape[1], index % shape[1]];
     let from_middle = |index: usize| -> f64 {
         let node = place(index);
@@ -150,7 +151,7 @@ fn lowest(shape: [usize; 2], heights: &[f64]) -> [usize; 2] {
     place((0..heights.len()).min_by(below).unwrap_or(0))
 }
 
-/// Linear interpolation between two values.
+/// Linear interpolation between two values, at a fraction `part` of the way.
 fn interpolate([from, to]: [f64; 2], part: f64) -> f64 {
     (1.0 - part) * from + part * to
 }
@@ -178,6 +179,7 @@ impl Surface for HeightMap {
     }
 
     fn extent_below(&self, height: f64) -> [[f64; 2]; 2] {
+        // First and last row and column with a node below the height.
         let mut nodes = self.lowest.map(|index| [index, index]);
         for (index, _) in (self.heights.iter().enumerate()).filter(|(_, node)| **node <= height) {
             let node = [index / self.shape[1], index % self.shape[1]];

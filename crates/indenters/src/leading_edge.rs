@@ -12,7 +12,8 @@ use crate::table::check_min_length;
 use crate::{IndenterError, RigidLine};
 use numerics::{InvalidParameter, bracketed_root, finite, positive};
 
-/// Default number of intervals of the domain that are searched for one turning point each (chosen).
+/// Default number of intervals of the domain that are searched for one turning point each (chosen): two in one interval may be
+/// missed.
 const DEFAULT_SAMPLES: usize = 1024;
 
 /// The leading edge A of a rigid line that moves towards positive x.
@@ -51,6 +52,7 @@ impl LeadingEdge {
         if depth > available {
             return Err(IndenterError::NotHighEnough { available, depth });
         }
+        // Keep the intervals that begin below the depth, and cut the one that reaches beyond it.
         let level = self.lowest + depth;
         let mut intervals = Vec::new();
         for &[start, end] in &self.intervals {

@@ -76,7 +76,7 @@ impl<P: Axisymmetric + ?Sized> RigidLine for EquivalentLine<'_, P> {
     }
 }
 
-/// Increasing positions from end to end of the domain between which the line is monotone.
+/// Increasing positions \[m] from end to end of the domain between which the line is monotone.
 ///
 /// Searches `samples` equal intervals of the (finite) domain, split at kinks, for a change of sign of the slope. Two
 /// turning points inside one interval are missed.
@@ -109,7 +109,7 @@ fn find_breaks(line: &(impl RigidLine + ?Sized), samples: usize) -> Vec<f64> {
     breaks
 }
 
-/// The fixed positions with others between them, at most 1.5 spacings apart.
+/// The fixed positions with others between them, at most 1.5 spacings apart, \[m].
 fn stations(fixed: &[f64], spacing: f64) -> Vec<f64> {
     let mut stations = Vec::new();
     for gap in fixed.windows(2) {
@@ -133,7 +133,9 @@ fn first_nonzero(candidates: [f64; 3]) -> f64 {
     found.unwrap_or(candidates[2])
 }
 
-/// Position inside an interval without kinks at which the slope changes its sign; `None` if it does not.
+/// Position \[m] inside an interval without kinks at which the slope changes its sign; `None` if it does not.
+///
+/// If heights and slopes at the ends contradict each other, the interval is bisected; `bisections` counts them.
 fn turning_point(
     line: &(impl RigidLine + ?Sized),
     [left, right]: [f64; 2],

@@ -8,14 +8,16 @@ use numerics::{ErrorParts, Estimate, Quantity, Refined};
 
 use crate::{Control, MovingLoad, Stage};
 
-/// Weights of the remaining changes in the test for a limit cycle (chosen): friction coefficient, forces and depth of steps.
+/// Weights of the relative remaining changes in the test for a limit cycle (chosen): friction coefficient, tangential force, normal
+/// force and depth of steps. With 0.1 a single step may still change by ten times the tolerance.
 const LIMIT_CYCLE_WEIGHTS: [f64; 4] = [1.0, 0.1, 0.1, 0.1];
 /// Weight of the remaining change of the history variables in this test, like that of forces (chosen).
 const HISTORY_WEIGHT: f64 = 0.1;
 /// Number of elements along the contact on which nothing is known of the friction. On N elements its relative error is at least the cube
 /// of this number over N, which is 3 % on 6.5 elements and 0.2 % on 16 (docs/theory/transient-half-space.md, "Linear loads").
 const UNRESOLVED_CONTACT_ELEMENTS: f64 = 2.0;
-/// Approximate number of points at which a motion is reported (chosen).
+/// Approximate number of points at which a motion is reported (chosen): they have error bars of their own, and the tangential forces
+/// of a single motion control its refinement.
 const POINTS_PER_MOTION: usize = 64;
 /// Rounding error of the friction coefficient, relative to the mean slope (chosen).
 const FRICTION_ROUNDING: f64 = 1e-12;
@@ -200,7 +202,7 @@ impl MotionRecord {
         }
     }
 
-    /// Largest |F_t|/F_N of the steps.
+    /// Largest |F_t|/F_N of the steps; 0 without a normal force.
     fn peak(&self) -> f64 {
         let pressed = self.steps.iter().filter(|step| step.normal_force > 0.0);
         let frictions = pressed.map(|step| (step.tangential_force / step.normal_force).abs());
@@ -225,7 +227,7 @@ struct Station {
 pub struct MotionView<'a> {
     /// Motion of the body.
     pub load: &'a MovingLoad,
-    /// Whether the material is elastic; the slope is then the scale of the friction coefficient.
+    /// Whether the material is elastic; the mean slope is then the scale of the friction coefficient, which is 0.
     pub is_elastic: bool,
     /// Order q with which the friction and the work of a cycle are extrapolated from n/2 and n elements; `None` if they are not.
     pub extrapolation_order: Option<f64>,
@@ -285,7 +287,7 @@ impl MotionView<'_> {
         quantities
     }
 
-    /// Friction coefficient, peak friction and work.
+    /// Friction coefficient, peak friction and work of the whole motion, with the errors that are known on one resolution.
     fn motion_quantities(&self, record: &MotionRecord) -> [Quantity; MOTION_QUANTITIES] {
         // Values and scales of the record.
         let friction = record.friction();
@@ -364,6 +366,7 @@ impl MotionView<'_> {
             truncation: Some(change),
             ..ErrorParts::NONE
         };
+        // The peak changes like the tangential force, and the work like the friction and the normal force.
         let [friction, point_errors @ ..] = record.remaining_changes;
         let [tangential_force, normal_force, _] = point_errors;
         let force_scale = record.scales()[2];
@@ -395,6 +398,7 @@ impl MotionView<'_> {
         let friction = not_negative(stated[0], error[0]);
         let is_force = matches!(self.load.largest_control(), Control::NormalForce(_));
         let is_prescribed = |k: usize| (k == 1 && is_force) || (k == 2 && !is_force);
+        // Points: prescribed quantities are exact, the others have the errors of the refinement.
         let stations = self.stations().into_iter().enumerate();
         let points = stations.map(|(index, station)| {
             let prescribed = self.load.stages()[station.stage].point_at(station.part);

@@ -89,7 +89,7 @@ impl MovingLoad {
         for (index, point) in points.iter().enumerate() {
             finite("time", point.time)?;
             finite("position", point.position)?;
-            let value = checked(point.control)?;
+            let value = checked_value(point.control)?;
             let allowed = "a force at all points of a motion, or a depth at all";
             in_range(
                 "control",
@@ -136,7 +136,7 @@ impl MovingLoad {
     /// [`IndenterError::InvalidParameter`] when force or depth, stroke, frequency, or the speed that follows from them is not
     /// finite and greater than zero.
     pub fn reciprocating(control: Control, stroke: Stroke) -> Result<Self, IndenterError> {
-        positive("control", checked(control)?)?;
+        positive("control", checked_value(control)?)?;
         let half = 0.5 * positive("stroke", stroke.length)?;
         let duration = 0.5 / positive("frequency", stroke.frequency)?;
         positive("half a period", duration)?;
@@ -263,8 +263,8 @@ impl Stage {
     }
 }
 
-/// Value of a control that may be zero, or a depth of either sign; refused if it is not finite or a negative force.
-fn checked(control: Control) -> Result<f64, InvalidParameter> {
+/// Value of a force ≥ 0 \[N], or of a depth of either sign \[m]; refuses others and numbers that are not finite.
+fn checked_value(control: Control) -> Result<f64, InvalidParameter> {
     match control {
         Control::NormalForce(force) => not_negative("normal_force", force),
         Control::IndentationDepth(depth) => finite("indentation_depth", depth),

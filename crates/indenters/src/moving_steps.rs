@@ -2,15 +2,18 @@
 
 use crate::{IndenterError, MovingLoad, MovingPoint, Stage};
 
-/// Smallest number of steps of a stage per element along the contact, for stages shorter than a contact (chosen).
+/// Smallest number of steps of a stage per element along the contact, for stages shorter than a contact (chosen): time is then
+/// resolved as finely as the contact.
 const STEPS_PER_ELEMENT: f64 = 1.0;
-/// Number of steps in which the step length grows e-fold, per element along the contact (chosen).
+/// Number of steps in which the step length grows e-fold, per element along the contact (chosen): refinement of the elements
+/// refines the growth too.
 const E_FOLDING_STEPS_PER_ELEMENT: f64 = 0.125;
-/// First step of a motion, relative to the longest step of its first stage (chosen).
+/// First step of a motion, relative to the longest step of its first stage (chosen): it resolves the response to first contact.
 const FIRST_STEP_FRACTION: f64 = 1e-4;
-/// First step of a moving stage after another one, relative to its longest step (chosen).
+/// First step of a moving stage after another one, relative to its longest step (chosen): the velocity may jump between them.
 const STEP_AFTER_TURN_FRACTION: f64 = 0.02;
-/// First step of a motion that begins with a hold, relative to the longest step of the hold (chosen).
+/// First step of a motion that begins with a hold, relative to the longest step of the hold (chosen): the load is applied
+/// instantaneously, and a hold may be long.
 const FIRST_HOLD_FRACTION: f64 = 1e-6;
 
 /// One step of a motion.
@@ -80,6 +83,7 @@ impl MovingLoad {
             .iter()
             .map(|stage| min_steps(stage).ceil())
             .sum();
+        // Steps of a single motion are graded, hence more; they are counted only if the smallest number is allowed.
         if !self.is_cycle() && steps <= allowed {
             let mut previous_duration = None;
             let graded = self.stages().iter().map(|stage| {
@@ -96,7 +100,8 @@ impl MovingLoad {
     }
 }
 
-/// Smallest number of steps of a stage: its duration divided by that of its longest step.
+/// Smallest number of steps of a stage, not rounded: its duration divided by that of its longest step, on `elements` along the
+/// contact of a `spacing` \[m].
 fn min_steps(stage: &Stage, elements: usize, spacing: f64) -> f64 {
     let path_in_elements = stage.peak_to_mean_speed() * stage.distance().abs() / spacing;
     path_in_elements
@@ -104,7 +109,8 @@ fn min_steps(stage: &Stage, elements: usize, spacing: f64) -> f64 {
         .max(2.0)
 }
 
-/// Length of the first step of a stage, relative to the stage; `previous_duration` \[s] is that of the step before it.
+/// Length of the first step of a stage, relative to the stage, like that of the `longest` one; `previous_duration` \[s] is that of the
+/// step before it, `None` at the beginning of a motion.
 fn first_step_length(stage: &Stage, previous_duration: Option<f64>, longest: f64) -> f64 {
     let is_hold = stage.distance() == 0.0;
     let first = match previous_duration {
@@ -134,7 +140,7 @@ struct StagePart {
     length: f64,
 }
 
-/// Equal steps of a stage.
+/// A whole number of equal steps of a stage.
 fn equal_parts(count: f64) -> impl Iterator<Item = StagePart> {
     let length = count.recip();
     let ends = (1_u32..).map(f64::from).take_while(move |k| *k <= count);
@@ -179,7 +185,7 @@ impl Graded {
         }
     }
 
-    /// Length of an equal step.
+    /// Length of one of the equal steps, relative to the stage.
     fn equal_length(&self) -> f64 {
         self.n_equal.recip() * self.equal_total
     }

@@ -63,7 +63,7 @@ impl PiecewiseLinearProfile {
         &self.heights
     }
 
-    /// Index i of the piece whose half-open interval ]r_i, r_(i+1)] holds the radius.
+    /// Index i of the piece whose half-open interval ]r_i, r_(i+1)] holds the radius \[m]; the first piece for a radius of 0.
     fn piece_at(&self, radius: f64) -> usize {
         let inner_knots = &self.radii[1..self.radii.len() - 1];
         inner_knots.partition_point(|knot| *knot < radius)
@@ -133,6 +133,7 @@ impl Axisymmetric for PiecewiseLinearProfile {
         if x > self.max_radius() {
             return Some(LinePoint::ENDED);
         }
+        // The slope is the mean slope, with an inverse root behind each kink.
         let kinks = self.kinks.iter().take_while(|kink| kink.radius < x);
         let singular = kinks.map(|kink| kink.slope_jump * (kink.radius / leg(x, kink.radius)));
         let smooth = match x {

@@ -134,6 +134,7 @@ pub(crate) fn scaled_power(factor: f64, radius: f64, exponent: f64) -> f64 {
     if power.is_normal() {
         return factor * power;
     }
+    // Multiply by half of the power twice, because the whole one leaves the range of numbers.
     let square_root = radius.powf(0.5 * exponent);
     factor * square_root * square_root
 }

@@ -61,6 +61,7 @@ impl Axisymmetric for Sphere {
             let tanh = y.tanh();
             let step = (y * tanh - ratio) / (tanh + y * (1.0 - tanh * tanh));
             y -= step;
+            // Apply the last step to the radius, where it needs no further tanh.
             if step.abs() <= 1e-9 * y {
                 return Some(self.radius * (tanh - step * (1.0 - tanh * tanh)));
             }

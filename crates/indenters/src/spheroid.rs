@@ -12,7 +12,9 @@ use crate::{Axisymmetric, IndenterError, LinePoint, ProfilePoint, Sphere, surfac
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Spheroid {
+    /// Sphere of the radius R.
     sphere: Sphere,
+    /// Semi-axis H along z, \[m].
     height: f64,
 }
 

@@ -9,7 +9,8 @@ use std::f64::consts::PI;
 use crate::IndenterError;
 use numerics::positive;
 
-/// Argument from which the ratio of gamma functions is summed by its asymptotic series; below it Γ is far from overflow.
+/// Argument p/2 from which the ratio of gamma functions is summed by its asymptotic series, which reaches rounding there; below it
+/// Γ is far from overflow.
 const ASYMPTOTIC_FROM: f64 = 32.0;
 
 /// Stretch κ(p) of Eq. (9), for any exponent p > 0.

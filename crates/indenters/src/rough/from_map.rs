@@ -29,7 +29,8 @@ impl PeriodicSurface {
         )?;
         let ([rows, columns], spacing) = (map.shape(), map.spacing());
         let period = [rows as f64 * spacing[0], columns as f64 * spacing[1]];
-        let spectrum = spectrum(map);
+        let spectrum = transform(map);
+        // Collect one wave for each pair ±(m, n) that the map resolves.
         let mut waves = Vec::new();
         for (n, column) in spectrum.chunks_exact(rows).enumerate() {
             for (row, coefficient) in column.iter().enumerate() {
@@ -67,8 +68,10 @@ impl PeriodicSurface {
     }
 }
 
-/// Discrete Fourier transform Σ h e^(−i(…)) with n ≥ 0 along y, stored column by column.
-fn spectrum(map: &HeightMap) -> Vec<Complex<f64>> {
+/// Discrete Fourier transform Σ h_jk e^(−2πi (m j/rows + n k/columns)) of the heights \[m], not normalised, for 0 ≤ n ≤ columns/2.
+///
+/// It is stored by n, with the `rows` numbers m of each n next to each other; m above rows/2 stands for m − rows.
+fn transform(map: &HeightMap) -> Vec<Complex<f64>> {
     let [rows, columns] = map.shape();
     // Transforms along y, then along x.
     let along_y = f64::real_forward(columns);

@@ -195,7 +195,8 @@ impl PeriodicSurface {
     }
 }
 
-/// Adds a wave to the columns of a spectrum; the inverse transform is not normalised.
+/// Adds half the amplitude of a wave at ±(m, n) to a spectrum with n ≥ 0, stored by n with `rows` numbers m of each; the inverse
+/// transform is not normalised.
 fn add_wave(wave: &Wave, spectrum: &mut [Complex<f64>], rows: usize) {
     let half = Complex::from_polar(0.5 * wave.amplitude, wave.phase);
     let [m, n] = wave.numbers;

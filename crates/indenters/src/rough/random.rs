@@ -25,7 +25,8 @@ pub(super) struct RandomWaves {
 const MAX_WAVES_PER_PERIOD: u16 = 1 << 15;
 
 impl RandomWaves {
-    /// The surface of waves whose amplitudes have the root mean square √2 `amplitude` \[m], a function of 1/λ.
+    /// The surface of all waves in the range, whose amplitudes have the root mean square √2 `amplitude` \[m], a function of 1/λ
+    /// \[1/m].
     ///
     /// # Errors
     /// [`IndenterError::InvalidParameter`] for numbers out of range, and if the periods have no wave in the range.
@@ -68,7 +69,8 @@ impl RandomWaves {
         is_in_range.then_some(inverse)
     }
 
-    /// Draws amplitude and phase of a wave.
+    /// Draws amplitude and phase of the wave of two numbers m and n: the modulus of a complex Gaussian number times `amplitude` \[m],
+    /// and its angle.
     fn draw(&self, numbers: [i32; 2], amplitude: f64) -> Wave {
         let mut generator = ChaCha8Rng::seed_from_u64(self.seed);
         // Each wave vector has its own stream.

@@ -51,6 +51,7 @@ impl Roughness {
         check_min_length(3, "heights along y", map.shape()[1])?;
         let surface = PeriodicSurface::from_map(map, 0.0)?;
         check_lengths(map)?;
+        // Mean squares of slopes and curvatures, then moments of the heights.
         let [along_x, along_y, laplacian] = if repeats {
             mean_squares_of_waves(&surface)
         } else {
@@ -102,7 +103,7 @@ pub(super) fn check_lengths(map: &HeightMap) -> Result<(), IndenterError> {
     Ok(())
 }
 
-/// Mean squares of ∂z/∂x, ∂z/∂y and ∇²z of a sum of waves.
+/// Mean squares of ∂z/∂x, ∂z/∂y and ∇²z \[1/m²] of a sum of waves, in this order.
 fn mean_squares_of_waves(surface: &PeriodicSurface) -> [f64; 3] {
     let mut squares = [0.0; 3];
     for wave in surface.waves() {
@@ -115,7 +116,7 @@ fn mean_squares_of_waves(surface: &PeriodicSurface) -> [f64; 3] {
     squares
 }
 
-/// Mean squares of ∂z/∂x, ∂z/∂y and ∇²z by differences of neighbouring heights.
+/// Mean squares of ∂z/∂x, ∂z/∂y and ∇²z \[1/m²] by differences of neighbouring heights, in this order.
 fn mean_squares_of_differences(map: &HeightMap) -> [f64; 3] {
     let ([rows, columns], [dx, dy]) = (map.shape(), map.spacing());
     let mean = |rows: usize, columns: usize, value: &dyn Fn(usize) -> f64| {
@@ -123,6 +124,7 @@ fn mean_squares_of_differences(map: &HeightMap) -> [f64; 3] {
         let squares = places.map(|[row, column]| value(row * map.shape()[1] + column).powi(2));
         squares.sum::<f64>() / (rows * columns) as f64
     };
+    // Differences between a height and the one `next` places later: 1 along y, a row along x.
     let heights = map.heights();
     let step = |at: usize, next: usize| heights[at + next] - heights[at];
     let second_difference = |at: usize, next: usize| step(at + next, next) - step(at, next);

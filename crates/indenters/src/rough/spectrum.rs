@@ -92,7 +92,8 @@ fn apply_hann_window(map: &HeightMap) -> Result<HeightMap, IndenterError> {
     HeightMap::new(map.shape(), map.spacing(), heights.collect())
 }
 
-/// Radial average over rings as wide as the larger Δq; wave vectors without a wave count with the density 0.
+/// Radial average over rings as wide as the larger Δq; wave vectors without a wave count with the density 0. `shape` is that of
+/// the map, whose wave vectors the rings hold.
 fn radial_average(surface: &PeriodicSurface, shape: [usize; 2]) -> Vec<Ring> {
     let [x, y] = wave_vector_steps(surface);
     let width = x.max(y);
@@ -139,7 +140,8 @@ struct RingSum {
     density: f64,
 }
 
-/// Spectrum of the profiles along an axis: the density integrated over the other axis, by wave number from 0 on.
+/// Spectrum of the profiles along an axis, pairs of a wave number \[1/m] from 0 on and a density \[m³]: the density of the surface
+/// integrated over the other axis. `count` is the number of heights along the axis.
 fn profile_spectrum(surface: &PeriodicSurface, axis: usize, count: usize) -> Vec<[f64; 2]> {
     let step = wave_vector_steps(surface);
     let mut spectrum: Vec<[f64; 2]> = (0..count.div_ceil(2))

@@ -77,6 +77,7 @@ impl TabulatedSpectrum {
     pub fn rms_slope(&self) -> f64 {
         let between = self.wave_numbers.windows(2).zip(self.densities.windows(2));
         let squares = between.map(|(q, c)| {
+            // Next to a row without waves C is linear in q: ∫ q³ C dq is a polynomial.
             if c.contains(&0.0) {
                 let slope = (c[1] - c[0]) / (q[1] - q[0]);
                 let powers =
@@ -105,6 +106,7 @@ impl TabulatedSpectrum {
             .clamp(1, last);
         let from = to - 1;
         let [below, above] = [self.densities[from], self.densities[to]];
+        // Linear in q next to a row without waves, otherwise a power of q.
         if below == 0.0 || above == 0.0 {
             let width = self.wave_numbers[to] - self.wave_numbers[from];
             let part = (wave_number - self.wave_numbers[from]) / width;

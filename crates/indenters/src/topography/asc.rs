@@ -36,7 +36,7 @@ pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, Topogr
         head.required(&["cellsize", "dx"])?,
         head.required(&["cellsize", "dy"])?,
     ];
-    let missing = head.number("nodata_value").unwrap_or(DEFAULT_MISSING);
+    let missing = head.number_of("nodata_value").unwrap_or(DEFAULT_MISSING);
     // Read the heights.
     let mut heights = Vec::new();
     let mut lengths = Vec::new();
@@ -85,14 +85,14 @@ fn format_error(line: usize, found: &str) -> TopographyError {
     TopographyError::Line { line, problem }
 }
 
-/// Whether a height is the marker of missing heights.
+/// Whether a height is the `marker` of missing heights, or beyond [`MAX_ABS_HEIGHT`] as the marker is.
 fn is_missing(height: f64, marker: f64) -> bool {
     let is_same = height.to_bits() == marker.to_bits();
     let is_huge = |number: f64| number.abs() > MAX_ABS_HEIGHT;
     is_same || (is_huge(height) && is_huge(marker) && height.signum() == marker.signum())
 }
 
-/// Checks the numbers of heights in the lines against `ncols` and `nrows`.
+/// Checks the `lengths`, pairs of a line number and the number of heights in it, against `ncols` and `nrows`.
 ///
 /// A row may continue in the next line. Refused are lines longer than `ncols`, and lines of equal length that does not divide
 /// `ncols` or equals `nrows`, as in a file in which the two were exchanged.
@@ -158,14 +158,15 @@ impl Head {
         Ok(Self { known, lines })
     }
 
-    fn number(&self, name: &str) -> Option<f64> {
+    /// The number behind a name; `None` if the header does not have it.
+    fn number_of(&self, name: &str) -> Option<f64> {
         let found = self.known.iter().find(|(known, _)| known == name);
         found.map(|(_, number)| *number)
     }
 
     /// The number of the first of the `names` that the header has.
     fn required(&self, names: &[&str]) -> Result<f64, TopographyError> {
-        let found = names.iter().find_map(|name| self.number(name));
+        let found = names.iter().find_map(|name| self.number_of(name));
         found.ok_or_else(|| format_error(1, &format!("no {}", names[0])))
     }
 }

@@ -4,7 +4,8 @@ use super::memory::Memory;
 use super::text::text_of;
 use super::{LateralUnit, ReadFailure, Topography, metres};
 
-/// Bound on the length of the text header of a Gwyddion Simple Field, \[bytes] (chosen).
+/// Bound on the length of the text header of a Gwyddion Simple Field, \[bytes] (chosen): a file without the zero that ends it is
+/// refused without a search through all of it.
 const MAX_HEADER_BYTES: usize = 1 << 16;
 
 /// Reads a Gwyddion Simple Field: a text header, one to four zeros, and f32 row by row
@@ -66,6 +67,7 @@ fn unit_of(text: &str) -> Result<Option<f64>, String> {
     known.map(Some)
 }
 
+/// Source of the unit of the spacing: the file if it states a unit of x and y.
 fn lateral_unit(unit: Option<f64>) -> LateralUnit {
     unit.map_or(LateralUnit::Unstated, |_| LateralUnit::Stated)
 }

@@ -1,16 +1,23 @@
 //! Detection of the format of a file, by its signature and its extension.
 
-/// Formats of heights.
+/// Formats of files of heights that are read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Format {
+    /// Esri's ASCII grid.
     Asc,
+    /// Gwyddion Simple Field.
     Gsf,
+    /// Array of NumPy.
     Npy,
+    /// ISO 25178-71, or the older BCR.
     Sdf,
+    /// Digital Surf.
     Sur,
+    /// ISO 25178-72.
     X3p,
+    /// Text of x, y and z in each line.
     Xyz,
-    /// One line of heights for each y.
+    /// Text of one line of heights for each y.
     Text,
 }
 
@@ -91,7 +98,7 @@ const BYTES_PER_CONTROL: usize = 50;
 const MAX_STRAY_CONTROLS: usize = 6;
 
 impl Format {
-    /// The format of the contents of a file.
+    /// The format of the contents of a file with an `extension` in lower case.
     ///
     /// # Errors
     /// A description of contents in none of the formats.

@@ -2,11 +2,13 @@
 
 use numerics::whole_part;
 
-/// Largest deviation of an exact coordinate from its node, relative to the spacing (chosen).
+/// Largest deviation of an exact coordinate from its node, relative to the spacing (chosen): more is tried as rounding of the
+/// written digits.
 const EXACT_TOLERANCE: f64 = 0.01;
 /// Largest deviation of a rounded coordinate from its node, relative to the spacing (chosen; a gap makes it 0.5).
 const MAX_ROUNDING_TOLERANCE: f64 = 0.3;
-/// Distance within which two coordinates are equal, relative to the range of all (chosen).
+/// Distance within which two coordinates are equal, relative to the range of all (chosen): a grid has at most a million nodes along
+/// an axis.
 const DUPLICATE_TOLERANCE: f64 = 1e-6;
 
 /// Equally spaced coordinates.
@@ -73,7 +75,7 @@ impl Axis {
         found.ok_or_else(|| Self::irregular(&values, range))
     }
 
-    /// Whether all coordinates, which are different, lie on different nodes.
+    /// Whether all coordinates, which are different and increase, lie on different nodes.
     fn has_distinct_nodes(&self, values: &[f64]) -> bool {
         let nodes: Option<Vec<usize>> = values.iter().map(|value| self.node(*value)).collect();
         nodes.is_some_and(|nodes| nodes.windows(2).all(|pair| pair[0] < pair[1]))
@@ -102,7 +104,7 @@ impl Axis {
     }
 }
 
-/// Number of significant digits of a number in a text.
+/// Number of significant digits of a number in a text: those of its mantissa without leading zeros.
 #[cfg(any(test, feature = "topography"))]
 pub(super) fn significant_digits(cell: &str) -> i32 {
     let (mantissa, _) = cell.split_once(['e', 'E']).unwrap_or((cell, ""));

@@ -91,12 +91,13 @@ impl Stated {
     }
 }
 
-/// Text after a colon or an equals sign.
+/// Text after the first colon or equals sign of a line, without blanks around it; `None` without such a sign.
 fn value_text(line: &str) -> Option<&str> {
     let (_, value_text) = line.split_once([':', '='])?;
     Some(value_text.trim())
 }
 
+/// Length \[m] and spelling of a unit; `None` if it is no unit of length.
 fn known_unit(unit: &str) -> Option<(f64, String)> {
     metres(unit).map(|length| (length, unit.to_owned()))
 }
@@ -106,9 +107,10 @@ fn is_size(line: &str) -> bool {
     value_text(line).is_some_and(|value_text| value_text.replace(',', ".").parse::<f64>().is_ok())
 }
 
-/// The quantity of a stated unit.
+/// The quantities to which a stated unit belongs.
 #[derive(Clone, Copy, PartialEq)]
 enum StatedQuantity {
+    /// Heights only.
     Heights,
     /// Heights and x and y: the line names no quantity.
     Everything,
@@ -118,6 +120,7 @@ enum StatedQuantity {
 fn stated_unit(line: &str) -> Option<(StatedQuantity, &str)> {
     let (key, unit) = line.split_once([':', '='])?;
     let key = key.to_lowercase();
+    // The key has the word unit, alone or with a name of the heights, and no name of x or y.
     let words = key.split(|letter: char| !letter.is_alphanumeric());
     let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
     let has = |names: &[&str]| words.iter().any(|word| names.contains(word));
@@ -142,6 +145,7 @@ fn units_of_columns(line: &str) -> [Option<&str>; 3] {
 
 /// The unit after a word, in brackets or after a slash or an underscore.
 fn unit_behind<'a>(line: &'a str, name: &str) -> Option<&'a str> {
+    // Find the name as a whole word, and take the unit in brackets, or after a slash or an underscore.
     let mut start = 0;
     while let Some(word) = line[start..].find(char::is_alphanumeric) {
         let begin = start + word;

@@ -9,7 +9,8 @@ use super::{FORMATS, LateralUnit, Memory, Topography, TopographyError};
 const SPACING_TOLERANCE: f64 = 0.01;
 /// Largest deviation of a rounded label from equal spacing, relative to the spacing (chosen).
 const ROUNDED_LABEL_TOLERANCE: f64 = 0.3;
-/// Number of labels from which they may be rounded (chosen).
+/// Number of labels from which they may be rounded (chosen): of fewer numbers some are equally spaced within the larger tolerance by
+/// chance.
 const MIN_ROUNDED_LABELS: usize = 8;
 /// Largest deviation of fewer labels from equal spacing, relative to the spacing (chosen).
 const EXACT_LABEL_TOLERANCE: f64 = 1e-6;
@@ -27,7 +28,7 @@ pub(super) fn read(
     memory.require_text(contents)?;
     let text = text_of(contents);
     let sheet = Sheet::of(&text)?;
-    let found = rows(&text, &sheet, spacing);
+    let found = read_rows(&text, &sheet, spacing);
     found.map_err(|error| match error {
         // Skipped lines above the rows suggest another format.
         TopographyError::Line { line, problem } if sheet.skipped().is_some() => {
@@ -38,8 +39,8 @@ pub(super) fn read(
     })
 }
 
-/// Reads the rows of a sheet.
-fn rows(
+/// Reads the rows of a sheet as heights, with a `spacing` along x and y \[m] that is given, or stated in the lines above them.
+fn read_rows(
     text: &str,
     sheet: &Sheet<'_>,
     spacing: Option<[f64; 2]>,
@@ -163,6 +164,7 @@ fn first_is_label(lines: &[Vec<f64>]) -> bool {
     let [first, second, others @ ..] = lines else {
         return false;
     };
+    // Compare other lines, because all lines of a tilted surface are equally spaced.
     let is_last = others.last().is_some_and(|last| is_equally_spaced(last));
     let n_equally_spaced = others.iter().filter(|line| is_equally_spaced(line)).count();
     is_equally_spaced(first)
@@ -171,7 +173,7 @@ fn first_is_label(lines: &[Vec<f64>]) -> bool {
         && 2 * n_equally_spaced <= others.len()
 }
 
-/// Whether numbers increase or decrease in equal steps.
+/// Whether numbers increase or decrease in equal steps, within the tolerance of labels; false for fewer than [`MIN_LABELS`].
 fn is_equally_spaced(numbers: &[f64]) -> bool {
     let n = numbers.len();
     if n < MIN_LABELS {
@@ -199,6 +201,7 @@ fn is_list_of_points(rows: &[&[f64]], columns: usize) -> bool {
     if !(3..=MAX_POINT_COLUMNS).contains(&columns) || rows.len() < MIN_LABELS {
         return false;
     }
+    // Coordinates are those of points if the grid that they span is mostly occupied.
     let axes = [0, 1].map(|axis| {
         let values: Vec<f64> = rows.iter().map(|row| row[axis]).collect();
         let are_known = values.iter().all(|value| value.is_finite());

@@ -350,6 +350,7 @@ fn read_measured(
     })
 }
 
+/// Refuses a file of a measuring instrument, whose readers are not compiled without the feature `topography`.
 #[cfg(not(feature = "topography"))]
 fn read_measured(format: Format, _: &[u8], _: Memory) -> Result<Topography, TopographyError> {
     let found = format!("a file in the format {format:?}");
@@ -358,6 +359,7 @@ fn read_measured(format: Format, _: &[u8], _: Memory) -> Result<Topography, Topo
 }
 
 impl TopographyError {
+    /// The error for a file that does not state its spacing, if none is given.
     fn without_spacing() -> Self {
         let problem = "the distances of neighbouring heights along x and y are needed".to_owned();
         Self::Spacing { problem }

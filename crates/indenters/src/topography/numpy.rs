@@ -5,7 +5,9 @@ use super::{ReadFailure, Topography};
 
 /// Signature of the format.
 const MAGIC: &[u8] = b"\x93NUMPY";
+/// Length of a number of the type `<f4`, \[bytes].
 const F32_BYTES: usize = size_of::<f32>();
+/// Length of a number of the type `<f8`, \[bytes].
 const F64_BYTES: usize = size_of::<f64>();
 
 /// Reads little-endian floats of the shape (n_y, n_x), in which NaN is a missing height.
@@ -18,7 +20,7 @@ pub(super) fn read(
     let (header, numbers) = split_header(contents)?;
     let size = size_of_number(header)?;
     let by_column = is_by_column(header)?;
-    let shape @ [rows, columns] = shape(header)?;
+    let shape @ [rows, columns] = shape_of(header)?;
     let count = rows.checked_mul(columns);
     if count.and_then(|count| count.checked_mul(size)) != Some(numbers.len()) {
         let bytes = numbers.len();
@@ -63,12 +65,12 @@ fn split_header(bytes: &[u8]) -> Result<(&str, &[u8]), String> {
     Ok((header, &bytes[needed..]))
 }
 
-/// Message for a header without an entry of NumPy.
+/// Message for a header without an entry of NumPy, which `what` describes.
 fn without(what: &str) -> String {
     format!("the header does not say {what}")
 }
 
-/// The rest of the header from the value of a key on.
+/// The rest of the header from the value of a key on, as `'<f8', …` for `'descr'`; `None` without the key.
 fn value_of<'a>(header: &'a str, key: &str) -> Option<&'a str> {
     let (_, value) = header.split_once(key)?;
     Some(value.trim_start().strip_prefix(':')?.trim_start())
@@ -103,8 +105,8 @@ fn is_by_column(header: &str) -> Result<bool, String> {
     }
 }
 
-/// The two lengths of the array; fails for another number of dimensions.
-fn shape(header: &str) -> Result<[usize; 2], String> {
+/// The numbers of rows and columns of the array; fails for another number of dimensions.
+fn shape_of(header: &str) -> Result<[usize; 2], String> {
     let lengths = || {
         let tuple = value_of(header, "'shape'")?.strip_prefix('(')?;
         let (tuple, _) = tuple.split_once(')')?;

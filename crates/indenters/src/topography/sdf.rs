@@ -11,25 +11,33 @@ const VERSION_BYTES: usize = 8;
 /// Length of manufacturer and dates after the version, \[bytes].
 const MANUFACTURER_AND_DATES_BYTES: usize = 34;
 
-/// The header of a file.
+/// The entries of the header of a file that are used.
 struct Head {
+    /// Number of points along x.
     columns: usize,
+    /// Number of profiles, one for each y.
     rows: usize,
     /// Distances of points along x and y, and unit of the heights, \[m].
     scales: [f64; 3],
+    /// Number format of the heights.
     data_type: DataType,
 }
 
 /// Number format of a height; integers with their length in bytes.
 #[derive(Clone, Copy, PartialEq)]
 enum DataType {
+    /// Integer without a sign.
     Unsigned(usize),
+    /// Integer in two's complement.
     Signed(usize),
+    /// Number of 32 bits (IEEE 754).
     Single,
+    /// Number of 64 bits (IEEE 754).
     Double,
 }
 
 impl DataType {
+    /// The format of a code in the header, the entry `DataType`.
     fn of(number: i64) -> Result<Self, String> {
         Ok(match number {
             0 => Self::Unsigned(1),
@@ -44,6 +52,7 @@ impl DataType {
         })
     }
 
+    /// Length of a number, \[bytes].
     const fn bytes(self) -> usize {
         match self {
             Self::Unsigned(bytes) | Self::Signed(bytes) => bytes,
@@ -64,6 +73,7 @@ impl DataType {
 
     /// The number in little-endian bytes; NaN if it is missing.
     fn number(self, bytes: &[u8]) -> f64 {
+        // Assemble the bytes, the lowest first; shifts to the top and back extend the sign.
         let whole = bytes
             .iter()
             .rev()
@@ -80,6 +90,7 @@ impl DataType {
         self.nan_if_missing(number)
     }
 
+    /// The number, or NaN if it is at most the marker of missing heights.
     fn nan_if_missing(self, number: f64) -> f64 {
         if self.missing().is_some_and(|missing| number <= missing) {
             f64::NAN
@@ -110,6 +121,7 @@ impl Head {
         Ok(self)
     }
 
+    /// The surface with heights row by row, in the unit of the header.
     fn surface(self, heights: Vec<f64>) -> Topography {
         let [x, y, z] = self.scales;
         let mut surface = Topography::of_rows([self.rows, self.columns], [x, y], heights).scaled(z);
@@ -118,6 +130,7 @@ impl Head {
     }
 }
 
+/// Reads a text, which begins with `a`, or a binary file, which begins with `b`.
 pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, ReadFailure> {
     match contents.first() {
         Some(b'a') => {
@@ -127,6 +140,7 @@ pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, ReadFa
         Some(b'b') => {}
         _ => return Err("another beginning".to_owned().into()),
     }
+    // Check the length, and split the heights from what follows them.
     let (head, rest) = binary_head(contents)?;
     let points = head.columns.checked_mul(head.rows);
     let needed = points.and_then(|points| points.checked_mul(head.data_type.bytes()));
@@ -149,6 +163,7 @@ pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, ReadFa
 
 /// Splits binary contents into the header and the bytes after it.
 fn binary_head(contents: &[u8]) -> Result<(Head, &[u8]), String> {
+    // The fields have no names: their order is fixed.
     let mut rest = contents
         .get(VERSION_BYTES + MANUFACTURER_AND_DATES_BYTES..)
         .ok_or("the end within the header")?;
@@ -188,6 +203,7 @@ fn binary_head(contents: &[u8]) -> Result<(Head, &[u8]), String> {
 
 /// Reads a text: a header of names and values, and heights between two stars, any number in a line.
 fn read_text(text: &str) -> Result<Topography, String> {
+    // Stars separate the header, the heights and the rest.
     let mut parts = text.split('*');
     let parts = parts.next().zip(parts.next());
     let (names, data) = parts.ok_or("no '*' behind the header")?;
@@ -203,6 +219,7 @@ fn read_text(text: &str) -> Result<Topography, String> {
         data_type: DataType::of(names.parsed("DataType")?)?,
     };
     let head = head.validated(names.parsed("Compression")?, names.parsed("CheckType")?)?;
+    // Read the heights, and check their number.
     let height = |word: &str| {
         if word.eq_ignore_ascii_case("bad") || word.eq_ignore_ascii_case("nan") {
             return Ok(f64::NAN);
@@ -230,6 +247,7 @@ fn read_text(text: &str) -> Result<Topography, String> {
 struct Entries<'a>(&'a str);
 
 impl Entries<'_> {
+    /// The number behind a name, of which capitals do not matter; fails without it.
     fn parsed<N: FromStr>(&self, name: &str) -> Result<N, String> {
         let mut pairs = self.0.lines().filter_map(|line| line.split_once('='));
         let found = pairs.find(|(key, _)| key.trim().eq_ignore_ascii_case(name));

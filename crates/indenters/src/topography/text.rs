@@ -2,12 +2,12 @@
 
 use super::{FORMATS, TopographyError};
 
-/// Words for a missing height, besides an empty cell and NaN.
+/// Words for a missing height in lower case, besides an empty cell and NaN: those of spreadsheets, languages and instruments.
 const MISSING_WORDS: [&str; 16] = [
     "na", "n/a", "#n/a", "#nv", "<na>", "null", "none", "bad", "-", "--", "---", "***", "nodata",
     "1.#qnan", "-1.#ind", "nan(ind)",
 ];
-/// Length of the beginning of a text from which the separator is found, \[bytes] (chosen).
+/// Length of the beginning of a text from which the separator is found, \[bytes] (chosen): a limit of the time.
 const SAMPLED_BYTES: usize = 1 << 20;
 /// Error values of spreadsheets, which begin with `#` and are no comments.
 const FAILED_FORMULAS: [&str; 8] = ["N/A", "NV", "DIV", "VALUE", "WERT", "NUM", "REF", "NAME"];
@@ -15,6 +15,7 @@ const FAILED_FORMULAS: [&str; 8] = ["N/A", "NV", "DIV", "VALUE", "WERT", "NUM", 
 /// Separator of the cells and number of cells in a row.
 #[derive(Clone, Copy)]
 pub(super) struct Notation {
+    /// Separator of the cells; a blank stands for any number of blanks and tabs.
     separator: char,
     /// Number of cells in a row.
     width: usize,
@@ -46,6 +47,7 @@ impl Notation {
 
     /// Largest number of lines with equally many numbers, and the number of numbers in each.
     fn count_rows(self, sample: &[&str]) -> (usize, usize) {
+        // Count the lines of numbers by their numbers of cells; of equal counts the longer line wins.
         let mut counts = std::collections::BTreeMap::new();
         for line in sample {
             let cells = self.cells(line);
@@ -58,6 +60,7 @@ impl Notation {
         most.unwrap_or((0, 0))
     }
 
+    /// The cells of a line without quotation marks; a separator between quotation marks, unless it is a blank, is a part of the cell.
     pub(super) fn cells<'a>(&self, line: &'a str) -> Vec<&'a str> {
         if self.separator == ' ' {
             let cells = line.split([' ', '\t']).map(unquoted);
@@ -71,8 +74,9 @@ impl Notation {
         cells.map(unquoted).collect()
     }
 
-    /// A finite number with a decimal point, or with a decimal comma if the separator is not a comma.
+    /// A finite number with a decimal point, or with a decimal comma if the separator is not a comma; `None` if the cell is none.
     pub(super) fn number(&self, cell: &str) -> Option<f64> {
+        // One mark at most: two are those of thousands, or of a comma that separates cells.
         let marks = cell.bytes().filter(|byte| b".,".contains(byte)).count();
         if marks > 1 || (self.separator == ',' && cell.contains(',')) {
             return None;
@@ -92,7 +96,7 @@ impl Notation {
         number.is_finite().then_some(number)
     }
 
-    /// A finite height, or NaN for a missing one.
+    /// A finite height, or NaN for a missing one; `None` if the cell is neither.
     pub(super) fn height(&self, cell: &str) -> Option<f64> {
         let is_missing = || {
             cell.is_empty()
@@ -130,12 +134,14 @@ fn parse_foreign(cell: &str) -> Option<f64> {
     cell.replace('−', "-").replace(['D', 'd'], "e").parse().ok()
 }
 
+/// A cell without blanks and quotation marks around it.
 fn unquoted(cell: &str) -> &str {
     cell.trim().trim_matches('"').trim()
 }
 
 /// The rows of a text and the lines above them.
 pub(super) struct Sheet<'a> {
+    /// Separator and number of the cells of a row.
     pub(super) notation: Notation,
     /// Rows of numbers with their line numbers, which count from 1.
     pub(super) rows: Vec<(usize, &'a str)>,
@@ -250,24 +256,26 @@ struct DigitCounts<'a> {
     others: Option<[usize; 2]>,
     /// Whether the numbers before the last one differ in these counts.
     differ: bool,
+    /// The last number so far.
     last: Option<&'a str>,
 }
 
 impl<'a> DigitCounts<'a> {
+    /// Counts the numbers of a row, after which the last one of the row is the last number.
     fn record(&mut self, cells: &[&'a str]) {
         for cell in cells
             .iter()
             .filter(|cell| cell.starts_with(|first: char| !first.is_alphabetic()))
         {
             if let Some(before) = self.last.replace(cell) {
-                let before = Self::of(before);
+                let before = Self::of_number(before);
                 self.differ |= *self.others.get_or_insert(before) != before;
             }
         }
     }
 
-    /// Numbers of decimals and of characters of the exponent.
-    fn of(cell: &str) -> [usize; 2] {
+    /// Numbers of decimals and of characters of the exponent of a number.
+    fn of_number(cell: &str) -> [usize; 2] {
         let (mantissa, exponent) = cell.split_once(['e', 'E']).unwrap_or((cell, ""));
         let decimals = mantissa
             .split_once(['.', ','])
@@ -278,7 +286,7 @@ impl<'a> DigitCounts<'a> {
     /// Message if the last number has fewer digits than all others, which agree.
     fn truncated_end(&self) -> Option<String> {
         let (last, others) = (self.last?, self.others?);
-        let is_shorter = Self::of(last)
+        let is_shorter = Self::of_number(last)
             .iter()
             .zip(others)
             .any(|(last, other)| *last < other);
@@ -386,6 +394,7 @@ pub(super) fn text_of(contents: &[u8]) -> String {
 
 /// Decodes UTF-16 if there is a byte-order mark or if ASCII letters have zero bytes, then UTF-8, else Latin-1.
 fn decode(contents: &[u8]) -> String {
+    // In UTF-16 every other byte of ASCII letters is zero: which one says the order of the bytes.
     let is_zero = |at: usize| contents.get(at) == Some(&0) && contents.get(at + 2) == Some(&0);
     let is_big_endian = contents.starts_with(b"\xfe\xff") || (is_zero(0) && !is_zero(1));
     if is_big_endian || contents.starts_with(b"\xff\xfe") || is_zero(1) {

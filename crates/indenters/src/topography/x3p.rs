@@ -9,7 +9,7 @@ use zip::ZipArchive;
 use super::memory::Memory;
 use super::{ReadFailure, Topography};
 
-/// Bound on the length of the description, \[bytes] (chosen).
+/// Bound on the length of the description, \[bytes] (chosen): a small archive may expand to any length.
 const MAX_DESCRIPTION_BYTES: u64 = 1 << 20;
 /// Bound on the number of attributes in the description (chosen), because the parser compares each with all others.
 const MAX_ATTRIBUTES: usize = 4096;
@@ -71,6 +71,7 @@ pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, ReadFa
     })
 }
 
+/// Zip archive in memory.
 type Archive<'a> = ZipArchive<Cursor<&'a [u8]>>;
 
 /// Opens the archive; fails for one of too many parts.
@@ -114,6 +115,7 @@ impl Description<'_> {
         inner.and_then(|node| node.text()).map_or("", str::trim)
     }
 
+    /// The number in the element at a path of names; fails without it.
     fn number<N: FromStr>(&self, path: &str) -> Result<N, String> {
         let text = self.text(path);
         text.parse().map_err(|_| format!("{path} '{text:.40}'"))

@@ -5,7 +5,7 @@ use super::header::Stated;
 use super::text::{Sheet, text_of};
 use super::{LateralUnit, Memory, Topography, TopographyError};
 
-/// x and y, and z.
+/// Coordinates x and y of a point, and its height z, in the units of the file.
 type Point = ([f64; 2], f64);
 
 /// Reads a list of points x, y and z on a grid of equal spacing.
@@ -24,7 +24,7 @@ pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, Topogr
     }
     // Find the grid of the points.
     let stated = Stated::of(&sheet.head)?;
-    let (points, digits) = points(&sheet)?;
+    let (points, digits) = read_points(&sheet)?;
     let axis = |which: usize, name: &str| {
         let values = points.iter().map(|(element, _)| element[which]).collect();
         let axis = Axis::of(values, digits[which]);
@@ -55,7 +55,7 @@ pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, Topogr
 }
 
 /// Points of all lines, and the largest numbers of significant digits of x and of y.
-fn points(sheet: &Sheet<'_>) -> Result<(Vec<Point>, [i32; 2]), TopographyError> {
+fn read_points(sheet: &Sheet<'_>) -> Result<(Vec<Point>, [i32; 2]), TopographyError> {
     let (mut points, mut digits) = (Vec::new(), [0; 2]);
     sheet.for_each_row(|line, cells, numbers| {
         let &[x, y, z] = numbers else {
@@ -74,7 +74,8 @@ fn points(sheet: &Sheet<'_>) -> Result<(Vec<Point>, [i32; 2]), TopographyError> 
     Ok((points, digits))
 }
 
-/// Heights of the grid row by row; NaN without a point.
+/// Heights of the grid row by row, in the unit of the file; NaN without a point. Refuses points off the grid, two at one node, and a
+/// grid of more than a hundred times as many nodes as points.
 fn place_on_grid(
     [x, y]: [Axis; 2],
     points: &[Point],
@@ -85,6 +86,7 @@ fn place_on_grid(
         let line = sheet.rows[index].0;
         TopographyError::Line { line, problem }
     };
+    // A grid that is nearly empty is none: the points are scattered.
     let n_elements = x.count.checked_mul(y.count);
     if n_elements.is_none_or(|n_elements| n_elements / 100 > points.len()) {
         let (count, [nx, ny]) = (points.len(), [x.count, y.count]);
@@ -95,6 +97,7 @@ fn place_on_grid(
         .require_heights(n_elements.and_then(|n_elements| n_elements.checked_add(points.len())))?;
     let element_at = |[at_x, at_y]: [f64; 2]| Some(y.node(at_y)? * x.count + x.node(at_x)?);
     let mut heights = vec![f64::NAN; x.count * y.count];
+    // Put each point on its node, once.
     let mut is_there = vec![false; heights.len()];
     for (index, (at, height)) in points.iter().enumerate() {
         let [at_x, at_y] = at;
