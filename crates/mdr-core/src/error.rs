@@ -266,7 +266,7 @@ pub enum MdrError {
 /// Elements that the last contact must have at least. Chosen: with fewer, no element lies inside the contact.
 const MIN_CONTACT_ELEMENTS: usize = 3;
 
-/// Refuses a contact of too few elements.
+/// Refuses a contact of fewer than [`MIN_CONTACT_ELEMENTS`] elements of a `spacing` \[m] as [`MdrError::TooCoarse`].
 pub(crate) fn enough_elements(n_contact: usize, spacing: f64) -> Result<(), MdrError> {
     if n_contact >= MIN_CONTACT_ELEMENTS {
         return Ok(());

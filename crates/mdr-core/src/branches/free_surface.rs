@@ -23,7 +23,8 @@ impl Foundation {
         }
     }
 
-    /// A free surface that recovers to the undeformed state, from the present `amplitudes` of the modes.
+    /// A free surface that recovers to the undeformed state, from the present `amplitudes` of the modes, in depths: its displacement
+    /// is minus their sum.
     pub(crate) fn recovering_surface(&self, amplitudes: &[f64]) -> FreeSurface {
         FreeSurface {
             displacement: -amplitudes.iter().sum::<f64>(),

@@ -151,7 +151,7 @@ impl TimeStep {
         }))
     }
 
-    /// Lets the amplitudes of a free element decay over the step.
+    /// Lets the amplitudes β_k of a free element decay by e^(−Δt/λ_k) over the step.
     pub(crate) fn recover(&self, history: &mut [f64]) {
         for (decays, history) in self.decays.iter().zip(history.as_chunks_mut().0) {
             *history = product(*decays, *history);

@@ -43,7 +43,7 @@ pub(crate) fn branch_stress(ratio: f64, start: f64, rates: &[f64]) -> BranchStre
     solve(ratio, start, rates)
 }
 
-/// The solution as one Legendre expansion, for a wide boundary layer.
+/// The solution of [`branch_stress`] as one Legendre expansion, for a < [`MIN_LAYER_RATIO`].
 fn solve_by_expansion(ratio: f64, start: f64, rates: &[f64]) -> BranchStress {
     let n_terms = rates.len() + exponential_terms(ratio);
     let slopes = solve_for_slopes(ratio, start, rates, n_terms);
@@ -102,7 +102,7 @@ fn solve_for_slopes(ratio: f64, start: f64, rates: &[f64], n_terms: usize) -> [f
     slopes
 }
 
-/// The solution as a polynomial and a boundary layer.
+/// The solution of [`branch_stress`] as a polynomial and a boundary layer, for a ≥ [`MIN_LAYER_RATIO`].
 fn solve_with_layer(ratio: f64, start: f64, rates: &[f64]) -> BranchStress {
     let smooth = particular_solution(ratio, rates);
     let layer = start - start_value(&smooth);

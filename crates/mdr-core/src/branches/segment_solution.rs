@@ -66,7 +66,7 @@ impl Foundation {
 
     /// Bounds of the changes by a jump δ of the displacement that is neglected in the lone dashpot only.
     ///
-    /// The displacement changes by `rate` per metre at the jump.
+    /// The displacement changes by `rate` at the jump, in depths per metre.
     pub(crate) fn dashpot_sensitivity(&self, rate: f64) -> JumpSensitivity {
         JumpSensitivity {
             load: self.dashpot,

@@ -192,7 +192,7 @@ impl Approach {
         }
     }
 
-    /// Starts at a point, or above it at the undeformed surface.
+    /// Starts at a time \[s] and depth \[m]; a body below the undeformed surface starts at the surface, and jumps to its first point.
     pub(super) fn start(&mut self, time: f64, depth: f64) {
         self.point = DepthAt {
             time,
@@ -258,7 +258,8 @@ impl Approach {
             .sum()
     }
 
-    /// Follows the body to the next point. Once the body is above the undeformed surface, the surface counts as recovered.
+    /// Follows the body to the next point, at a time \[s] and a depth \[m]. Once the body is above the undeformed surface, the surface
+    /// counts as recovered.
     pub(super) fn follow(&mut self, time: f64, depth: f64) {
         let start = std::mem::replace(&mut self.point, DepthAt { time, depth });
         let end = self.point;
@@ -351,7 +352,8 @@ impl Approach {
         if has_rate { rate } else { 0.0 }
     }
 
-    /// Integrates q_k over a step in which the contact does not grow; the other integrals follow from those at the front.
+    /// Advances the integrals q_k over a step in which the contact does not grow; the integrals P_k follow later from those at the end
+    /// of the last ring, by [`catch_up_from_front`](Self::catch_up_from_front).
     fn hold(&mut self, from: DepthAt, to: DepthAt) {
         if self.rings.is_empty() {
             return;
@@ -364,7 +366,8 @@ impl Approach {
             .hold(&mut self.now, to.depth - from.depth);
     }
 
-    /// Updates the present integrals from those at the front, for a contact that is about to grow again.
+    /// Updates the present integrals P_k from those at the end of the last ring, for a contact that is about to grow again at a
+    /// `time` \[s].
     fn catch_up_from_front(&mut self, time: f64) {
         self.front_is_behind = false;
         let Some(ring) = self.rings.last().copied() else {
@@ -423,7 +426,7 @@ impl Approach {
         self.at_front.copy_from(&self.now);
     }
 
-    /// The element at θ of a ring.
+    /// The element at a position θ ∈ [0, 1] of the ring with this index.
     fn element_at(&self, ring: usize, theta: f64) -> EdgePlace {
         let ring = &self.rings[ring];
         let terms = &self.coefficients
@@ -454,7 +457,8 @@ impl Approach {
         (self.edge.shift, self.edge.correction) = (0.0, 0.0);
     }
 
-    /// Computes the load of the element that came into contact at a depth in a ring, and the step from that depth to the edge.
+    /// Computes the load of the element that came into contact at a depth \[m] in the ring of this index, and the step from that depth
+    /// to the edge.
     ///
     /// The step is that of Halley's method for w = 0; where the modulus changes much on the way, of Newton's.
     fn step_to_edge(&mut self, index: usize, depth: f64) -> EdgeStep {
@@ -586,7 +590,7 @@ impl Approach {
         edge.radius = self.radii.radius_and_slope([from, place.depth + shift])[0];
     }
 
-    /// The part of a ring up to θ, and the coefficients of its radius.
+    /// The part of a ring up to θ, and the coefficients of its radius over its own θ from 0 to 1.
     fn ring_up_to(&self, ring: usize, theta: f64) -> (Ring, [f64; N_COEFFICIENTS]) {
         let mut ring = self.rings[ring];
         let mut terms = [0.0; N_COEFFICIENTS];

@@ -155,7 +155,7 @@ impl<'a> Contact<'a> {
         }
     }
 
-    /// Follows the body to the next point, at a later time or by a jump of the depth.
+    /// Follows the body to the next point, a depth \[m] at a later time \[s] or by a jump at the same time.
     pub(super) fn follow(&mut self, time: f64, depth: f64) -> Result<(), MdrError> {
         self.path.push(time, depth);
         let end = self.path.end();
@@ -213,7 +213,7 @@ impl<'a> Contact<'a> {
         Ok(self.grow_over_new(if contact.part > at.part { contact } else { at }, end))
     }
 
-    /// Follows a body without force, which stays on the centre of the freely recovering surface.
+    /// Follows a body without force to a time \[s]; it stays on the centre of the freely recovering surface.
     pub(super) fn rise_freely(&mut self, time: f64) -> Result<(), MdrError> {
         let [now, depth] = self.path.last();
         if !self.rings.is_empty() {
@@ -320,7 +320,8 @@ impl<'a> Contact<'a> {
         }
     }
 
-    /// The radius up to which free elements have come into contact, \[m].
+    /// The radius up to which free elements have come into contact at a time \[m]: the root of the gap between the present edge and
+    /// the widest contact so far.
     fn edge_outwards(&self, at: SegmentTime) -> f64 {
         let (inner, widest) = (self.radius(), self.largest.radius);
         match bracketed_root(|radius| self.gap(radius, at), [inner, widest]) {
@@ -330,7 +331,8 @@ impl<'a> Contact<'a> {
         }
     }
 
-    /// Refuses free elements that come into contact in another order than from inside outwards.
+    /// Refuses free elements that come into contact in another order than from inside outwards: gaps inside the new `edge` \[m], or
+    /// penetration outside.
     fn check_contact_order(&self, edge: f64, at: SegmentTime) -> Result<(), MdrError> {
         let (inner, widest) = (self.radius(), self.largest.radius);
         let allowed = SIGN_TOLERANCE * self.largest.depth;
@@ -355,7 +357,7 @@ impl<'a> Contact<'a> {
         self.sums = self.sums_at(to);
     }
 
-    /// Adds a ring around the contact over which the edge moves from one time to another.
+    /// Adds a ring around the contact, up to the radius `outer` \[m], over which the edge moves from one time to another.
     fn add_ring(
         &mut self,
         direction: EdgeDirection,

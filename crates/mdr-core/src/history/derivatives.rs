@@ -88,7 +88,7 @@ pub fn force_derivatives(
 }
 
 impl ForceDerivatives {
-    /// Appends a point; `None` without contact. `factor` is 8/(2 (1 − ν)).
+    /// Appends the force and its derivatives at the present point; 0 without contact (`None`). `factor` is 8/(2 (1 − ν)).
     fn push_point(&mut self, contact: Option<(&Approach, EdgePlace)>, factor: f64) {
         let n_branches = self.moduli.len();
         let [mut force, mut by_depth, mut by_stretch] = [0.0; 3];

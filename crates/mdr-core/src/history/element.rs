@@ -80,11 +80,12 @@ pub(super) struct LineElements<'a> {
 }
 
 impl LineElements<'_> {
-    /// State of the element at a radius after all moves of the edge.
+    /// State of the element at a radius \[m] after all moves of the edge, which are in the order of time.
     pub(super) fn follow(&self, radius: f64, edge_moves: &[EdgeMove]) -> ElementState {
         let inside = |edge_move: &&EdgeMove| edge_move.inner < radius && radius <= edge_move.outer;
         // Only rounding of its radius puts an element beyond the end of the body.
         let height = self.body.height_at(radius.min(self.body.end()));
+        // Replay the history of the element: each move of the edge over it is one event.
         let mut state = ElementState::Untouched;
         for edge_move in edge_moves.iter().filter(inside) {
             state = match (edge_move.direction, state) {
@@ -125,10 +126,11 @@ impl LineElements<'_> {
             .collect()
     }
 
-    /// Separates an element with the given stresses from the body.
+    /// Separates an element with the stresses σ_k \[Pa m] from the body, whose height over it is `height` \[m].
     fn release(&self, height: f64, stresses: &[f64], since: SegmentTime) -> Free {
         let path = self.path;
         let displacement = path.depth(since) - height;
+        // Strains z_k of the dashpots of the branches, times their moduli.
         let branches = path.moduli.iter().zip(stresses);
         let viscous: Vec<f64> = branches
             .map(|(modulus, stress)| modulus * displacement - stress)

@@ -169,7 +169,9 @@ impl ForceHistory<'_> {
         Ok(radii)
     }
 
-    /// The curve before the contact shrinks for the first time; it does not shrink as long as ∫ J dF grows.
+    /// The curve before the contact shrinks for the first time, in closed form; it does not shrink as long as ∫ J dF grows.
+    ///
+    /// `factor` is 8/(2 (1 − ν)), by which the force is larger than the sum of the loads.
     fn before_shrinking(&self, points: &[[f64; 2]], radii: &Radii, factor: f64) -> Vec<CurvePoint> {
         let creep = self.material.creep();
         let mut retarded = vec![0.0; creep.elements().len()];
@@ -230,7 +232,7 @@ impl ForceHistory<'_> {
         curve
     }
 
-    /// The curve with a number of parts per segment.
+    /// The curve at the points of the history, with the depth linear over each of a number of parts per segment; without errors.
     fn march(&self, radii: &Radii, parts: usize) -> Result<Vec<CurvePoint>, MdrError> {
         // Points of the history, and those in between that are not asked for.
         let mut before = [self.points[0][0], 0.0];
@@ -346,7 +348,7 @@ fn shrinks(creep: &CreepSpectrum, retarded: &[f64], force: f64, step: f64, rise:
 /// most.
 const N_SHRINKING_CHECKS: i32 = 24;
 
-/// The radii up to a depth, or as far as the line of the body rises; `deepest` is then reduced to that.
+/// The radii up to a depth \[m], or as far as the line of the body rises; `deepest` is then reduced to that.
 fn radii_up_to(body: &dyn EquivalentProfile, deepest: &mut f64) -> Result<Radii, MdrError> {
     let available = match Radii::new(body, *deepest) {
         Err(MdrError::Indenter(IndenterError::NotHighEnough { available, .. })) => available,

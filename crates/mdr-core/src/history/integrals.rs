@@ -111,7 +111,7 @@ impl StepIntegrals {
         }
     }
 
-    /// Moment ∫₀¹ e^(−(1 − θ) Δt/τ) θ^j dθ of the order j of a branch.
+    /// Moment ∫₀¹ e^(−(1 − θ) Δt/τ) θ^j dθ of the order j of the branch with this index.
     fn moment(&self, order: usize, branch: usize) -> f64 {
         self.moments[order * self.decays.len() + branch]
     }

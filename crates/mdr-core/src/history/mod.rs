@@ -141,7 +141,7 @@ pub fn indent_along(
     Ok(curve)
 }
 
-/// A point of the curve without load, at a time and depth.
+/// A point of the curve without load, at a time \[s] and depth \[m].
 const fn unloaded_point(time: f64, depth: f64) -> CurvePoint {
     CurvePoint {
         time,
@@ -151,7 +151,7 @@ const fn unloaded_point(time: f64, depth: f64) -> CurvePoint {
     }
 }
 
-/// Times and depths, or times and forces, of a valid history.
+/// Pairs of a time \[s] and a depth \[m], or of a time and a force \[N], of a valid history; refuses others.
 fn validated_points(history: &[HistoryPoint]) -> Result<Vec<[f64; 2]>, MdrError> {
     let is_force = |point: &HistoryPoint| matches!(point.control, Control::NormalForce(_));
     let first = history.first().ok_or(MdrError::Empty { list: "history" })?;
@@ -174,7 +174,8 @@ fn validated_points(history: &[HistoryPoint]) -> Result<Vec<[f64; 2]>, MdrError>
     Ok(points)
 }
 
-/// Follows a path of the depth in closed form, or from event to event once elements come into contact again.
+/// Follows a path of the depth, pairs of a time \[s] and a depth \[m], in closed form, or from event to event once elements come into
+/// contact again.
 fn follow_depths(
     body: &dyn EquivalentProfile,
     material: &dyn Material,
@@ -238,7 +239,8 @@ fn refuse_inexact_recontact(
     Ok(curve)
 }
 
-/// Follows the whole path again, element by element, for a contact that grows over elements which have separated.
+/// Follows the whole path of times \[s] and depths \[m] again, element by element, for a contact that grows over elements which have
+/// separated.
 fn follow_recontact(
     body: &dyn EquivalentProfile,
     material: &dyn Material,

@@ -55,14 +55,15 @@ impl Path {
     /// A path without points.
     pub(super) fn new(material: &dyn Material) -> Self {
         let (relaxation, creep) = (material.relaxation(), material.creep());
+        // Modulus and rate of each branch; the equilibrium spring is one that does not relax.
         let spring = Some([relaxation.equilibrium_modulus(), 0.0]).filter(|[g, _]| *g > 0.0);
-        // Modulus and rate of each branch.
         let branches: Vec<[f64; 2]> = relaxation
             .branches()
             .iter()
             .map(|branch| [branch.modulus, branch.relaxation_time.recip()])
             .chain(spring)
             .collect();
+        // Modes of recovery; the free flow of a fluid is the one of rate 0.
         let delayed = creep.elements().iter().map(|element| RecoveryMode {
             rate: element.retardation_time.recip(),
             fluidity: element.fluidity(),
@@ -86,13 +87,14 @@ impl Path {
         }
     }
 
-    /// Appends a point, at a later time or, for a jump, at the same.
+    /// Appends a point of a time \[s] and a depth \[m], at a later time than the last one or, for a jump, at the same.
     pub(super) fn push(&mut self, time: f64, depth: f64) {
         self.points.push([time, depth]);
         let [.., before, _] = self.points[..] else {
             self.point_integrals = vec![0.0; self.n_branches()];
             return;
         };
+        // Advance the integrals from the last point, between which the depth is linear.
         let (step, rise) = (time - before[0], depth - before[1]);
         let start = self.point_integrals.len() - self.n_branches();
         for (k, rate) in self.rates.iter().enumerate() {
@@ -102,7 +104,7 @@ impl Path {
         }
     }
 
-    /// Moves the last point to another depth.
+    /// Moves the last point to another depth, \[m].
     pub(super) fn set_last_depth(&mut self, depth: f64) {
         self.point_integrals
             .truncate(self.point_integrals.len() - self.n_branches());
@@ -129,7 +131,7 @@ impl Path {
         self.moduli.len()
     }
 
-    /// The modes, each with 1/(1/τ_k − 1/λ) of all branches.
+    /// The modes, each with 1/(1/τ_k − 1/λ) \[s] of all branches, 0 of the lone spring.
     pub(super) fn modes(&self) -> impl Iterator<Item = (&RecoveryMode, &[f64])> {
         let n = self.n_branches();
         let row = move |j: usize| &self.couplings[j * n..(j + 1) * n];
@@ -168,17 +170,17 @@ impl Path {
         speed_rounding(self.speed(segment), self.step(segment), time, depth)
     }
 
-    /// Time, \[s].
+    /// Time at a place of the path, \[s].
     pub(super) fn time(&self, at: SegmentTime) -> f64 {
         self.points[at.segment][0] + at.part * self.step(at.segment)
     }
 
-    /// Indentation depth, \[m].
+    /// Indentation depth at a place of the path, \[m].
     pub(super) fn depth(&self, at: SegmentTime) -> f64 {
         self.points[at.segment][1] + at.part * self.rise(at.segment)
     }
 
-    /// The time in a segment at which the body has a depth; its beginning or end if it has none there.
+    /// The time in a segment at which the body has a depth \[m]; the beginning or end of the segment if it does not.
     pub(super) fn time_of_depth(&self, segment: usize, depth: f64) -> SegmentTime {
         let part = (depth - self.points[segment][1]) / self.rise(segment);
         SegmentTime {

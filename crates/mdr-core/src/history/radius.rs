@@ -11,7 +11,7 @@ use numerics::bracketed_root;
 
 use crate::MdrError;
 
-/// Number of coefficients of the polynomial on one piece.
+/// Number of coefficients of the polynomial on one piece. Chosen: pieces are halved until it is enough.
 pub(super) const N_COEFFICIENTS: usize = 16;
 /// Size of the last two coefficients, relative to the radius, below which a piece is not divided. The missing
 /// coefficients are a hundredth of that.
@@ -41,7 +41,7 @@ struct Piece {
 }
 
 impl Radii {
-    /// The radii of a body whose line rises up to the largest depth > 0.
+    /// The radii of a body whose line rises up to the largest depth > 0 \[m]; refuses a depth beyond a vertical edge.
     pub(super) fn new(body: &dyn EquivalentProfile, deepest: f64) -> Result<Self, MdrError> {
         let mut radii = Self {
             pieces: Vec::new(),
@@ -123,7 +123,7 @@ impl Radii {
         self.deepest()
     }
 
-    /// The depth up to which one polynomial holds from `depth` on.
+    /// The depth \[m] up to which one polynomial holds from `depth` on.
     pub(super) fn end_of_piece(&self, depth: f64) -> f64 {
         self.piece_at(depth).depths[1]
     }
@@ -184,7 +184,7 @@ impl Polynomial {
 }
 
 impl Piece {
-    /// Taylor coefficients at ξ = `start`; only the first `N_TERMS` are exact.
+    /// Taylor coefficients of the radius at ξ = `start`, by repeated synthetic division; only the first `N_TERMS` are exact.
     fn taylor_coefficients<const N_TERMS: usize>(&self, start: f64) -> [f64; N_COEFFICIENTS] {
         let mut coefficients = self.coefficients;
         for first in 0..N_TERMS {
@@ -204,14 +204,16 @@ impl Piece {
         0.5 * (self.depths[1] - self.depths[0]) * (antiderivative(position) - antiderivative(-1.0))
     }
 
-    /// Position ξ of a depth.
+    /// Position ξ ∈ [−1, 1] of a depth \[m] of the piece.
     fn position(&self, depth: f64) -> f64 {
         let [low, high] = self.depths;
         (depth - low) / (0.5 * (high - low)) - 1.0
     }
 
-    /// Interpolates the radius at the zeros of the Chebyshev polynomial T_n; returns also the size of the last two terms, a
-    /// measure of the error.
+    /// Interpolates the radius between two depths \[m] at the zeros of the Chebyshev polynomial T_n; returns also the size of the last
+    /// two terms \[m], a measure of the error.
+    ///
+    /// `cosines` are T_order at the nodes, one row for each node; `inner` and `outer` are the radii at both depths.
     fn fitted(
         body: &dyn EquivalentProfile,
         depths: [f64; 2],

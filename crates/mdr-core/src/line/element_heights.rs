@@ -8,7 +8,7 @@ use numerics::{golden_section, in_range, positive};
 
 use crate::MdrError;
 
-/// Elements of a foundation at most.
+/// Elements of a foundation at most; more are refused as [`MdrError::TooManyElements`]. Chosen: a limit of memory and time.
 pub(crate) const MAX_ELEMENTS: usize = 1 << 22;
 /// On an infinite domain the line is sampled up to this multiple of the distance at which it was last below the largest needed
 /// height. Chosen: a part of the body that comes down farther out is overlooked.
@@ -16,7 +16,7 @@ const LOOKOUT_DISTANCE_RATIO: usize = 1024;
 /// Distance from the anchor, in elements, up to which every element is sampled in the search for the last one below the largest
 /// needed height; farther out the stride is the distance over this number. Chosen: see [`ElementHeights::below`].
 const LOOKOUT_STRIDE: usize = 64;
-/// Relative margin above the height asked for, so that rounding cannot lift the contact over the last element.
+/// Relative margin above the height asked for, so that rounding cannot lift the contact over the last element. Chosen.
 const MAX_HEIGHT_MARGIN: f64 = 1e-9;
 
 /// The elements under the part of a line that can come into contact.
@@ -63,7 +63,7 @@ impl ElementHeights {
         self.anchor + (ahead - behind) * self.spacing
     }
 
-    /// The elements around an anchor, up to a height above it.
+    /// The elements at a `spacing` \[m] on both sides of an anchor \[m], up to a `height` above it \[m].
     fn around(
         line: &dyn RigidLine,
         anchor: f64,

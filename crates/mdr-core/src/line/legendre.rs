@@ -47,7 +47,7 @@ impl Interpolation {
     }
 }
 
-/// Value p(t), by Clenshaw's recurrence.
+/// Value p(t) at −1 ≤ t ≤ 1, by Clenshaw's recurrence.
 pub(crate) fn value(coefficients: &[f64], t: f64) -> f64 {
     let (mut next, mut second_next) = (0.0, 0.0);
     for (k, coefficient) in coefficients.iter().enumerate().rev() {

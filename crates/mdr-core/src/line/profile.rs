@@ -133,7 +133,7 @@ impl Piece {
         self.tail <= TERM_ROUNDING_FACTOR * f64::EPSILON * (self.terms()[0].abs() + rise + moved)
     }
 
-    /// Turning point of the line inside the piece, as t; `None` without one.
+    /// Turning point of the line inside the piece, as −1 < t < 1; `None` without one.
     fn turning_point(&self) -> Option<f64> {
         // |P'_k| ≤ k (k + 1)/2: the slope has no zero if its first term outweighs all others.
         let (terms, degree) = (self.terms(), self.segment.degree);
@@ -302,7 +302,7 @@ impl<D: Fn(f64) -> Result<f64, MdrError>> Builder<D> {
     }
 }
 
-/// Size of the terms that are left out, by a geometric series through the last two pairs of terms.
+/// Sum of the terms that are left out, by a geometric series through the last two pairs of terms, in depths.
 ///
 /// Pairs, because an even line has no odd terms. Towards a cusp the terms decay like a power, and all of the tail matters.
 fn estimate_tail(coefficients: &Polynomial) -> f64 {

@@ -35,7 +35,7 @@ pub(crate) struct Range {
 }
 
 impl Range {
-    /// The range of all points at most `depth` above the lowest of the kinks, the ends, and x = 0.
+    /// The range of all points at most `depth` \[m] above the lowest of the kinks, the ends, and x = 0.
     ///
     /// Refuses a depth that is negative or not a number, as a search that overflows may give it.
     pub(crate) fn below(line: &dyn RigidLine, depth: f64) -> Result<Self, MdrError> {

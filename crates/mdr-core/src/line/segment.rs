@@ -2,7 +2,8 @@
 
 use super::legendre::{Interpolation, Polynomial, derivative, end_value, value};
 
-/// Rounding of the displacements of a part, which is interpolated once more, in depths.
+/// Rounding of the displacements of a part, which is interpolated once more, in depths. Chosen: a few units in the last place of a
+/// displacement of one depth.
 const REINTERPOLATION_ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// Compression that a piece of the line imposes, as a polynomial in −1 ≤ t ≤ 1 from the front to the rear.

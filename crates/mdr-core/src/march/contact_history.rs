@@ -46,8 +46,8 @@ struct Element {
 }
 
 impl ContactHistory {
-    /// Ratio T/λ below which F is computed from the impulse of the load: the difference of two states would lose its
-    /// digits.
+    /// Ratio T/λ below which F is computed from the impulse of the load: the difference of two states would lose four digits or more.
+    /// Chosen: the first moment of the load is enough there.
     pub(super) const MAX_PERIODS_FROM_IMPULSE: f64 = 1e-4;
 
     /// An empty record of a number of elements.
@@ -78,7 +78,7 @@ impl ContactHistory {
         }
     }
 
-    /// Ends the present step.
+    /// Ends the present step of this `duration` \[s], after which [`record`](Self::record) refers to the next one.
     pub(super) fn end_step(&mut self, duration: f64) {
         if !self.elements.is_empty() {
             self.steps.push((duration, self.runs.len()));
@@ -300,7 +300,7 @@ fn sum_over_runs(sums: &[f64], runs: &[[usize; 2]]) -> f64 {
         .sum()
 }
 
-/// Replaces values by their cumulative sums.
+/// Replaces values by their cumulative sums, each with its own value.
 fn accumulate(values: &mut [f64]) {
     values.iter_mut().fold(0.0, |sum, value| {
         *value += sum;
@@ -308,7 +308,7 @@ fn accumulate(values: &mut [f64]) {
     });
 }
 
-/// Inner product.
+/// Inner product of two vectors of equal length.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

@@ -27,7 +27,8 @@ const MAX_CYCLES_PER_STEP: f64 = 1e16;
 /// `evidence tuning`.
 const REMAINDER_SAFETY_FACTOR: f64 = 2.0;
 
-/// Finds the limit cycle to the tolerance; `None` if the foundation was not high enough.
+/// Finds the limit cycle to the tolerance of the problem, from the amplitudes of the resolution before if there is one; `None` if the
+/// contact went beyond the sampled heights.
 pub(super) fn find_limit_cycle(
     problem: &MotionProblem<'_>,
     mut winkler: WinklerFoundation<'_>,
@@ -100,7 +101,7 @@ struct CycleSearch<'a> {
 }
 
 impl<'a> CycleSearch<'a> {
-    /// A search that starts from the amplitudes `state`.
+    /// A search that starts from the amplitudes `state`, element by element, \[m].
     fn new(problem: &'a MotionProblem<'a>, state: Vec<f64>) -> Self {
         Self {
             problem,
@@ -117,7 +118,7 @@ impl<'a> CycleSearch<'a> {
         &self.problem.foundation.modes
     }
 
-    /// Fraction of a mode that recovers in one cycle.
+    /// Fraction 1 − e^(−T/λ) of a mode that recovers in one cycle of the period T.
     fn recovered_fraction(&self, mode: &Mode) -> f64 {
         mode.recovered(self.problem.load.duration())
     }

@@ -60,7 +60,7 @@ impl<'a> Elements<'a> {
         }
     }
 
-    /// History variables of an element.
+    /// History variables of an element: stresses e_i of a loaded one, amplitudes β_k of a free one.
     pub(super) fn history_of(&mut self, element: usize) -> &mut [f64] {
         &mut self.history[element * self.n_history..(element + 1) * self.n_history]
     }
@@ -133,6 +133,7 @@ impl<'a> Elements<'a> {
             limit,
             since: end_time,
         };
+        // Contact goes on, ends, begins, or does not happen; only the last case returns `None`.
         let (end_state, work) = match state {
             ElementState::Loaded { displacement } if is_loaded => {
                 let compression = imposed[1] - displacement;

@@ -10,7 +10,7 @@
 
 use super::compensated::CompensatedSum;
 
-/// A rigid line over a foundation, before the depth is known.
+/// A rigid line over the elements of a foundation at the end of a step, before the depth is known.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ForceBalance<'a> {
     /// Heights h_i of the line over each element, above its lowest point, \[m]; `+∞` where there is no body.
@@ -55,7 +55,7 @@ impl ForceBalance<'_> {
         trial
     }
 
-    /// The compressed elements at a depth.
+    /// The number of compressed elements at a depth \[m], and the sum of their compressions.
     pub(crate) fn at_depth(&self, depth: f64) -> TrialDepth {
         let mut n_below = 0;
         let mut compression = CompensatedSum::default();

@@ -91,8 +91,8 @@ const CYCLE_TOLERANCE_ON_ELEMENTS: f64 = 1e-5;
 ///
 /// # Errors
 /// [`MdrError::MotionNotReached`] with the result of the finest resolution; [`MdrError::NoCycle`] for a reciprocating motion on
-/// a material that flows; [`MdrError::NotPeriodic`]; [`IndenterError::TooManySteps`](indenters::IndenterError::TooManySteps); [`MdrError::ContactReachesEdge`];
-/// [`MdrError::FrictionDiverges`] for a kink or cusp on a lone dashpot; otherwise like [`slide`](crate::slide()).
+/// a material that flows; [`MdrError::NotPeriodic`]; [`IndenterError::TooManySteps`](indenters::IndenterError::TooManySteps);
+/// [`MdrError::ContactReachesEdge`]; [`MdrError::FrictionDiverges`] for a kink or cusp on a lone dashpot; otherwise like [`slide`](crate::slide()).
 pub fn move_along<'w>(
     line: &dyn RigidLine,
     material: &dyn Material,
@@ -197,10 +197,12 @@ impl WorkLimit<'_> {
 
 impl Progress for WorkLimit<'_> {
     fn may_refine(&self, elements: usize) -> bool {
+        // Give up on a friction that is only an error of the elements.
         let before = elements / 2;
         if before >= MIN_ELEMENTS_TO_GIVE_UP && self.is_unresolved(before) {
             return false;
         }
+        // The number of steps decides otherwise.
         let n_cycles = self.solved(before).map_or(1, |(_, n_cycles)| n_cycles) as f64;
         let allowed = MAX_WORK / (n_cycles * elements as f64);
         let spacing = self.length / elements as f64;

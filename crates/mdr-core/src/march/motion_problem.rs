@@ -160,7 +160,7 @@ impl<'a> MotionProblem<'a> {
         }
     }
 
-    /// The motion, or `None` if the foundation was not high enough.
+    /// The motion on a foundation with the sampled heights, or its limit cycle; `None` if the contact went beyond them.
     fn run(
         &self,
         sampled: &ElementHeights,
@@ -205,7 +205,7 @@ impl<'a> MotionProblem<'a> {
         4.0 * spacing * self.foundation.unit
     }
 
-    /// Runs all steps once, from a depth; `None` if the foundation was not high enough.
+    /// Runs all steps once, from a depth \[m]; `None` if the contact went beyond the sampled heights.
     pub(super) fn run_steps(
         &self,
         winkler: &mut WinklerFoundation<'_>,

@@ -230,7 +230,7 @@ struct Schedule {
     n_steps: f64,
 }
 
-/// The steps on one resolution.
+/// The steps on one resolution, and the contact at their end.
 struct SlidingRecord {
     /// All steps from first touch on.
     steps: Vec<SlidingStep>,
@@ -402,6 +402,7 @@ impl<'a> SlidingProblem<'a> {
     fn quantities(&self, record: &SlidingRecord) -> Vec<Quantity> {
         let (steps, spacing) = (&record.steps, record.elements.spacing);
         let values = self.end_values(steps);
+        // In the stationary state steps repeat themselves; before, elements at the ends make them scatter.
         let scatter = |value| match self.load.sliding_distance() {
             None => 0.0,
             Some(_) => scatter(steps, value),

@@ -246,7 +246,8 @@ impl<'a> WinklerFoundation<'a> {
         Ok(())
     }
 
-    /// Sets the window to the elements below a height limit at the start or the end of the step, and its heights.
+    /// Sets the window to the elements below a height `limit` \[m] at the start or the end of the step, when the line is at `position`
+    /// \[m], and its heights.
     fn update_window(&mut self, position: f64, limit: f64) -> Result<(), MdrError> {
         let spacing = self.sampled.spacing;
         let heights = &self.sampled.heights;
@@ -439,7 +440,7 @@ impl<'a> WinklerFoundation<'a> {
         std::mem::take(&mut self.contact_history)
     }
 
-    /// Amplitudes of recovery at the present time, element by element; all elements must be free or untouched.
+    /// Amplitudes of recovery β_k at the present time, element by element, \[m]; all elements must be free or untouched.
     pub(super) fn recovery_amplitudes(&mut self) -> &mut [f64] {
         for element in 0..self.elements.states.len() {
             self.elements.recover_until(element, self.body.time);

@@ -12,7 +12,7 @@ use crate::error::non_finite;
 const SEARCH_START: f64 = 1.0;
 /// Steps of the secant method at most. Each multiplies the number of exact digits, so that most searches end before.
 const MAX_SECANT_STEPS: usize = 12;
-/// Relative margin of the bracket that proportion gives: proportion may be exact, and the force then rounded to the
+/// Relative margin of the bracket that proportion gives. Chosen: proportion may be exact, and the force then rounded to the
 /// wrong side.
 const BRACKET_MARGIN: f64 = 1e-6;
 /// Factor by which a bracket is widened if it does not contain the depth. Chosen.

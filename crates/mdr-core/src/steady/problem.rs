@@ -145,7 +145,7 @@ impl<'a> LineProblem<'a> {
         }
     }
 
-    /// The depth \[m] that carries a force \[N].
+    /// The depth \[m] that carries a force \[N], with polynomials of a `tolerance` in depths.
     fn depth_of_force(&self, force: f64, tolerance: f64) -> Result<f64, MdrError> {
         let target = 0.25 * positive("normal_force", force)?;
         // Most of the search needs few polynomials.
@@ -154,7 +154,7 @@ impl<'a> LineProblem<'a> {
         refined_depth(|depth| self.quarter_force(depth, tolerance), target, start)
     }
 
-    /// A quarter of the normal force at a depth, \[N].
+    /// A quarter of the normal force at a depth \[m], with polynomials of a `tolerance` in depths, \[N].
     fn quarter_force(&self, depth: f64, tolerance: f64) -> Result<f64, MdrError> {
         Ok(self.foundation.unit * (depth * self.solve(depth, tolerance)?.load))
     }
@@ -177,12 +177,13 @@ impl<'a> LineProblem<'a> {
         })
     }
 
-    /// Sums over one pass of the line at a depth.
+    /// Sums over one pass of the line at a depth \[m], with polynomials of a `tolerance` in depths.
     fn solve(&self, depth: f64, tolerance: f64) -> Result<SweepSums, MdrError> {
         self.solve_with(depth, tolerance, None)
     }
 
-    /// Sums over one pass of the line at a depth; its loads are appended to `loads` if that is given.
+    /// Sums over one pass of the line at a depth \[m], with polynomials of a `tolerance` in depths; its loads are appended to `loads` if
+    /// that is given.
     fn solve_with(
         &self,
         depth: f64,

@@ -124,7 +124,7 @@ struct SurfaceMarch<'a> {
 }
 
 impl SurfaceMarch<'_> {
-    /// Moves on to the next event, or the end of the segment; returns its position t.
+    /// Moves on to the next event, or the end of the segment; returns its position −1 ≤ t ≤ 1 in the segment.
     fn advance(&mut self, segment: &Segment, piece: &Piece) -> Result<f64, MdrError> {
         match std::mem::replace(&mut self.surface, Surface::Free(FreeSurface::untouched())) {
             Surface::Free(surface) => self.recover(surface, segment),
@@ -152,7 +152,7 @@ impl SurfaceMarch<'_> {
         }
     }
 
-    /// Recovers up to the next contact, or the end of the segment; returns its position t.
+    /// Recovers up to the next contact, or the end of the segment; returns its position −1 ≤ t ≤ 1 in the segment.
     fn recover(&mut self, mut surface: FreeSurface, segment: &Segment) -> Result<f64, MdrError> {
         let Some(contact) = self.next_contact(&surface, segment) else {
             surface.distance += segment.length;
@@ -214,13 +214,13 @@ impl SurfaceMarch<'_> {
         None
     }
 
-    /// The displacement that stores energy at contact or release; 0 if the foundation is elastic, where it is rounding.
+    /// The displacement that stores energy at contact or release, in depths; 0 if the foundation is elastic, where it is rounding.
     fn storing_displacement(&self, displacement: f64) -> f64 {
         let is_elastic = self.foundation.is_elastic();
         if is_elastic { 0.0 } else { displacement }
     }
 
-    /// Adds the error of a contact that begins late by a compression, because positions are rounded.
+    /// Adds the error of a contact that begins at t, late by a compression in depths, because positions are rounded.
     fn add_late_contact(&mut self, compression: f64, segment: &Segment, t: f64) {
         let rate = segment.rate(t);
         let sensitivity = if compression > MAX_MISSED_COMPRESSION {
@@ -262,7 +262,7 @@ impl SurfaceMarch<'_> {
         }
     }
 
-    /// Ends a contact interval, and adds the stored energy to the work.
+    /// Ends a contact interval at a position \[m], and adds the energy that is stored at this displacement, in depths, to the work.
     fn end_contact(&mut self, displacement: f64, stresses: &[f64], position: f64) {
         self.sums.work += self.foundation.stored_energy(displacement, stresses);
         self.append_zero_load(position);
@@ -271,7 +271,7 @@ impl SurfaceMarch<'_> {
         }
     }
 
-    /// Adds a zero to the list of loads, at an end of a contact.
+    /// Adds a zero to the list of loads, at an end of a contact \[m].
     fn append_zero_load(&mut self, position: f64) {
         self.sums
             .loads
@@ -332,6 +332,7 @@ fn first_tension(solution: &SegmentSolution, may_jump: bool) -> Option<f64> {
     if may_jump && solution.potential(-1.0) < 0.0 {
         return Some(-1.0);
     }
+    // Bracket the first change of sign, on samples inside the boundary layers first.
     let mut before = -1.0;
     for t in layer_samples(solution).into_iter().chain(samples()) {
         if solution.potential(t) < 0.0 {

@@ -24,7 +24,7 @@ const PERIODICITY_TOLERANCE: f64 = 1e-11;
 /// tolerance from below.
 const PERIODICITY_ROUNDING: f64 = 1024.0 * f64::EPSILON;
 
-/// Refuses a track that is not longer than the part of the line below the surface.
+/// Refuses a track \[m] that is not longer than the part of the line below the surface, as [`MdrError::TrackTooShort`].
 pub(super) fn check_length(track: f64, range: &Range) -> Result<(), MdrError> {
     let needed = range.ends[1] - range.ends[0];
     if track > needed {

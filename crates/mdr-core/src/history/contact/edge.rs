@@ -65,6 +65,7 @@ impl Contact<'_> {
 
     /// The edge in a ring of new elements, in which the load falls outwards; `None` if all of the ring has separated.
     fn edge_in_first_contact(&self, ring: &EdgeMove, at: SegmentTime) -> Option<Edge> {
+        // The load falls from the elements that came into contact first to the last ones: its root is the edge.
         let path = &self.path;
         let since = |part: f64| SegmentTime { part, ..ring.from };
         let load = |part: f64| path.load(&path.decayed_history(since(part), at).stresses, at);

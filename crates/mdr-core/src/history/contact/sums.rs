@@ -13,7 +13,8 @@ const MAX_PANEL_DIVISIONS: u32 = 12;
 const QUADRATURE_ERROR_OVER_CHANGE: f64 = 4.0;
 
 impl Contact<'_> {
-    /// Integrals Φ_k over the present rings at a time, \[Pa m²].
+    /// Integrals Φ_k over the present rings at a later time, branch by branch, \[Pa m²]; also sets the modulus of the element at the
+    /// edge.
     pub(super) fn sums_at(&mut self, at: SegmentTime) -> Vec<f64> {
         let n_branches = self.path.n_branches();
         let Some(ring) = self.rings.last().copied() else {
@@ -43,7 +44,7 @@ impl Contact<'_> {
         sums
     }
 
-    /// Advances Φ_k over the growth of a ring of new elements.
+    /// Advances the `sums` Φ_k over the growth of a ring of new elements, from its beginning to its end, \[Pa m²].
     fn add_growth(&self, ring: &EdgeMove, sums: &mut [f64]) {
         let path = &self.path;
         let step = path.time(ring.to) - path.time(ring.from);
@@ -60,7 +61,7 @@ impl Contact<'_> {
         }
     }
 
-    /// Integrals ∫ σ_k dx over a ring of elements that came into contact again, by adaptive Gauss–Lobatto quadrature.
+    /// Integrals ∫ σ_k dx over a ring of elements that came into contact again, by adaptive Gauss–Lobatto quadrature, \[Pa m²].
     fn ring_sums(&mut self, ring: &EdgeMove, at: SegmentTime) -> Vec<f64> {
         let mut radii = vec![ring.inner, ring.outer];
         // Panels end where earlier moves of the edge began or ended; such kinks are small, and matter only for exact sums.
@@ -100,7 +101,7 @@ impl Contact<'_> {
         sums
     }
 
-    /// Integrals ∫ σ_k dx over one panel of a ring.
+    /// Integrals ∫ σ_k dx over one panel of a ring, between two radii \[m], at a time, \[Pa m²].
     fn panel(&self, ring: &EdgeMove, [inner, outer]: [f64; 2], at: SegmentTime) -> Vec<f64> {
         let mut sums = vec![0.0; self.path.n_branches()];
         let half = 0.5 * (outer - inner);
@@ -114,7 +115,8 @@ impl Contact<'_> {
     }
 }
 
-/// Advances Φ_k inside a radius in which all elements stay in contact.
+/// Advances Φ_k \[Pa m²] inside a radius \[m] in which all elements stay in contact, over the time of `lag`: each integral decays, and
+/// gains the radius times the stress that is the same for all elements.
 fn hold_sums(sums: &mut [f64], radius: f64, lag: &DecayedHistory) {
     for ((sum, decay), stress) in sums.iter_mut().zip(&lag.decays).zip(&lag.stresses) {
         *sum = decay * *sum + radius * stress;

@@ -85,6 +85,7 @@ impl LastContact<'_> {
     pub(super) fn subgrid_forces(&self, material: &dyn Material) -> SubgridForces {
         let spacing = self.elements.spacing;
         let moduli = StepScaleModuli::new(material, self.velocity, spacing);
+        // Loads of all elements, from those around the last contact.
         let mut loads = vec![0.0; self.elements.heights.len()];
         for [x, load] in self.load.iter().filter(|[_, load]| *load > 0.0) {
             let element = whole_part((x - self.elements.position(0)) / spacing + 0.5);
@@ -92,6 +93,7 @@ impl LastContact<'_> {
                 *slot = *load;
             }
         }
+        // Add the three contributions; the last one matters at steep kinks only.
         let mut forces = self.behind_rearmost(&moduli, &loads);
         forces.tangential += moduli.per_slope * self.tip_excess(&loads);
         if has_steep_kinks(self.line) {
@@ -114,12 +116,14 @@ impl LastContact<'_> {
         let spacing = self.elements.spacing;
         let heights = &self.elements.heights;
         let position = self.elements.position(rear);
+        // Slopes on both sides of the rearmost element, and mean slopes over it and over the element behind.
         let [slope, slope_behind] = [position, position.next_down()].map(|x| self.line.slope(x));
         let mean = self.rise(rear) / spacing;
         let mean_behind = (heights[rear] - heights[rear - 1]) / spacing;
         if !(slope.is_finite() && slope_behind.is_finite() && mean.is_finite()) {
             return SubgridForces::default();
         }
+        // Load of the rearmost element on the slope behind it; the missing load is at most that.
         let load = (loads[rear] - moduli.per_slope * (mean - slope_behind)).max(0.0);
         let difference = moduli.per_slope * (slope_behind - mean_behind).abs();
         let carried = 0.5 * spacing * load.min(difference);
@@ -150,6 +154,7 @@ impl LastContact<'_> {
         });
         let excess = |step: f64| {
             let rise = |part: f64| self.line.height(anchor + part * step) - lowest_height;
+            // Sum the squared slopes of the chords, less that of the mean slope over the element.
             let (mut part, mut above) = (1.0, rise(1.0));
             let mut squares = -above * above;
             for _ in 0..N_TIP_CHORDS {

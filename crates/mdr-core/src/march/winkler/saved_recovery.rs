@@ -5,7 +5,7 @@ use numerics::whole_part;
 use super::WinklerFoundation;
 use crate::march::elements::ElementState;
 
-/// Amplitudes of recovery of a foundation.
+/// Amplitudes of recovery of a foundation, from which one of another spacing begins.
 #[derive(Debug, Clone)]
 pub(crate) struct SavedRecovery {
     /// Position of its first element, \[m].
