@@ -71,7 +71,7 @@ const MIN_RELATIVE_ERROR: f64 = 1e-9;
 /// Largest number of characters of an exact number that is not rounded: those of 0.1234567.
 const MAX_EXACT_LENGTH: usize = 9;
 
-/// Powers of ten of numbers that are written without a power of ten.
+/// Powers of ten of the first digit of numbers that are written without a power of ten: from 0.001 to below a million. Chosen.
 const PLAIN_POWERS: Range<i32> = -3..6;
 
 /// The power of ten of the first digit of an error that is rounded to two digits.
@@ -113,12 +113,12 @@ impl Estimate {
         Self::new(self.0.value, self.0.error + additional_error)
     }
 
-    /// The error over the modulus of the value; NaN if both are 0.
+    /// The error over the absolute value; NaN if both are 0.
     pub fn relative_error(&self) -> f64 {
         self.error / self.value.abs()
     }
 
-    /// Whether the value is finite and its error at most `relative_error` times its modulus.
+    /// Whether the value is finite and its error at most `relative_error` times its absolute value.
     pub fn is_within(&self, relative_error: f64) -> bool {
         self.value.is_finite() && self.error <= relative_error * self.value.abs()
     }

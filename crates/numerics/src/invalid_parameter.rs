@@ -53,7 +53,7 @@ impl Display for MessageNumber {
     }
 }
 
-/// Moduli of numbers that are written without a power of ten, as `Debug` does.
+/// Absolute values of numbers that are written without a power of ten: those for which `Debug` does so.
 pub(crate) const POSITIONAL_RANGE: Range<f64> = 1e-5..1e16;
 /// Number of significant digits of a short decimal number that the rounding errors of a few operations do not change:
 /// one less than those that survive reading and writing.

@@ -27,7 +27,7 @@ pub const NEGLIGIBLE_EXPONENT: f64 = 40.0;
 /// The integrand receives its argument as the pair (nearer end, distance from that end with its sign), so that a
 /// singularity at an end can be resolved below the rounding of `x`; [`integrate`] is the plain form. The error estimate is the
 /// change by the last halving of the step. Halving stops when it falls below `relative_tolerance` times the integral of the
-/// modulus, or after the last halving; `Estimate::error` holds the error that was reached.
+/// absolute value, or after the last halving; `Estimate::error` holds the error that was reached.
 pub fn integrate_from_ends(
     integrand: impl Fn(f64, f64) -> f64,
     interval: [f64; 2],
@@ -73,11 +73,11 @@ pub fn integrate(
 struct NodeSums {
     /// Sum of the integrand.
     signed: f64,
-    /// Sum of the modulus of the integrand.
+    /// Sum of the absolute values of the integrand.
     modulus: f64,
 }
 
-/// Weighted sums of the integrand and its modulus over the nodes t = ±(`first` + k `step`), k = 0, 1, …, up to [`LAST_NODE`].
+/// Weighted sums of the integrand and its absolute value over the nodes t = ±(`first` + k `step`), k = 0, 1, …, up to [`LAST_NODE`].
 fn node_sums(
     integrand: &impl Fn(f64, f64) -> f64,
     interval: [f64; 2],

@@ -99,7 +99,7 @@ pub struct Goal<'a> {
 pub struct Quantity {
     /// Value on one resolution.
     pub value: f64,
-    /// Scale that the requested relative error refers to: the modulus of the value, unless the value may vanish.
+    /// Scale that the requested relative error refers to: the absolute value, unless the value may vanish.
     pub scale: f64,
     /// Absolute rounding error, which no refinement reduces.
     pub rounding_error: f64,
@@ -163,7 +163,7 @@ pub struct NotReached {
     pub relative_error: f64,
     /// Value that was reached.
     pub value: f64,
-    /// Scale of the relative error: the modulus of the value, or of the largest value of its kind.
+    /// Scale of the relative error: the absolute value, or the largest absolute value of its kind.
     pub scale: f64,
     /// Absolute error of the value.
     pub error: f64,
@@ -225,7 +225,8 @@ pub const MIN_CONVERGENCE_ORDER: f64 = 0.1;
 pub const ITERATION_SHARE: f64 = 0.05;
 /// Rounding error of the many sums behind a value, relative to it.
 ///
-/// Sums of up to 4·10⁶ terms have a rounding error of at most √n ε = 4e-13 of the sum of their moduli, if roundings are independent.
+/// Sums of up to 4·10⁶ terms have a rounding error of at most √n ε = 4e-13 of the sum of their absolute values, if roundings are
+/// independent.
 pub const SUMMATION_ERROR: f64 = 1e-12;
 
 /// The result on one level of a refinement.
@@ -403,7 +404,8 @@ pub fn refine<T, E>(
 }
 
 impl Goal<'_> {
-    /// Work of one resolution, in units of the work on one element.
+    /// Work of one resolution of a number of elements, in units of the work on one element: its power
+    /// [`work_exponent`](Self::work_exponent).
     fn work_on(&self, elements: f64) -> f64 {
         elements.powf(self.work_exponent)
     }
