@@ -53,6 +53,7 @@ impl HeightMap {
         for height in &heights {
             finite("height", *height)?;
         }
+        // Count the heights from the lowest one.
         let lowest = lowest_node(shape, &heights);
         let base = heights[lowest[0] * shape[1] + lowest[1]];
         for height in &mut heights {

@@ -11,7 +11,7 @@ use crate::{Control, MovingLoad, Stage};
 /// Weights of the relative remaining changes in the test for a limit cycle (chosen): friction coefficient, tangential force, normal
 /// force and depth of steps. With 0.1 a single step may still change by ten times the tolerance.
 const LIMIT_CYCLE_WEIGHTS: [f64; 4] = [1.0, 0.1, 0.1, 0.1];
-/// Weight of the remaining change of the history variables in this test, like that of forces (chosen).
+/// Weight of the relative remaining change of the history variables in the test for a limit cycle (chosen): that of the forces.
 const HISTORY_WEIGHT: f64 = 0.1;
 /// Number of elements along the contact on which nothing is known of the friction. On N elements its relative error is at least the cube
 /// of this number over N, which is 3 % on 6.5 elements and 0.2 % on 16 (docs/theory/transient-half-space.md, "Linear loads").
@@ -21,9 +21,9 @@ const UNRESOLVED_CONTACT_ELEMENTS: f64 = 2.0;
 const POINTS_PER_MOTION: usize = 64;
 /// Rounding error of the friction coefficient, relative to the mean slope (chosen).
 const FRICTION_ROUNDING: f64 = 1e-12;
-/// Number of quantities of the whole motion, which precede those of its points.
+/// Number of quantities of the whole motion, which precede those of its points: friction coefficient, peak friction, work.
 const MOTION_QUANTITIES: usize = 3;
-/// Number of quantities of each point.
+/// Number of quantities of each point: tangential force, normal force, depth.
 const POINT_QUANTITIES: usize = 3;
 
 /// One step of a motion; values are means over the step unless they belong to its end.

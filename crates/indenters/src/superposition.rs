@@ -57,6 +57,7 @@ impl Superposition {
             let allowed = "different from the exponents of the other terms";
             in_range("exponent", exponent, before < exponent, allowed)?;
         }
+        // The equivalent line is linear in the profile: each term is stretched by its own factor.
         let mut line_terms = terms.clone();
         for term in &mut line_terms {
             term.coefficient *= stretch(term.exponent)?;

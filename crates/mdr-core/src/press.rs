@@ -83,6 +83,7 @@ fn on_springs(
 ) -> Result<SteadySliding, MdrError> {
     let relative_error = between_zero_and_one("relative_error", relative_error)?;
     let spring = Elastic::new(modulus)?;
+    // On springs the state does not depend on the speed.
     let problem = LineProblem::new(line, &spring, 1.0)?;
     let (quantity, sought): (_, fn(&SteadySliding) -> Estimate) = match control {
         Control::NormalForce(_) => ("indentation depth [m]", |state| state.indentation_depth),

@@ -144,6 +144,7 @@ impl TabulatedSpectrum {
             shortest_wavelength,
             seed,
         };
+        // The mean square amplitude 4 C Δq_x Δq_y of a wave is twice the square of the given amplitude.
         let cell = TAU / period[0] * (TAU / period[1]);
         random.surface(|inverse| (2.0 * cell * self.density(TAU * inverse)).sqrt())
     }

@@ -11,7 +11,7 @@ const DEFAULT_MISSING: f64 = -9999.0;
 /// Such markers are the smallest or largest f32, written with any number of digits.
 const MAX_ABS_HEIGHT: f64 = 1e30;
 
-/// Names of the header, in lower case.
+/// Names of the header, in lower case; the header ends at the first line that begins with another word.
 const HEADER_NAMES: [&str; 10] = [
     "ncols",
     "nrows",

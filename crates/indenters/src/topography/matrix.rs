@@ -12,7 +12,8 @@ const ROUNDED_LABEL_TOLERANCE: f64 = 0.3;
 /// Number of labels from which they may be rounded (chosen): of fewer numbers some are equally spaced within the larger tolerance by
 /// chance.
 const MIN_ROUNDED_LABELS: usize = 8;
-/// Largest deviation of fewer labels from equal spacing, relative to the spacing (chosen).
+/// Largest deviation of fewer than [`MIN_ROUNDED_LABELS`] labels from equal spacing, relative to the spacing (chosen): practically
+/// none.
 const EXACT_LABEL_TOLERANCE: f64 = 1e-6;
 /// Smallest number of equally spaced numbers that are not a coincidence (chosen).
 const MIN_LABELS: usize = 4;
@@ -78,12 +79,14 @@ fn read_rows(
 ///
 /// An empty line or a comment between all rows is allowed.
 fn check_single_block(text: &str, sheet: &Sheet<'_>) -> Result<(), TopographyError> {
+    // Rows that do not follow the row before them begin a block.
     let pairs = sheet.rows.windows(2);
     let begins = pairs.filter(|pair| pair[1].0 - pair[0].0 > 1);
     let begins: Vec<usize> = begins.map(|pair| pair[1].0).collect();
     if begins.is_empty() || begins.len() + 1 == sheet.rows.len() {
         return Ok(());
     }
+    // Name the block by the first of the comments above it.
     let line = begins[0];
     let between = text.lines().take(line - 1).collect::<Vec<_>>();
     let name = between

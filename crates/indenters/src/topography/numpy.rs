@@ -3,7 +3,7 @@
 use super::memory::Memory;
 use super::{ReadFailure, Topography};
 
-/// Signature of the format.
+/// Signature with which a file of `numpy.save` begins.
 const MAGIC: &[u8] = b"\x93NUMPY";
 /// Length of a number of the type `<f4`, \[bytes].
 const F32_BYTES: usize = size_of::<f32>();

@@ -111,6 +111,7 @@ impl ForceHistory<'_> {
         depth_error: f64,
         radius_error: f64,
     ) -> Vec<CurvePoint> {
+        // Extrapolation may put the radius of a lifted body below 0.
         let point = |point: &CurvePoint| {
             let depth = point.indentation_depth.value;
             let radius = point.contact_radius.value.max(0.0);

@@ -152,6 +152,7 @@ impl HeightRow {
         [first, last]: [usize; 2],
         x: impl Fn(usize) -> f64,
     ) -> Result<(), MdrError> {
+        // Without overlap start anew; otherwise append and prepend what is missing.
         let known = self.first..self.first + self.heights.len();
         if !known.contains(&first) && !known.contains(&last) {
             self.first = first;

@@ -25,7 +25,7 @@ const N_SLOPE_SAMPLES: usize = 24;
 /// ends alone. Chosen.
 const SHORT_PIECE_RATIO: f64 = 0.125;
 
-/// Maximum number of polynomials of a line; more take seconds for each trial depth.
+/// Maximum number of polynomials of a line. Chosen: more take seconds for each trial depth.
 const MAX_PIECES: usize = 1 << 18;
 /// Effect of the rounding of heights and positions on the last terms of a polynomial, as a multiple of both. Measured
 /// by `evidence tuning`.

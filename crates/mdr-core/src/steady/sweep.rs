@@ -18,12 +18,13 @@ const GAP_ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// Displacement at the rear end of the line, in depths, below which what an elastic foundation releases there counts
 /// as rounding. Its energy is below 1e-12 of the whole.
 const ELASTIC_END_DISPLACEMENT: f64 = 1e-6;
-/// Smallest width of a boundary layer, and of a part of a drawn load, in units of t, that is sampled.
+/// Smallest width of a boundary layer, and of a part of the list of loads, in units of t, that is sampled. Chosen: a change of sign
+/// inside a thinner layer is only found at the next sample.
 const MIN_LAYER_WIDTH: f64 = 1e-9;
 /// Deviation of the load from its chord, relative to the load, up to which the list of loads is straight between two
 /// positions. Chosen: it concerns the returned list of loads only.
 const CHORD_TOLERANCE: f64 = 1e-3;
-/// Compression, in depths, by which a contact may begin late through rounding of positions; more is a jump.
+/// Compression, in depths, by which a contact may begin late through rounding of positions; more is a jump. Chosen.
 const MAX_MISSED_COMPRESSION: f64 = 1e-12;
 /// Shortest contact in units of t. A contact that ends earlier ends at the start of its segment, and one that begins
 /// so close to the end begins there: the dissipation of a dashpot in so short a part is the square of rounding over

@@ -35,6 +35,7 @@ const MAX_RMS_ERROR: f64 = 0.2;
 /// before it, or a compliance is not finite and greater than zero; [`RheologyError::WrongTrend`] when no creeping material has these
 /// compliances.
 pub fn relaxation_of_creep(points: &[CreepPoint]) -> Result<Vec<RelaxationPoint>, RheologyError> {
+    // Check the points, then convert the fitted creep spectrum exactly.
     let mut last = 0.0;
     for (index, point) in points.iter().enumerate() {
         let is_increasing = point.time.is_finite() && point.time > last;

@@ -164,6 +164,7 @@ fn fit_series(
         window: curve.time_window,
         long_time_limit: options.long_time_limit,
     };
+    // The weights do not depend on the number of branches: they follow from a dense series.
     problem.set_weights()?;
     let series = match options.control {
         Control::Branches(n_branches) => {

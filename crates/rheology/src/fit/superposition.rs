@@ -112,13 +112,14 @@ pub(super) struct Superposed {
 
 /// Smallest ln of the likelihood ratio that decides between two kinds of vertical shift (chosen): odds of 20 to 1.
 const MIN_LOG_LIKELIHOOD_RATIO: f64 = 3.0;
-/// Largest deviation of ln b from the kind without constants that an instrument explains.
+/// Largest deviation of a free ln b from that of a bound vertical shift (b_T = 1 or T/T_r) that an instrument explains.
 ///
 /// Derived: three times the prior scale of the factors in the covariance of the moduli.
 const INSTRUMENT_FACTOR: f64 = 0.03;
 /// Largest ratio of the residuals to the scatter of single points for isotherms that agree (chosen).
 const MAX_RESIDUAL_RATIO: f64 = 2.0;
-/// Prior standard deviation of a free ln b around the kind without constants (chosen).
+/// Prior standard deviation of a free ln b around that of the better bound vertical shift, b_T = 1 or T/T_r (chosen): a larger one
+/// lets factors compensate wrong shifts.
 const PRIOR_MODULUS_SPREAD: f64 = 0.1;
 /// Ratio of the residuals of a pair to the median beyond which its placement is rejected (chosen).
 const FORCED_RESIDUAL_RATIO: f64 = 4.0;
@@ -301,7 +302,7 @@ impl Superposition<'_> {
         self.isotherms[isotherm].temperature + self.options.kelvin_at_zero
     }
 
-    /// Shift ln b from a fixed to a moved isotherm for a vertical shift without constants; 0 for a free one.
+    /// Shift ln b from a fixed to a moved isotherm for a bound vertical shift, b_T = 1 or T/T_r; 0 for a free one.
     fn log_modulus(&self, vertical: VerticalShift, [fixed, moved]: [usize; 2]) -> f64 {
         match vertical {
             VerticalShift::Entropic => (self.kelvin(moved) / self.kelvin(fixed)).ln(),
@@ -309,9 +310,9 @@ impl Superposition<'_> {
         }
     }
 
-    /// Placements of all pairs with a vertical shift without constants, or with free ones around it.
+    /// Placements of all pairs with a bound vertical shift, b_T = 1 or T/T_r, or with free factors around it.
     ///
-    /// `spread` is the prior standard deviation of a free ln b; `None` if b_T is bound to the vertical shift.
+    /// `spread` is the prior standard deviation of a free ln b; `None` if b_T is bound.
     fn place_pairs(
         &self,
         vertical: VerticalShift,
@@ -392,7 +393,7 @@ impl Superposition<'_> {
         shift_by_law(known.collect(), temperatures(link))
     }
 
-    /// The vertical shift without constants for which the pairs agree better.
+    /// The bound vertical shift, b_T = 1 or T/T_r, for which the pairs agree better.
     fn select_vertical(&self) -> Result<Selected, RheologyError> {
         // If only one kind can be placed, it is that one.
         let without = self.place_pairs(VerticalShift::None, None);
@@ -450,18 +451,21 @@ impl Superposition<'_> {
 
     /// Whether the data determine free factors of the moduli; three conditions must hold:
     /// - their likelihood exceeds the cost of their number (Schwarz 1978, Ann. Stat. 6, 461);
-    /// - they deviate from the factors without constants by more than an instrument explains;
+    /// - they deviate from the bound factors by more than an instrument explains;
     /// - most pairs agree within the scatter of points, unlike with factors that compensate a wrong shift.
     fn free_factors_are_significant(&self, without: &[Placed], freed: &[Placed]) -> bool {
+        // Cost of one parameter for each pair, by the number of points in the overlaps.
         let overlaps = without.iter().filter_map(|placed| placed.place);
         let points: f64 = overlaps.clone().flat_map(|place| place.overlaps).sum();
         let costs = 0.5 * (0.5 * points).max(1.0).ln() * overlaps.count() as f64;
+        // Largest difference between free and bound factors of all isotherms.
         let [free, bound] =
             [freed, without].map(|placed| self.sum_along_chain(placed, |one| one.log_modulus));
         let away = free
             .iter()
             .zip(&bound)
             .map(|(free, bound)| (free - bound).abs());
+        // Pairs whose residuals are above the scatter of points.
         let meet = |place: Place| {
             let mut parts = place.mean_squares.iter().zip(self.scatter);
             parts.all(|(square, scatter)| {

@@ -50,6 +50,7 @@ impl CreepSpectrum {
     ) -> Result<Self, RheologyError> {
         not_negative("instantaneous_compliance", instantaneous_compliance)?;
         not_negative("fluidity", fluidity)?;
+        // Order and merge the elements, then check that the sums are representable.
         let decays = elements.iter().map(|element| Decay {
             amplitude: element.compliance,
             time: element.retardation_time,

@@ -51,6 +51,7 @@ impl RelaxationSpectrum {
     ) -> Result<Self, RheologyError> {
         not_negative("equilibrium_modulus", equilibrium_modulus)?;
         not_negative("viscosity", viscosity)?;
+        // Order and merge the branches, then check that the sums are representable.
         let decays = branches.iter().map(|branch| Decay {
             amplitude: branch.modulus,
             time: branch.relaxation_time,

@@ -191,6 +191,7 @@ impl EffectInResiduals {
         residuals: &Residuals,
         scatter: &Scatter,
     ) -> Self {
+        // Weight the residuals by the effect over the variances, and find what else contributes to these sums.
         let left = residuals.apply(effect);
         let mut weights = left.clone();
         for (mut row, variance) in weights.row_iter_mut().zip(scatter.noise.iter()) {
