@@ -129,7 +129,7 @@ pub(super) struct Approach {
 /// Steps of the search for the edge that are not guarded by bisection; afterwards every other step halves the bracket. Chosen:
 /// more only delay searches in which Halley's method does not converge.
 const UNGUARDED_EDGE_STEPS: usize = 16;
-/// Steps after which the search for the edge ends: 92 of them have halved the bracket, which is then narrower than rounding.
+/// Steps after which the search for the edge ends: 91 of them have halved the bracket, which is then narrower than rounding.
 const MAX_EDGE_STEPS: usize = 200;
 /// Relative change of the depth of the edge at which its search ends. Chosen: the derivatives have this relative error, the
 /// force its square or less.
