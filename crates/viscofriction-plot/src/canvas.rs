@@ -9,7 +9,7 @@ use crate::font::FAMILY;
 /// Pixels from the left and the top.
 pub(crate) type Pixel = [f64; 2];
 
-/// Rectangle in pixels.
+/// Rectangle in pixels, y downwards.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Area {
     pub(crate) left: f64,
@@ -19,14 +19,17 @@ pub(crate) struct Area {
 }
 
 impl Area {
+    /// Right edge, \[px\].
     pub(crate) fn right(&self) -> f64 {
         self.left + self.width
     }
 
+    /// Lower edge, \[px\].
     pub(crate) fn bottom(&self) -> f64 {
         self.top + self.height
     }
 
+    /// Whether a pixel is in the rectangle, or at most `margin` \[px\] outside.
     pub(crate) fn contains(&self, [x, y]: Pixel, margin: f64) -> bool {
         let across = (self.left - margin..=self.right() + margin).contains(&x);
         across && (self.top - margin..=self.bottom() + margin).contains(&y)
@@ -35,6 +38,7 @@ impl Area {
 
 /// Pen of a line or outline.
 pub(crate) struct Pen {
+    /// Colour as #rrggbb, or "none".
     pub(crate) colour: &'static str,
     pub(crate) width: f64,
     /// Lengths of dashes and gaps, \[px\].
@@ -47,6 +51,7 @@ pub(crate) const NO_PEN: Pen = Pen::solid("none", 0.0);
 pub(crate) const FRAME_PEN: Pen = Pen::solid("#000000", 1.0);
 
 impl Pen {
+    /// Pen of an unbroken line.
     pub(crate) const fn solid(colour: &'static str, width: f64) -> Self {
         Self {
             colour,
@@ -59,8 +64,11 @@ impl Pen {
 /// Position of a text relative to its point; all but `Upwards` are horizontal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Anchor {
+    /// The text begins at its point.
     Start,
+    /// The text is centred about its point.
     Middle,
+    /// The text ends at its point.
     End,
     /// Centred and rotated by 90° counterclockwise.
     Upwards,
@@ -69,8 +77,10 @@ pub(crate) enum Anchor {
 /// Text whose baseline passes through a point.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Text {
+    /// Point on the baseline.
     pub(crate) at: Pixel,
     pub(crate) text: String,
+    /// Size of the letters, \[px\].
     pub(crate) size: u32,
     pub(crate) anchor: Anchor,
 }
@@ -118,11 +128,13 @@ impl Canvas {
         }
     }
 
+    /// Straight line between two pixels.
     pub(crate) fn line(&mut self, [x1, y1]: Pixel, [x2, y2]: Pixel, pen: &Pen) {
         let ends = [("x1", x1), ("y1", y1), ("x2", x2), ("y2", y2)];
         self.element("line", &ends, &[], pen);
     }
 
+    /// Straight lines from pixel to pixel, without fill.
     pub(crate) fn polyline(&mut self, points: &[Pixel], pen: &Pen) {
         let place = |[x, y]: &Pixel| format!("{},{}", rounded(*x), rounded(*y));
         let places: Vec<String> = points.iter().map(place).collect();
@@ -130,6 +142,7 @@ impl Canvas {
         self.element("polyline", &[], &texts, pen);
     }
 
+    /// Circle about a pixel with a radius \[px\], filled with a colour as #rrggbb.
     pub(crate) fn circle(&mut self, [x, y]: Pixel, radius: f64, fill: &str, pen: &Pen) {
         let places = [("cx", x), ("cy", y), ("r", radius)];
         self.element("circle", &places, &[("fill", fill)], pen);
@@ -146,6 +159,7 @@ impl Canvas {
         self.element("path", &[], &texts, &NO_PEN);
     }
 
+    /// Rectangle, filled with a colour as #rrggbb or "none".
     pub(crate) fn rectangle(&mut self, area: Area, fill: &str, pen: &Pen) {
         let [width, height] = [("width", area.width), ("height", area.height)];
         let places = [("x", area.left), ("y", area.top), width, height];
@@ -217,6 +231,7 @@ impl Canvas {
         self.xml.end_element();
     }
 
+    /// Begins an element with its coordinates, rounded to a hundredth of a pixel.
     fn start_element(&mut self, name: &str, places: &[(&str, f64)]) {
         self.xml.start_element(name);
         for (name, value) in places {

@@ -112,6 +112,7 @@ impl Panel<'_> {
         self.frame.bottom() + self.legend.height_below()
     }
 
+    /// Draws the field, frame, series and legend, in this order.
     pub(crate) fn draw(&self, canvas: &mut Canvas) -> Result<(), PlotError> {
         if let Some(field) = &self.chart.field {
             field.draw(canvas, self.frame.area);

@@ -55,7 +55,7 @@ impl Colour {
 /// Number of distinct colours of a field (chosen: fine enough for the eye, coarse enough for a small file).
 pub(crate) const LEVELS: u8 = 100;
 
-/// Colour step at a fraction of the scale.
+/// Index of the colour of a field at a fraction of its scale, from 0 to [`LEVELS`] − 1.
 pub(crate) fn level_at(fraction: f64) -> u8 {
     (1..LEVELS)
         .take_while(|&next| f64::from(next) <= fraction * f64::from(LEVELS))
@@ -63,7 +63,7 @@ pub(crate) fn level_at(fraction: f64) -> u8 {
         .unwrap_or(0)
 }
 
-/// Colour step as #rrggbb, from dark blue to yellow.
+/// Colour of a field by its index, as #rrggbb, from dark blue to yellow.
 pub(crate) fn level_colour(level: u8) -> String {
     let share = (f64::from(level) + 0.5) / f64::from(LEVELS);
     format!("#{:x}", VIRIDIS.eval_continuous(share))

@@ -12,10 +12,13 @@ use crate::frame::{AxisEdge, Edge, TickSide, side_margin};
 /// Values on a rectangular grid that fills the ranges of both axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Field {
+    /// Number of cells along x.
     columns: usize,
     /// Values row by row from the lowest y, each row from the lowest x.
     values: Vec<Option<f64>>,
+    /// Colour scale, drawn as the axis of the bar.
     colours: Axis,
+    /// True if the cells fill the panel, instead of having the proportions of the axes.
     is_stretched: bool,
 }
 

@@ -13,6 +13,7 @@ pub(crate) const UNITS_PER_EM: f32 = 2048.0;
 /// Outlines of the letters of a text, in font units from the start of the baseline, y upwards.
 #[derive(Default)]
 pub(crate) struct Outline {
+    /// Curves of the letters.
     pub(crate) path: PathBuilder,
     /// Length of the text along the baseline.
     pub(crate) length: f32,

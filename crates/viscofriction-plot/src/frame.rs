@@ -65,6 +65,7 @@ pub(crate) fn right_margin(x: &Axis) -> Result<f64, PlotError> {
     Ok((width / 2.0 + 4.0).max(18.0))
 }
 
+/// Width of the widest label of some ticks, \[px\]; 0 without labels.
 fn widest_label(ticks: &[Tick]) -> Result<f64, PlotError> {
     let mut labels = ticks.iter().filter_map(|tick| tick.label.as_deref());
     labels.try_fold(0.0, |widest: f64, label| {
@@ -127,9 +128,13 @@ impl<'a> Frame<'a> {
 
 /// An axis along the edge of a rectangle.
 pub(crate) struct AxisEdge<'a> {
+    /// The axis.
     axis: &'a Axis,
+    /// Label of the axis, with the prefix or power of ten of its ticks.
     label: String,
+    /// The rectangle.
     area: Area,
+    /// Edge of the rectangle.
     edge: Edge,
     ticks: Vec<Tick>,
     /// Width of the widest label of a tick, \[px\].
@@ -163,6 +168,7 @@ impl<'a> AxisEdge<'a> {
         Ok(found)
     }
 
+    /// Pixel of a value on the edge.
     fn pixel(&self, value: f64) -> Pixel {
         self.pixel_at(self.axis.fraction(value))
     }
@@ -197,6 +203,7 @@ impl<'a> AxisEdge<'a> {
         self.inwards(pixel, across)
     }
 
+    /// Whether two labels of ticks are closer than [`GAP`]; for a horizontal axis.
     fn labels_collide(&self) -> Result<bool, PlotError> {
         let mut free = f64::NEG_INFINITY;
         for tick in &self.ticks {
@@ -211,6 +218,7 @@ impl<'a> AxisEdge<'a> {
         Ok(false)
     }
 
+    /// Draws a line across the rectangle at every major tick.
     fn draw_grid(&self, canvas: &mut Canvas) {
         for tick in self.ticks.iter().filter(|tick| tick.major) {
             let own = self.pixel(tick.value);
@@ -252,6 +260,7 @@ impl<'a> AxisEdge<'a> {
         self.draw_label(canvas);
     }
 
+    /// Draws the label of the axis, at the middle of the edge.
     fn draw_label(&self, canvas: &mut Canvas) {
         let [x, y] = self.pixel_at(0.5);
         let size = f64::from(LABEL_SIZE);

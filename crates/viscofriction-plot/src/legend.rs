@@ -33,9 +33,11 @@ const COLUMN_GAP: f64 = 18.0;
 
 /// Legend with its layout.
 pub(crate) struct Legend<'a> {
+    /// Series with their labels.
     entries: Vec<(&'a Series, &'a str)>,
     /// Width of one column with sample and text, \[px\].
     column: f64,
+    /// Number of rows in each column.
     rows: usize,
     /// Rectangle inside the frame; `None` for a legend below the chart.
     inside: Option<Area>,
@@ -152,6 +154,7 @@ fn marked_pixels(series: &[Series], frame: &Frame) -> Vec<Pixel> {
     marks
 }
 
+/// Draws line, marker and text of an entry, with its middle line at a height \[px\].
 fn draw_entry(canvas: &mut Canvas, [left, middle]: Pixel, series: &Series, label: &str) {
     if let Some(line) = series.line {
         let end = [left + SAMPLE_LENGTH, middle];

@@ -75,6 +75,7 @@ pub(crate) fn line_pen(line: Line, colour: Colour) -> Pen {
     }
 }
 
+/// Draws a marker about a pixel, in a colour as #rrggbb.
 pub(crate) fn draw_marker(
     canvas: &mut Canvas,
     [x, y]: Pixel,
@@ -108,6 +109,7 @@ pub(crate) fn draw_marker(
     }
 }
 
+/// Closed path through four corners, given by their distances \[px\] to the right of a pixel and below it.
 fn polygon([x, y]: Pixel, corners: [[f64; 2]; 4]) -> String {
     let points = corners.map(|[right, down]| format!("{:.2} {:.2}", x + right, y + down));
     format!("M{}Z", points.join("L"))

@@ -35,7 +35,7 @@ pub fn render_png(drawing: &Drawing, width: u32) -> Result<Vec<u8>, PlotError> {
     png.map_err(|error| PlotError::Render(error.to_string()))
 }
 
-/// Draws the letters of a text in black.
+/// Draws the letters of a text in black; `scale` maps the pixels of the drawing to those of the PNG.
 fn fill_text(pixels: &mut Pixmap, text: &Text, scale: Transform) -> Result<(), PlotError> {
     let outline = Outline::new(&text.text)?;
     let (part_before, turn) = match text.anchor {

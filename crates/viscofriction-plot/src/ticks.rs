@@ -14,9 +14,9 @@ pub(crate) struct Tick {
     pub(crate) label: Option<String>,
 }
 
-/// Largest number of labelled steps on a linear axis.
+/// Largest number of labelled steps on a linear axis (chosen).
 const MAX_LABELLED_STEPS: f64 = 6.0;
-/// Largest number of labelled decades on a logarithmic axis.
+/// Largest number of labelled decades on a logarithmic axis (chosen); of more every n-th is labelled.
 const MAX_LABELLED_DECADES: f64 = 8.0;
 
 /// Ticks of an axis from its lower to its upper end.
@@ -27,6 +27,7 @@ pub(crate) fn ticks(axis: &Axis) -> Vec<Tick> {
     }
 }
 
+/// Ticks of a linear axis: labelled ones at the steps of [`linear_step`], and minor ones between them.
 fn linear_ticks(axis: &Axis) -> Vec<Tick> {
     let [from, to] = axis.range;
     let (step, parts) = linear_step(to - from);
@@ -114,7 +115,8 @@ pub(crate) fn whole_numbers(first: f64, last: f64) -> impl Iterator<Item = f64> 
     successors(Some(first), |count| Some(count + 1.0)).take_while(move |count| *count <= last)
 }
 
-/// Distance of the labelled ticks, and number of parts into which minor ticks divide it.
+/// Distance of the labelled ticks: the smallest of 1, 2 and 5 times a power of ten with at most [`MAX_LABELLED_STEPS`] steps in
+/// `span`; and number of parts into which minor ticks divide it.
 fn linear_step(span: f64) -> (f64, f64) {
     let least = span / MAX_LABELLED_STEPS;
     let decade = 10_f64.powf(least.log10().floor());
@@ -125,6 +127,8 @@ fn linear_step(span: f64) -> (f64, f64) {
         .unwrap_or((10.0 * decade, 5.0))
 }
 
+/// Ticks of a logarithmic axis: major ones at powers of ten, minor ones at their multiples. Over less than two decades the
+/// multiples 2 and 5 are labelled too, over less than one all.
 fn log_ticks([from, to]: [f64; 2]) -> Vec<Tick> {
     let powers = (to.log10() + 1e-9).floor() - (from.log10() - 1e-9).ceil() + 1.0;
     // Every n-th decade is labelled.
