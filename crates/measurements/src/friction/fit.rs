@@ -20,11 +20,13 @@ use crate::{Finding, MeasurementError};
 const NORMAL_QUANTILE: f64 = 1.959_963_984_540_054;
 /// Coverage probability of the intervals.
 const COVERAGE: f64 = 0.95;
-/// Relative tolerance of the rise of the sum at an end of a profile before interpolation (chosen).
+/// Relative tolerance of the rise of the sum at an end of an interval, up to which the end is interpolated between two trials
+/// (chosen).
 const PROFILE_TOLERANCE: f64 = 0.1;
-/// Predicted decrease of the sum, in variances of a point, below which the last step is taken without evaluation (chosen).
+/// Predicted decrease of the sum, in variances of a point, below which the least squares take their last step without computing
+/// the model again (chosen, far below the rise by t² = 3.8 that ends an interval).
 const SUFFICIENT_DECREASE: f64 = 0.05;
-/// Relative noise of the friction that is assumed before the first fit (chosen).
+/// Relative noise of the friction that is assumed if it is not known, until a fit estimates it (chosen).
 const INITIAL_RELATIVE_NOISE: f64 = 0.05;
 /// Largest excess of the sum over its expectation for a good fit, in standard deviations of χ² (chosen).
 const GOOD_FIT_DEVIATIONS: f64 = 3.0;
@@ -38,8 +40,11 @@ const MISFIT_DEVIATIONS: f64 = 4.0;
 /// A fitting problem: measured points, free parameters, prior and noise.
 #[derive(Debug, Clone, Copy)]
 pub struct FrictionFitting<'a> {
+    /// Measured points.
     points: &'a [FrictionPoint],
+    /// Free parameters, in the order of all vectors of their logarithms.
     parameters: &'a [FreeParameter],
+    /// Prior of these logarithms; `None` without prior knowledge.
     prior: Option<&'a Prior>,
     /// Kind of the noise of unknown size; `None` if standard errors are given.
     noise: Option<FrictionNoise>,
@@ -99,10 +104,12 @@ impl<'a> FrictionFitting<'a> {
         Self { points, ..*self }
     }
 
+    /// Number of parameters that the prior knows.
     fn n_priors(&self) -> usize {
         self.prior.map_or(0, |prior| prior.rank)
     }
 
+    /// Points and known parameters less parameters, at least 0.
     fn degrees_of_freedom(&self) -> usize {
         let known = self.points.len() + self.n_priors();
         known.saturating_sub(self.parameters.len())
@@ -150,6 +157,8 @@ impl<'a> FrictionFitting<'a> {
         sum <= self.initial_variance() * (n + GOOD_FIT_DEVIATIONS * (2.0 * n).sqrt())
     }
 
+    /// Variance s² of a residual before the first fit: 1 with standard errors, else that of 5 % of the friction, in the unit of
+    /// the residuals.
     fn initial_variance(&self) -> f64 {
         let square = |point: &FrictionPoint| point.friction_coefficient.powi(2);
         let squares: f64 = self.points.iter().map(square).sum();
@@ -162,11 +171,13 @@ impl<'a> FrictionFitting<'a> {
         }
     }
 
+    /// Bounds and largest steps of the logarithms of all parameters.
     fn ranges(&self) -> Vec<ParameterRange> {
         self.parameters.iter().map(|one| one.range).collect()
     }
 
-    /// Residual of a point, and minus its derivative by the logarithm of the modelled friction.
+    /// Residual r of a point, and −∂r/∂ ln μ by the modelled friction μ: (μ_i − μ)/σ_i with standard errors σ_i, else ln(μ_i/μ)
+    /// for relative noise or μ_i − μ for absolute noise.
     fn residual(&self, point: &FrictionPoint, modelled: f64) -> [f64; 2] {
         let measured = point.friction_coefficient;
         let unit = match self.noise {
@@ -177,6 +188,8 @@ impl<'a> FrictionFitting<'a> {
         [(measured - modelled) / unit, modelled / unit]
     }
 
+    /// The sum S at the logarithms of the parameters with its Gauss–Newton model, for the variance s² of a residual. `None` if
+    /// the model has no friction there.
     fn linearise(
         &self,
         model: &dyn FrictionModel,
@@ -248,7 +261,8 @@ impl<'a> FrictionFitting<'a> {
         })
     }
 
-    /// Estimate and interval of parameter `k`; ends that exceed the number of computations are counted and left open.
+    /// Estimate and 95 % interval of parameter `k` around a minimum. Ends that need more than [`MAX_COMPUTATIONS`] are left
+    /// open and counted in `n_unfinished`; without both ends there is no estimate.
     fn finding(
         &self,
         model: &dyn FrictionModel,
@@ -263,6 +277,9 @@ impl<'a> FrictionFitting<'a> {
             Some(_) => student_quantile(COVERAGE, self.degrees_of_freedom()),
         };
         let deviations = deviations.unwrap_or(f64::INFINITY);
+        // The ends of the interval are where the smallest sum of squares with this parameter fixed is larger by `rise`. Where
+        // the
+        // model is linear they are one standard `deviation` times the quantile away, from where the search starts.
         let rise = deviations * deviations * variance;
         let deviation = inverse(&best.model.matrix, n).map_or(f64::INFINITY, |inverse| {
             (inverse[k * (n + 1)] * rise).sqrt()
@@ -304,7 +321,8 @@ impl<'a> FrictionFitting<'a> {
         }
     }
 
-    /// Warnings for residuals that are not noise.
+    /// Warnings if parameters and prior contradict each other, if the sum of squares of the residuals, `square`, exceeds that
+    /// of the standard errors, and if residuals of neighbouring speeds are correlated.
     fn flags(&self, residuals: &[f64], square: f64, parameters: &[f64]) -> Vec<String> {
         let mut flags = Vec::new();
         if let Some(prior) = self.prior
@@ -328,6 +346,7 @@ impl<'a> FrictionFitting<'a> {
                  or the errors are too small, and the intervals do not hold"
             ));
         }
+        // Of independent residuals the correlation of neighbours has the standard deviation 1/√n.
         let mut order: Vec<usize> = (0..residuals.len()).collect();
         order.sort_by(|&one, &other| {
             let speed = |at: usize| self.points[at].velocity;
@@ -358,7 +377,7 @@ impl Prior {
             .sum()
     }
 
-    /// Gradient P (m − ln θ) towards the prior mean.
+    /// The vector P (m − ln θ): half the negative gradient of the squared distance from the prior mean.
     fn pull(&self, parameters: &[f64]) -> Vec<f64> {
         let rows = self.precision.chunks(self.mean.len());
         let row = |row: &[f64]| {
@@ -370,7 +389,7 @@ impl Prior {
         rows.map(row).collect()
     }
 
-    /// Adds the prior to the normal equations of residuals of this variance.
+    /// Adds the prior, multiplied by the variance s² of a residual, to sum, matrix and right-hand side of the normal equations.
     fn add_to(&self, linearised: &mut QuadraticModel, parameters: &[f64], variance: f64) {
         linearised.sum += variance * self.squared_distance(parameters);
         for (entry, known) in linearised.matrix.iter_mut().zip(&self.precision) {
@@ -391,7 +410,7 @@ pub struct FrictionMinimum {
     pub variance: f64,
 }
 
-/// Result of the last of several rounds; `None` if one fails.
+/// Result of the last of several rounds; `None` if one fails, and for no rounds.
 fn repeat<T>(rounds: usize, mut round: impl FnMut() -> Option<T>) -> Option<T> {
     let mut last = None;
     for _ in 0..rounds {
@@ -400,7 +419,7 @@ fn repeat<T>(rounds: usize, mut round: impl FnMut() -> Option<T>) -> Option<T> {
     last
 }
 
-/// Normal equations of residuals and their rows of derivatives.
+/// Normal equations Jᵀ J x = Jᵀ r of residuals r and their rows J of derivatives by `n` parameters; matrix row by row.
 fn normal_equations(rows: impl Iterator<Item = (f64, Vec<f64>)>, n: usize) -> QuadraticModel {
     let mut linearised = QuadraticModel {
         sum: 0.0,

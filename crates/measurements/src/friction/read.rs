@@ -34,6 +34,7 @@ pub struct FrictionTable {
     pub notes: Vec<String>,
 }
 
+/// Names and columns of a table of friction.
 static FRICTION: Vocabulary = Vocabulary {
     names: "v (or rpm) and mu (or friction force and normal force), and perhaps t, T, normal force, track radius and standard error",
     known: &KNOWN_NAMES,
@@ -49,7 +50,8 @@ static FRICTION: Vocabulary = Vocabulary {
     has_order: true,
 };
 
-/// Known names, without blanks, points, dashes, underscores and accents; rotational speeds follow speeds along the track.
+/// Known names, without blanks, points, dashes, underscores and accents. Of several columns of a quantity the one whose name
+/// comes first is read, so that speeds along the track precede rotational ones.
 const KNOWN_NAMES: [(Quantity, Option<Deformation>, &str); 21] = [
     (Velocity, None, "v velocity speed geschwindigkeit vitesse"),
     (
@@ -110,7 +112,8 @@ const KNOWN_NAMES: [(Quantity, Option<Deformation>, &str); 21] = [
     (Quantity::Other, None, "remark"),
 ];
 
-/// Needed columns; forces and errors are needed in every row if they have a column.
+/// The columns that every row must have, of a table with the given ones: speed, friction coefficient or both forces, and normal
+/// force and standard error if there is a column of them.
 fn needed(columns: &[Quantity]) -> Vec<Quantity> {
     let has = |quantity: &Quantity| columns.contains(quantity);
     let friction = if has(&FrictionForce) && !has(&Friction) {
@@ -160,21 +163,26 @@ pub fn friction_points(
     Ok(FrictionTable { points, notes })
 }
 
-/// One row in SI.
+/// One row of the table, in SI units; `None` for a quantity without a column.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Row {
     /// Line in the file, from 1.
     pub(super) line: usize,
+    /// Time, \[s].
     pub(super) time: Option<f64>,
+    /// Speed along the track, \[m/s].
     pub(super) velocity: f64,
-    /// Friction coefficient, or friction force.
+    /// Friction coefficient, or friction force \[N] if the table has forces.
     pub(super) friction: f64,
+    /// Normal force, \[N].
     pub(super) normal_force: Option<f64>,
+    /// Standard error of the friction coefficient.
     pub(super) standard_error: Option<f64>,
+    /// Temperature, \[°C].
     pub(super) temperature: Option<f64>,
 }
 
-/// All rows of a table.
+/// All rows of a table with their lines in the file.
 struct Rows<'a> {
     table: &'a Table<'a>,
     lines: &'a [&'a Line<'a>],
@@ -187,6 +195,7 @@ struct Rows<'a> {
 const NEGATIVE_SIGN_FRACTION: f64 = 0.9;
 
 impl<'a> Rows<'a> {
+    /// Converts all rows to SI units, rotational speeds by the radius of the track, and corrects the signs of forces.
     fn new(
         table: &'a Table<'a>,
         lines: &'a [&'a Line<'a>],
@@ -227,7 +236,8 @@ impl<'a> Rows<'a> {
         Ok(rows)
     }
 
-    /// Inverts a force that is negative in nearly all rows.
+    /// Inverts a force, with a note, if it is negative in at least [`NEGATIVE_SIGN_FRACTION`] of the rows; `force` selects it
+    /// in a row.
     fn correct_sign(
         &mut self,
         name: &str,
@@ -255,6 +265,8 @@ impl<'a> Rows<'a> {
         ));
     }
 
+    /// One point for each row, or for a time series with a run-in the mean of each run. Refuses runs of many rows without a
+    /// run-in, and a run-in without such runs.
     fn points(
         &self,
         options: &FrictionTableOptions,
@@ -281,7 +293,7 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// The point of one row.
+    /// The point of one row. Refuses a force or a coefficient that is not greater than 0, and a coefficient above 10.
     fn point(&self, row: &Row, line: &Line) -> Result<FrictionPoint> {
         if row.normal_force.is_some_and(|force| force <= 0.0) {
             return Err(self.table.wrong_in(line, Force, "a number greater than 0"));
@@ -311,6 +323,7 @@ impl<'a> Rows<'a> {
         })
     }
 
+    /// What a message expects of a friction that is too large.
     const fn expected_range(&self) -> &'static str {
         if self.has_forces {
             "at most 10 times the normal force (are the columns of the two forces exchanged, or a unit wrong?)"
@@ -319,7 +332,8 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// The means of runs.
+    /// The mean of each run after its first `run_in` \[s], with notes on all runs. Standard errors are dropped if one run has
+    /// none.
     fn means(
         &self,
         runs: &[&[Row]],
@@ -376,11 +390,12 @@ impl<'a> Rows<'a> {
     }
 }
 
-/// Smallest ratio of the variations of normal and friction force that shows exchanged columns (chosen).
+/// Variation of the normal force over that of the friction force, from which the columns count as exchanged (chosen).
 ///
 /// A variation is the ratio of the largest to the smallest value.
 const EXCHANGED_SPREAD: f64 = 1.2;
 
+/// Message for a run of rows at one speed without an option for the run-in.
 fn without_run_in(run: &[Row]) -> String {
     let last = run[run.len() - 1].line;
     format!(
@@ -397,11 +412,15 @@ pub(super) fn rounded(value: f64) -> f64 {
 
 /// Source of the radius of the track.
 enum TrackRadius {
+    /// The speeds are along the track.
     NotNeeded,
+    /// A column of the table.
     Column,
+    /// The option, \[m].
     Given(f64),
 }
 
+/// Where the radius of the track comes from. Refuses rotational speeds without a radius, and an option that has no effect.
 fn track_radius(table: &Table, options: &FrictionTableOptions) -> Result<TrackRadius> {
     let speed = table.find(Velocity);
     let is_rotational = speed.is_some_and(|column| ROTATIONAL_UNITS.contains(&column.unit));

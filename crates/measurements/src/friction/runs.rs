@@ -8,13 +8,14 @@ use crate::indentation::correlated_points;
 
 /// Smallest number of rows of a run (chosen).
 pub(super) const MIN_ROWS: usize = 10;
-/// Largest relative deviation of the speed within a run from its first row (chosen).
+/// Largest relative deviation of the speed of a row from that of the first row of its run (chosen).
 const SPEED_TOLERANCE: f64 = 0.02;
 /// Largest fraction of rows whose friction has the opposite sign of the mean (chosen).
 const MAX_OPPOSITE_SIGN_FRACTION: f64 = 0.1;
-/// Smallest significant difference of the means of the two halves of a run, in standard errors (chosen).
+/// Difference of the means of the two halves of a run, in standard errors of the difference, above which it is reported
+/// (chosen).
 const DRIFT_STANDARD_ERRORS: f64 = 4.0;
-/// Smallest significant difference of the two halves, relative to the mean (chosen).
+/// Difference of the means of the two halves of a run, over the mean of the run, above which it is reported (chosen).
 const MIN_RELATIVE_DRIFT: f64 = 0.05;
 
 /// Splits rows into runs of consecutive rows at one speed and increasing time; without times every row is a run.
@@ -37,9 +38,11 @@ pub(super) fn split(rows: &[Row]) -> Vec<&[Row]> {
 
 /// The mean of a run at constant speed.
 pub(super) struct Run {
+    /// Means of speed, friction, temperature and force.
     pub(super) point: FrictionPoint,
     /// First and last line of the run.
     lines: [usize; 2],
+    /// Number of rows after the run-in.
     n_rows: usize,
     /// Standard deviation of the friction coefficient of a row.
     scatter: f64,
@@ -48,7 +51,8 @@ pub(super) struct Run {
 }
 
 impl Run {
-    /// Mean of the rows after the run-in \[s]; for forces it is the ratio of the means.
+    /// Mean of the rows later than `run_in` \[s] after the first one. Of forces the coefficient is the ratio of their means.
+    /// The error is a message.
     pub(super) fn new(rows: &[Row], run_in: f64, has_forces: bool) -> Result<Self, String> {
         let steady = after_run_in(rows, run_in)?;
         let mean_of = |of: &dyn Fn(&Row) -> Option<f64>| {
@@ -81,7 +85,7 @@ impl Run {
     }
 }
 
-/// Rows after the run-in; refused if there are too few.
+/// The rows later than `run_in` \[s] after the first one; a message if they are fewer than [`MIN_ROWS`].
 fn after_run_in(rows: &[Row], run_in: f64) -> Result<Vec<Row>, String> {
     let time = |row: &Row| row.time.unwrap_or_default();
     let (first, last) = (&rows[0], &rows[rows.len() - 1]);
@@ -153,11 +157,13 @@ fn check_signs(coefficients: &[f64]) -> Result<(), String> {
     ))
 }
 
+/// Arithmetic mean.
 fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// Mean, standard deviation, and standard error of the mean of correlated values.
+/// Mean, standard deviation s of a value, and standard error s √(τ/n) of the mean of n correlated values, with their integrated
+/// autocorrelation time τ (Sokal 1997).
 fn mean_and_errors(values: &[f64]) -> (f64, f64, f64) {
     let mean = mean(values);
     let residuals: Vec<f64> = values.iter().map(|value| value - mean).collect();

@@ -1,6 +1,6 @@
 //! Reader of tables of the Python package afmformats (`.tab`): names in the last comment, quantities in SI.
 
-/// Names of columns and their units.
+/// Names of columns of the format, which states no units, and their units.
 const UNITS: [(&str, &str); 5] = [
     ("time", "s"),
     ("force", "N"),
@@ -9,7 +9,7 @@ const UNITS: [(&str, &str); 5] = [
     ("tip position", "m"),
 ];
 
-/// The text with units in the line of names; `None` for other texts.
+/// The text of a table of afmformats with the units added to its line of names; `None` for other texts.
 pub(super) fn table(text: &str) -> Option<String> {
     if !(text.starts_with("# afmformats") || text.starts_with("# BEGIN METADATA")) {
         return None;

@@ -8,17 +8,18 @@ use super::flag::Flag;
 use super::means::Measured;
 use super::start::{MIN_POINTS, Start};
 
-/// Smallest ratio of a time step to those around it that is a gap (chosen).
+/// Ratio of a time step to both steps around it, above which points are missing (chosen).
 const MIN_GAP_RATIO: f64 = 20.0;
-/// Number of successive points with the largest force that are saturated (chosen).
+/// Number of successive points with exactly the largest force, from which the sensor counts as saturated if the body moves on
+/// (chosen).
 const SATURATED_POINTS: usize = 5;
-/// Smallest speed of the body at a saturated force, relative to the speed before (chosen).
+/// Speed of the body at the largest force over the speed before, above which it counts as moving on (chosen).
 const MIN_SPEED_RATIO: f64 = 0.3;
 /// Deviation that is significant, in standard deviations of the noise (chosen).
 pub(super) const NOISE_DEVIATIONS: f64 = 6.0;
 /// Largest plausible ratio of width and depth of a contact (chosen).
 const MAX_ASPECT_RATIO: f64 = 1e9;
-/// Smallest significant reversal of the depth, relative to its range (chosen).
+/// Reversal of the depth over its range, above which the body counts as pressed again (chosen, above the noise of a hold).
 const REVERSAL_FRACTION: f64 = 0.05;
 
 /// The checked curve as means with a smooth depth, and without the retraction if that is asked for.
@@ -91,7 +92,8 @@ pub(super) fn check_scale(body: &dyn Axisymmetric, curve: &IndentationCurve) -> 
     }
 }
 
-/// Refuses a curve without contact or with the wrong sign, by the elastic initial fit.
+/// Refuses a curve whose force, in the elastic initial fit `begin`, does not rise above [`NOISE_DEVIATIONS`] of its noise, or
+/// falls.
 pub(super) fn check_contact(measured: &Measured, begin: &Start) -> Result<(), Flag> {
     let Measured { curve, counts, .. } = measured;
     let noise = depth::noise(&curve.time, &curve.force, counts).max(0.5 * begin.residual);

@@ -8,7 +8,7 @@
 
 /// Smallest significant mean residual of a part of a piece, in standard errors (chosen).
 pub(super) const STRUCTURE_STANDARD_ERRORS: f64 = 3.5;
-/// Noise relative to the range below which the path is not smoothed (chosen): it is rounding.
+/// Noise over the range of depths up to which the path is not smoothed (chosen): it is the rounding of the file.
 const MIN_RELATIVE_NOISE: f64 = 1e-7;
 /// Bound on the number of rounds of moving and removing knots (chosen).
 const MAX_KNOT_ROUNDS: usize = 4;
@@ -26,6 +26,7 @@ pub(super) struct SmoothedPath {
 }
 
 impl SmoothedPath {
+    /// Number of knots.
     pub(super) const fn len(&self) -> usize {
         self.knots.len()
     }
@@ -42,7 +43,7 @@ impl SmoothedPath {
         }
     }
 
-    /// Product of the covariance matrix of the depths at the knots with a vector.
+    /// Product of the covariance matrix \[m²] of the depths at the knots with a vector that has one entry per knot.
     pub(super) fn covariance(&self, mut values: Vec<f64>) -> Vec<f64> {
         solve(&self.diagonal, &self.off_diagonal, &mut values);
         let variance = self.noise * self.noise;
@@ -50,7 +51,8 @@ impl SmoothedPath {
     }
 }
 
-/// Standard deviation of one measured value, from the distances of means from the line through their neighbours.
+/// Standard deviation of one measured value, in the unit of `values`, which are means of `counts` measured ones. It follows
+/// from the median distance of each from the line over time through its neighbours, so that outliers have no effect.
 pub(super) fn noise(time: &[f64], values: &[f64], counts: &[f64]) -> f64 {
     let second_difference = |i: usize| {
         let part = (time[i] - time[i - 1]) / (time[i + 1] - time[i - 1]);
@@ -82,7 +84,8 @@ pub(super) fn min_max(values: &[f64]) -> [f64; 2] {
     values.iter().fold(start, wider)
 }
 
-/// Smooths a path in place; `None` if it has no noise.
+/// Replaces the depths \[m] of a path by a linear spline over time \[s], fitted to means of `counts` measured values. `None`,
+/// and an unchanged path, if it has no noise.
 pub(super) fn smooth(time: &[f64], depth: &mut [f64], counts: &[f64]) -> Option<SmoothedPath> {
     let noise = noise(time, depth, counts);
     let [low, high] = min_max(depth);
@@ -131,13 +134,14 @@ pub(super) fn smooth(time: &[f64], depth: &mut [f64], counts: &[f64]) -> Option<
     })
 }
 
+/// A noisy path: times \[s], depths \[m], and the number of measured values in each depth.
 struct Points<'a> {
     time: &'a [f64],
     depth: &'a [f64],
     counts: &'a [f64],
 }
 
-/// Normal equations of the hat functions on the knots, with a tridiagonal matrix.
+/// Normal equations for the depths at the knots, with a symmetric tridiagonal matrix and the right-hand side `right`.
 #[derive(Clone)]
 struct System {
     diagonal: Vec<f64>,
@@ -146,6 +150,8 @@ struct System {
 }
 
 impl Points<'_> {
+    /// Weighted normal equations of the spline with knots at points of these indices, which increase from the first to the last
+    /// point of a part.
     fn system(&self, knots: &[usize]) -> System {
         let n = knots.len();
         let [diagonal, off_diagonal, right] = [0; 3].map(|_| vec![0.0; n]);
@@ -173,7 +179,7 @@ impl Points<'_> {
         system
     }
 
-    /// Least-squares linear spline at all points.
+    /// Depths of the least-squares linear spline, \[m], at all points from the first to the last knot.
     fn path(&self, knots: &[usize]) -> Vec<f64> {
         let mut system = self.system(knots);
         reduce(&mut system.diagonal, &system.off_diagonal);
@@ -198,7 +204,8 @@ impl Points<'_> {
             .sum()
     }
 
-    /// Moves knots to minimise the sum of squares, and removes those whose effect may be by chance.
+    /// Moves knots to minimise the sum of squares, and removes those whose removal raises it by less than 2 ln n σ², for n points
+    /// and the noise σ \[m]. That is the penalty of two parameters, time and depth of the knot, in Schwarz's criterion.
     fn optimise_knots(&self, knots: &mut Vec<usize>, noise: f64) {
         let chance = 2.0 * (self.time.len() as f64).ln() * noise * noise;
         // The effect of a knot is limited to about three neighbours on each side.
@@ -223,7 +230,8 @@ impl Points<'_> {
         }
     }
 
-    /// Moves one knot between its neighbours, with steps that are halved.
+    /// Moves knot `k` between its neighbours to the point with the smallest sum of squares, by a search whose step is halved
+    /// until it is one point.
     fn move_knot(&self, knots: &mut [usize], k: usize) {
         let mut least = self.squares(knots);
         let mut step = (knots[k + 1] - knots[k - 1]) / 2;
@@ -247,14 +255,14 @@ impl Points<'_> {
     }
 }
 
-/// Eliminates the lower off-diagonal of a symmetric tridiagonal matrix.
+/// Replaces the diagonal of a symmetric tridiagonal matrix by that after Gaussian elimination of the lower off-diagonal.
 fn reduce(diagonal: &mut [f64], off_diagonal: &[f64]) {
     for k in 1..diagonal.len() {
         diagonal[k] -= off_diagonal[k - 1] * off_diagonal[k - 1] / diagonal[k - 1];
     }
 }
 
-/// Solves the tridiagonal system in place, with the eliminated diagonal.
+/// Solves the symmetric tridiagonal system for the right-hand side `right`, in place; `diagonal` is that from [`reduce`].
 fn solve(diagonal: &[f64], off_diagonal: &[f64], right: &mut [f64]) {
     let n = diagonal.len();
     for k in 1..n {

@@ -18,7 +18,8 @@ struct Wave<'a> {
 }
 
 impl Wave<'_> {
-    /// Channel and name of the curve; approach and retraction are separate curves.
+    /// Channel of the wave, and the rest of its name, which is that of the curve; `None` without a known channel. Approach and
+    /// retraction are separate curves.
     fn channel(&self) -> Option<(&'static str, String)> {
         let text = if self.label.is_empty() {
             self.name
@@ -61,6 +62,7 @@ pub(super) fn table(text: &str) -> Option<String> {
     Some(table)
 }
 
+/// All columns of all waves of a text, with their scales, units and labels.
 fn waves(text: &str) -> Vec<Wave<'_>> {
     let mut waves: Vec<Wave> = Vec::new();
     let mut lines = text.lines().map(str::trim);

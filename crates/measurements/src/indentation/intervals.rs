@@ -19,7 +19,8 @@ use crate::{Finding, MeasurementError};
 
 /// Two-sided 95 % quantile of the standard normal distribution.
 const NORMAL_QUANTILE: f64 = 1.959_963_984_540_054;
-/// Largest standard error of a logarithm for which the interval is that of the covariance (chosen).
+/// Standard error of a logarithm up to which its interval follows from the covariance (chosen); wider intervals are asymmetric,
+/// and follow from the profile of the sum.
 const MAX_COVARIANCE_DEVIATION: f64 = 0.4;
 /// Largest ratio of the ends of an interval for a determined modulus, time or thickness (chosen).
 ///
@@ -27,22 +28,27 @@ const MAX_COVARIANCE_DEVIATION: f64 = 0.4;
 const MAX_INTERVAL_RATIO: f64 = 10.0;
 /// Relative tolerance of the rise of the sum at an end of a profile (chosen).
 const PROFILE_TOLERANCE: f64 = 0.01;
-/// Shift of a knot for a difference quotient, relative to the range of depths (chosen).
+/// Shift of the depth at a knot for a difference quotient of the forces, over the range of depths (chosen).
 const KNOT_SHIFT: f64 = 1e-4;
 
 /// Covariance of the parameters and statistics of the residuals.
 pub(super) struct Statistics {
+    /// Number of parameters.
     n: usize,
+    /// Covariance matrix of the parameters (of logarithms where they are fitted as such), row by row.
     covariance: Vec<f64>,
     /// Rise of the sum at the ends of the interval of each parameter.
     rises: Vec<f64>,
+    /// Number of correlated points per independent one, at least 1.
     pub(super) correlated_points: f64,
     /// Root mean square error of the force due to that of a smoothed depth, \[N].
     pub(super) path_error: f64,
+    /// Residuals, derivatives and contact forces at the minimum.
     pub(super) forces: Forces,
 }
 
 impl Statistics {
+    /// Covariance and statistics at a minimum, by the formula at the head of this file.
     pub(super) fn of(found: &Found) -> Result<Self, MeasurementError> {
         let forces = found.model.forces(&found.parameters)?;
         let n = found.parameters.len();
@@ -84,10 +90,12 @@ impl Statistics {
         })
     }
 
+    /// Standard error of a parameter, or of its logarithm.
     fn deviation(&self, parameter: usize) -> f64 {
         self.covariance[parameter * (self.n + 1)].sqrt()
     }
 
+    /// Correlation matrix of the parameters as a list of rows; entries that are not finite are 0.
     pub(super) fn correlation(&self) -> Vec<Vec<f64>> {
         let entry = |j: usize, k: usize| {
             let entry = self.covariance[j * self.n + k] / self.deviation(j) / self.deviation(k);
@@ -97,6 +105,7 @@ impl Statistics {
         (0..self.n).map(row).collect()
     }
 
+    /// Estimates and intervals of all parameters; `profile` requests all intervals from the profile of the sum.
     pub(super) fn findings(&self, found: &Found, profile: bool) -> Vec<Finding> {
         let finding = |parameter: usize| self.finding(found, parameter, profile);
         let mut findings: Vec<Finding> = (0..self.n).map(finding).collect();
@@ -106,6 +115,8 @@ impl Statistics {
         findings
     }
 
+    /// Estimate and 95 % interval of a parameter. There is no estimate if an end is open, or if the ends of a logarithm are
+    /// more than a factor [`MAX_INTERVAL_RATIO`] apart.
     fn finding(&self, found: &Found, parameter: usize, profile: bool) -> Finding {
         let is_logarithm = found.model.is_logarithm(parameter);
         let [value, deviation] = [found.parameters[parameter], self.deviation(parameter)];
@@ -133,7 +144,7 @@ impl Statistics {
             _ => false,
         };
         let is_determined = is_narrow && error.is_finite();
-        let (name, unit) = name(&found.model, parameter);
+        let (name, unit) = name_and_unit(&found.model, parameter);
         Finding {
             name,
             unit,
@@ -142,7 +153,8 @@ impl Statistics {
         }
     }
 
-    /// Value of a parameter at which the profile of the sum has risen; `None` if it does not rise within the range.
+    /// Value of a parameter, below (`side` −1) or above (1) the minimum, at which the sum minimised over all others has risen
+    /// as required; `None` if it does not within the range.
     fn profile_end(&self, found: &Found, parameter: usize, side: f64) -> Option<f64> {
         let best = Minimum {
             model: found.linearise(&found.parameters)?,
@@ -179,7 +191,8 @@ fn open_split(findings: &mut [Finding], branch: usize) {
     }
 }
 
-/// Matrix JᵀVJ, with V = 1 for white noise, averaged over the noises.
+/// Matrix JᵀVJ, row by row, averaged over the noises by their probabilities. `rows` is J in units of the standard deviation of
+/// each point, and V is the covariance in these units, 1 for white noise.
 fn noise_product(found: &Found, rows: &[Vec<f64>]) -> Vec<f64> {
     let n = rows.len();
     let Linear { time, counts, .. } = found.linear;
@@ -204,7 +217,7 @@ fn noise_product(found: &Found, rows: &[Vec<f64>]) -> Vec<f64> {
     noise_product
 }
 
-/// Product of two square matrices.
+/// Product of two matrices of `n` rows and columns, row by row.
 fn matrix_product(one: &[f64], other: &[f64], n: usize) -> Vec<f64> {
     let entry = |at: usize| {
         (0..n)
@@ -221,7 +234,8 @@ fn matrix_vector(matrix: &[f64], vector: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// Effect of the error of a smoothed depth: root mean square error of the force, and covariance of the parameters.
+/// Effect of the error of a smoothed depth: root mean square error of the force \[N], and covariance of the parameters, row by
+/// row. Both are 0 if the depth was not smoothed. `rows` and `inverse` are J in units of the noise and (JᵀJ)⁻¹.
 fn path_covariance(
     found: &Found,
     forces: &Forces,
@@ -233,6 +247,7 @@ fn path_covariance(
     let Some(path) = &found.measured.path else {
         return Ok((0.0, vec![0.0; n * n]));
     };
+    // Differences: the residuals, and linearly the parameters, if the smoothed depth is raised around one knot after the other.
     let [low, high] = super::depth::min_max(&curve.depth);
     let shift = KNOT_SHIFT * (high - low);
     let mut effects = vec![Vec::new(); n];
@@ -264,6 +279,7 @@ fn path_covariance(
             .zip(effect)
             .for_each(|(all, one)| all.push(one));
     }
+    // Propagate the covariance of the knots to the parameters, and to the force of each point.
     let dot = |one: &[f64], other: &[f64]| one.iter().zip(other).map(|(a, b)| a * b).sum::<f64>();
     let spread: Vec<Vec<f64>> = effects
         .iter()
@@ -280,7 +296,7 @@ fn path_covariance(
 }
 
 /// Name and unit of a parameter.
-fn name(model: &Model, parameter: usize) -> (String, &'static str) {
+fn name_and_unit(model: &Model, parameter: usize) -> (String, &'static str) {
     let kind = model.kind;
     let material = kind.n_parameters();
     let named = |name: &str, unit| (name.to_owned(), unit);

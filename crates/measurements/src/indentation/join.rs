@@ -14,9 +14,13 @@ const JOIN_TOLERANCE: f64 = 0.1;
 /// A point of a curve, and its line in the file.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Point {
+    /// Time, \[s].
     pub(super) time: f64,
+    /// Depth, \[m].
     pub(super) depth: f64,
+    /// Force, \[N].
     pub(super) force: f64,
+    /// Line in the file, counted from 1.
     pub(super) line: usize,
 }
 
@@ -32,7 +36,7 @@ pub(super) struct JoinedCurve {
 }
 
 impl JoinedCurve {
-    /// Appends points, whose time may begin again any number of times.
+    /// Appends points. Where their time begins again, a new part goes on one time step after the last point, with a note.
     pub(super) fn append(
         &mut self,
         source: &Source,

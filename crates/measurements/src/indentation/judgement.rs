@@ -16,9 +16,9 @@ use super::noise::{Likelihood, Noise};
 use super::search::Found;
 use super::start::{MIN_POINTS, Start, free_points};
 
-/// Adhesion or drift relative to the peak force above which a fit is refused (chosen).
+/// Force of adhesion over the peak force, above which a fit is refused (chosen).
 pub(super) const MAX_FORCE_DEFECT: f64 = 0.05;
-/// Adhesion or drift relative to the peak force above which a fit is flagged (chosen).
+/// Force of adhesion or drift over the peak force, above which a fit is flagged (chosen).
 pub(super) const MIN_FORCE_DEFECT: f64 = 0.01;
 /// Smallest number of points without contact that determine the noise (chosen).
 const MIN_BASELINE_POINTS: usize = 10;
@@ -28,9 +28,10 @@ const MIN_BASELINE_POINTS: usize = 10;
 const MAX_DEVIANCE_RISE: f64 = 12.0;
 /// Largest number of correlated points per independent one for residuals without structure (chosen).
 const MAX_CORRELATED_POINTS: f64 = 4.0;
-/// Smallest relevant residual relative to the peak force (derived: 3 times the error of a power law as a Prony series).
+/// Rms residual over the peak force, up to which there is no misfit (derived: 3 times the error of a power law as a Prony
+/// series).
 const MIN_MISFIT_OF_PEAK: f64 = 3e-4;
-/// Smallest relevant residual in units of the force error of a smoothed depth (chosen).
+/// Rms residual over the force error of a smoothed depth, up to which there is no misfit (chosen).
 const MIN_MISFIT_OF_PATH: f64 = 5.0;
 
 /// Largest plausible ratio of width to depth of a contact (chosen): for a sphere it means R/d = 10⁵.
@@ -41,18 +42,23 @@ const MAX_DEPTH_RATIO: f64 = 3.0;
 /// Assessment of a fit by the points without contact.
 pub(super) struct Judgement<'a> {
     found: &'a Found<'a>,
+    /// The elastic initial fit.
     begin: &'a Start,
     statistics: &'a Statistics,
+    /// Points before the contact.
     before: Range<usize>,
+    /// Points after the contact.
     after: Range<usize>,
     /// Standard deviation of a measured point before the contact, from the median, \[N]; `None` for too few points.
     pub(super) noise: Option<f64>,
     /// Noise with its variance: of all points, or for a misfit of those before the contact.
     noise_model: Option<(Noise, f64)>,
+    /// True if residuals in contact are not the noise before it.
     is_misfit: bool,
 }
 
 impl<'a> Judgement<'a> {
+    /// Finds the points without contact, and compares their noise with that of the residuals in contact.
     pub(super) fn new(found: &'a Found, begin: &'a Start, statistics: &'a Statistics) -> Self {
         let contact = &statistics.forces.contact;
         let n = contact.len();
@@ -82,7 +88,8 @@ impl<'a> Judgement<'a> {
         judgement
     }
 
-    /// Compares the noise of the points before the contact with that of all others.
+    /// Compares the noise of the points before the contact with that of all others. A misfit is found if one common noise has a
+    /// deviance that is larger than that of two separate ones by more than [`MAX_DEVIANCE_RISE`].
     fn compare_noise(&mut self) {
         let linear = &self.found.linear;
         let others = self.before.end..linear.time.len();
@@ -146,6 +153,8 @@ impl<'a> Judgement<'a> {
         Ok(flags)
     }
 
+    /// Flag for a misfit whose residual is relevant: above fractions of the peak force and of the force error of a smoothed
+    /// depth, and above the noise.
     fn misfit(&self) -> Option<Flag> {
         let residuals = &self.statistics.forces.residuals;
         let squares = residuals.iter().map(|one| one * one);
@@ -163,7 +172,8 @@ impl<'a> Judgement<'a> {
         })
     }
 
-    /// Flag for a significant mean residual without contact.
+    /// Flag if the mean residual of the points of a side without contact is significant; `None` otherwise, and for too few
+    /// points.
     fn drift(&self, side: &Range<usize>) -> Option<Flag> {
         let (noise_model, variance) = self
             .noise_model

@@ -8,6 +8,7 @@ use super::depth::{self, STRUCTURE_STANDARD_ERRORS, SmoothedPath, min_max};
 
 /// A curve prepared for the fit.
 pub(super) struct Measured {
+    /// Means of neighbouring points, with the depth smoothed if it is noisy.
     pub(super) curve: IndentationCurve,
     /// Number of measured points in the mean of each point.
     pub(super) counts: Vec<f64>,
@@ -17,10 +18,12 @@ pub(super) struct Measured {
 
 /// Largest number of points that are fitted without averaging (chosen); longer curves have about as many means.
 const MAX_UNAVERAGED_POINTS: usize = 4000;
-/// Largest bend of a linear depth, relative to its range (chosen).
+/// Second difference of the depth over its range, up to which it counts as linear even without noise (chosen).
 const BEND_TOLERANCE: f64 = 1e-6;
 
 impl Measured {
+    /// Averages neighbours in blocks in which depth and force are linear within their noise, found by bisection, and smooths
+    /// the depth.
     pub(super) fn new(curve: &IndentationCurve) -> Self {
         let n = curve.time.len();
         let ones = vec![1.0; n];
@@ -65,7 +68,8 @@ impl Measured {
     }
 }
 
-/// Whether the values are linear within their noise, by the means of their quarters.
+/// Whether values at equal time steps are linear within a standard deviation `noise`. With the sums q of their quarters, q₁ −
+/// q₂ − q₃ + q₄ vanishes; of fewer than four values every second difference does.
 fn is_straight(values: &[f64], noise: f64) -> bool {
     let quarter = values.len() / 4;
     if quarter == 0 {

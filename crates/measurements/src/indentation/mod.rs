@@ -51,13 +51,14 @@ impl IndentationCurve {
         self.map(|values| values[..n].to_vec())
     }
 
-    /// About `most` equally spaced points, and the last one.
+    /// Points at equal index steps, at least `most` of them if there are as many, and the last one.
     fn decimated(&self, most: usize) -> Self {
         let last = self.time.len() - 1;
         let inner = || (0..last).step_by((last / most).max(1));
         self.map(|values| inner().chain([last]).map(|i| values[i]).collect())
     }
 
+    /// Applies one function to times, depths and forces.
     fn map(&self, column: impl Fn(&[f64]) -> Vec<f64>) -> Self {
         Self {
             time: column(&self.time),

@@ -19,11 +19,12 @@ use crate::MeasurementError;
 pub(super) enum Kind {
     /// This number of branches.
     Branches(usize),
+    /// G(t) = G₁ (t/1 s)^−β.
     PowerLaw,
 }
 
 impl Kind {
-    /// Parameters of the material.
+    /// Number of parameters of the material.
     pub(super) const fn n_parameters(self) -> usize {
         match self {
             Self::Branches(n) => 2 * n + 1,
@@ -39,7 +40,7 @@ impl Kind {
 
 /// Relative error of a power law as a Prony series (chosen: far below the noise of a curve).
 const EXPANSION_ERROR: f64 = 1e-4;
-/// Relative difference of equal relaxation times (chosen).
+/// Relative difference up to which two relaxation times are those of one branch (chosen, above the rounding of exp and ln).
 const TIME_TOLERANCE: f64 = 1e-7;
 /// Step of the logarithm of the thickness for a difference quotient (chosen).
 const THICKNESS_STEP: f64 = 1e-4;
@@ -49,10 +50,13 @@ const BETA_STEP: f64 = 1e-6;
 /// Model of a body that follows the depth of a curve.
 #[derive(Clone)]
 pub(super) struct Model<'a> {
+    /// Body and sample.
     pub(super) sample: Sample<'a>,
+    /// Curve whose depths the body follows.
     pub(super) curve: &'a IndentationCurve,
     pub(super) kind: Kind,
     pub(super) poisson_ratio: f64,
+    /// True if the force without contact has a slope over the depth.
     pub(super) tilt: bool,
     /// Middle of the range of depths, \[m].
     pub(super) middle: f64,
@@ -71,6 +75,7 @@ pub(super) struct Forces {
 }
 
 impl<'a> Model<'a> {
+    /// The model of a curve for a kind of material.
     pub(super) fn new(
         sample: &Sample<'a>,
         curve: &'a IndentationCurve,
@@ -92,6 +97,7 @@ impl<'a> Model<'a> {
         }
     }
 
+    /// Number of all parameters: material, contact point, baseline, and tilt and thickness if they are fitted.
     pub(super) const fn n_parameters(&self) -> usize {
         self.kind.n_parameters() + 2 + self.tilt as usize + self.sample.is_fitted() as usize
     }
@@ -106,10 +112,12 @@ impl<'a> Model<'a> {
         self.kind.is_logarithm(parameter) || self.thickness() == Some(parameter)
     }
 
+    /// Index of the contact point among the parameters; baseline and tilt follow.
     pub(super) const fn contact_point(&self) -> usize {
         self.kind.n_parameters()
     }
 
+    /// Relaxation spectrum of the material for these parameters, with moduli \[Pa] and times \[s].
     pub(super) fn spectrum(&self, parameters: &[f64]) -> Result<RelaxationSpectrum, RheologyError> {
         let Kind::Branches(n) = self.kind else {
             return self.power_law(parameters[0].exp(), parameters[1]);
@@ -127,6 +135,8 @@ impl<'a> Model<'a> {
         Ok(expansion.spectrum)
     }
 
+    /// Residuals and derivatives at all points for these parameters. An error if the body is not high enough for a depth, or a
+    /// parameter is out of range.
     pub(super) fn forces(&self, parameters: &[f64]) -> Result<Forces, MeasurementError> {
         let spectrum = self.spectrum(parameters).map_err(MdrError::from)?;
         let place = self.contact_point();
@@ -144,12 +154,14 @@ impl<'a> Model<'a> {
         let with_profile =
             |profile: &dyn EquivalentProfile| force_derivatives(profile, &material, &history);
         let found = with_profile(&*self.sample.profile(thickness)?)?;
+        // Baseline and tilt are added to the contact force, since they act out of contact too.
         let relative_depths = self.curve.depth.iter().map(|depth| depth - self.middle);
         let relative_depths: Vec<f64> = relative_depths.collect();
         let pairs = found.normal_force.iter().zip(&relative_depths);
         let values = pairs.map(|(force, relative_depth)| force + baseline + tilt * relative_depth);
         let measured = self.curve.force.iter().zip(values);
         let residuals = measured.map(|(force, value)| force - value).collect();
+        // One row of derivatives per parameter, in the order of the parameters.
         let rows = self.material_rows(parameters, &spectrum, &found);
         let mut rows = rows.map_err(MdrError::from)?;
         rows.push(found.depth.iter().map(|slope| -slope).collect());
@@ -173,6 +185,7 @@ impl<'a> Model<'a> {
         })
     }
 
+    /// Depths of the curve below a contact point \[m] as the history of an indentation.
     pub(super) fn history(&self, contact_point: f64) -> Vec<HistoryPoint> {
         let points = self.curve.time.iter().zip(&self.curve.depth);
         let point = |(&time, depth): (&f64, &f64)| HistoryPoint {
@@ -182,6 +195,8 @@ impl<'a> Model<'a> {
         points.map(point).collect()
     }
 
+    /// Derivatives of the forces by the parameters of the material, one row per parameter: ∂F/∂ ln G and ∂F/∂ ln τ, of a power
+    /// law ∂F/∂ ln G₁ = F and ∂F/∂β.
     fn material_rows(
         &self,
         parameters: &[f64],

@@ -19,8 +19,11 @@ pub(super) struct Noise {
 
 /// A linear model of points: one column of derivatives per parameter, and the explained values as the last column.
 pub(super) struct Linear<'a> {
+    /// Times of the points, \[s].
     pub(super) time: &'a [f64],
+    /// Numbers m of measured points in each mean.
     pub(super) counts: &'a [f64],
+    /// Columns of derivatives, and last the explained values.
     pub(super) columns: Vec<Vec<f64>>,
 }
 
@@ -31,6 +34,7 @@ pub(super) struct Likelihood {
     logarithm: f64,
     /// Sum of squares of the whitened residuals.
     squares: f64,
+    /// Number of points less number of parameters.
     degrees_of_freedom: f64,
 }
 
@@ -72,6 +76,7 @@ const MIN_RELATIVE_PROBABILITY: f64 = 1e-3;
 pub(super) const DIAGONAL_FACTOR: f64 = 1.0 + 1e-12;
 
 impl Noise {
+    /// Noise without correlation.
     pub(super) const WHITE: Self = Self {
         time: 1.0,
         part: 0.0,
@@ -87,7 +92,7 @@ impl Noise {
         [Self::WHITE].into_iter().chain(lasting).collect()
     }
 
-    /// Neighbouring candidates, by a ratio of T and of λ/(1 − λ).
+    /// The candidates around this noise, with T and λ/(1 − λ) divided by `ratio`, unchanged, or multiplied by it.
     fn neighbours(self, ratio: f64) -> impl Iterator<Item = Self> {
         let odds = move |factor: f64| factor * self.part / (1.0 - self.part + factor * self.part);
         let factors = [ratio.recip(), 1.0, ratio];
@@ -106,7 +111,8 @@ impl Noise {
         all.map(noise).filter(move |one| *one != self)
     }
 
-    /// Noises with their posterior probabilities, in decreasing order.
+    /// Noises for the residuals of a linear model with their posterior probabilities, in decreasing order; those with less than
+    /// [`MIN_RELATIVE_PROBABILITY`] of the largest are left out.
     pub(super) fn likely(linear: &Linear) -> Vec<(Self, f64)> {
         let candidates = Self::candidates(linear.time);
         let judged = |noise: Self, prior: f64| {
@@ -145,7 +151,8 @@ impl Noise {
             .collect()
     }
 
-    /// Whitens every column, with the variance s²; returns the logarithm of the determinant of the covariance over s².
+    /// Transforms every column in place so that this noise becomes white with the variance s², by a Kalman filter. Returns ln
+    /// det of the covariance over s².
     pub(super) fn whiten(self, time: &[f64], counts: &[f64], columns: &mut [Vec<f64>]) -> f64 {
         let mut variance = self.part;
         let mut last = time[0];
@@ -199,6 +206,7 @@ impl Noise {
             .collect()
     }
 
+    /// Restricted likelihood of this noise for the residuals of a linear model.
     pub(super) fn likelihood(self, linear: &Linear) -> Likelihood {
         let mut columns = linear.columns.clone();
         let noise = self.whiten(linear.time, linear.counts, &mut columns);
@@ -228,7 +236,7 @@ impl Noise {
 }
 
 impl Linear<'_> {
-    /// Model of a range of points, with the parameters that affect them.
+    /// The model of a range of points, with only the parameters whose derivatives do not all vanish there.
     pub(super) fn part(&self, range: Range<usize>) -> Linear<'_> {
         let (last, rows) = self
             .columns

@@ -89,7 +89,8 @@ fn find(measured: &Measured) -> Option<PullIn> {
     (fall < peak).then_some(PullIn { fall, peak })
 }
 
-/// The force with outliers replaced by the median of five points.
+/// The forces \[N] with outliers replaced by the median of five points; `noise` \[N] is the standard deviation of a measured
+/// force.
 fn without_outliers(force: &[f64], counts: &[f64], noise: f64) -> Vec<f64> {
     let last = force.len() - 1;
     let value = |i: usize| {
@@ -111,6 +112,7 @@ struct Approach<'a> {
 }
 
 impl<'a> Approach<'a> {
+    /// Scales the depths and sums the moments for regression lines, with forces relative to the first.
     fn new(time: &'a [f64], depth: &[f64], force: &'a [f64], counts: &'a [f64]) -> Self {
         let [low, high] = min_max(depth);
         let scaled = depth
@@ -138,7 +140,8 @@ impl<'a> Approach<'a> {
         }
     }
 
-    /// Significant falls after a baseline, one for each width.
+    /// Significant falls of the force \[N] below the regression line through the first `baseline` points, one for each width of
+    /// a window. `noise` \[N] is the standard deviation of a measured force.
     fn falls(&self, baseline: usize, noise: f64) -> Vec<Fall> {
         let Some(least) = student_quantile(COVERAGE, baseline - 2) else {
             return Vec::new();
@@ -200,7 +203,8 @@ impl<'a> Approach<'a> {
         }
     }
 
-    /// Distance of the points of a window below the baseline, and its standard error.
+    /// Distance \[N] of the points of a window below the line through the first `baseline` points, by the most likely noise,
+    /// and its standard error, averaged over the noises.
     ///
     /// `likely` has noises with the products of their probabilities and variances.
     fn fall(&self, baseline: usize, window: Range<usize>, likely: &[(Noise, f64)]) -> [f64; 2] {
@@ -221,22 +225,28 @@ impl<'a> Approach<'a> {
     }
 }
 
-/// Numbers of points of the baselines.
+/// Numbers of points of the baselines that are tried: from [`MIN_BASELINE_POINTS`] on, each a fifth larger, below `n`.
 fn baselines(n: usize) -> impl Iterator<Item = usize> {
     let next = |last: &usize| Some(last + last.div_ceil(BASELINE_GROWTH));
     std::iter::successors(Some(MIN_BASELINE_POINTS), next).take_while(move |one| *one < n)
 }
 
-/// A regression line.
+/// A weighted regression line of force over scaled depth.
 struct Line {
+    /// Sum of the weights.
     weight: f64,
+    /// Mean depth.
     depth: f64,
+    /// Mean force relative to the first, \[N].
     value: f64,
+    /// Weighted sum of squares of the depths about their mean; infinite for a level line.
     square: f64,
+    /// Slope, \[N].
     slope: f64,
 }
 
 impl Line {
+    /// The line from the sums of w, w d, w d², w f and w d f.
     fn through(&[weight, by_depth, square, value, product]: &[f64; 5]) -> Self {
         let [depth, value] = [by_depth, value].map(|sum| sum / weight);
         let square = (square - weight * depth * depth).max(0.0);

@@ -13,6 +13,7 @@ use crate::table::Quantity::{
 };
 use crate::table::{Column, Half, Line, Meaning, Source, Table, Vocabulary, text_of};
 
+/// Names and columns of a table of force over depth.
 static CURVES: Vocabulary = Vocabulary {
     names: "t, force (or deflection) and depth (or tip position, displacement, piezo or height)",
     known: &KNOWN_NAMES,
@@ -182,6 +183,7 @@ struct Stated {
 }
 
 impl Stated {
+    /// The constants in a text; `None` for those that it does not state.
     fn of(text: &str) -> Self {
         // JPK and Asylum, afmformats, AFM Workshop (whose default of 1 says nothing), and Optics11.
         let workshop = |name| number_after(text, name).filter(|number| differs(*number, 1.0));
@@ -240,7 +242,7 @@ fn differs(number: f64, other: f64) -> bool {
     (number - other).abs() > 1e-6 * other
 }
 
-/// The positive number after a name in a text.
+/// The number after the first `name` in a text; `None` if there is none, or it is not greater than 0.
 fn number_after(text: &str, name: &str) -> Option<f64> {
     let (_, after) = text.split_once(name)?;
     let after = after.trim_start_matches([' ', '\t', ':', '"']);
@@ -250,6 +252,7 @@ fn number_after(text: &str, name: &str) -> Option<f64> {
 }
 
 impl CurveOptions {
+    /// Refuses numbers out of range.
     fn check_ranges(&self) -> Result<(), InvalidParameter> {
         let rates = [
             ("spring_constant", self.spring_constant),
@@ -274,8 +277,9 @@ impl CurveOptions {
         self.spring_constant.ok_or_else(needed)
     }
 
-    /// Coefficients of position and force in the depth.
-    fn place(&self, table: &Table) -> Result<[f64; 2], String> {
+    /// Coefficients of the position and of the force \[m/N] in the depth of a table: ±1, and minus the compliance of the
+    /// cantilever if the position is that of a piezo.
+    fn depth_coefficients(&self, table: &Table) -> Result<[f64; 2], String> {
         let bending = |column: &Column| {
             let name = column.name;
             let reason = format!(
@@ -327,6 +331,7 @@ impl CurveOptions {
     }
 }
 
+/// True for a deflection in volts.
 fn is_volts(column: &Column) -> bool {
     column.quantity == Deflection && column.unit.ends_with('V')
 }
@@ -346,6 +351,8 @@ struct Segment {
 }
 
 impl Segment {
+    /// How the columns of a table become SI units with these options. An error if a column or an option is missing.
+    /// `several`: whether the curve has more than one table.
     fn of(
         source: &Source,
         table: &Table,
@@ -376,7 +383,9 @@ impl Segment {
             let what = format!("'{}' is a length", load.name);
             options.stiffness(&what).map_err(|problem| wrong(&problem))
         })?;
-        let place = options.place(table).map_err(|problem| wrong(&problem));
+        let place = options
+            .depth_coefficients(table)
+            .map_err(|problem| wrong(&problem));
         let [of_place, of_force] = place?;
         Ok(Self {
             of_load,
@@ -401,7 +410,7 @@ impl Segment {
         })
     }
 
-    /// Points of all rows.
+    /// Points of all rows, in SI units; rows at the end of the shorter half of a ramp, which have no numbers, are left out.
     fn points(&self, table: &Table, rows: &[&Line]) -> Result<Vec<Point>, MeasurementError> {
         let point = |line: &&Line| {
             let numbers = table.numbers(line)?;

@@ -16,11 +16,13 @@ use crate::MeasurementError;
 
 /// Step of the logarithm of a fitted thickness (chosen: the interpolation error is 1e-5 of a radius).
 const LOG_THICKNESS_STEP: f64 = 0.1;
-/// Smallest fitted thickness, relative to the contact radius of the whole range of depths on a half space (chosen).
+/// Smallest fitted thickness over the contact radius on a half space at the whole range of depths (chosen).
 const MIN_THICKNESS_RATIO: f64 = 0.1;
-/// Largest fitted thickness, relative to the same contact radius (chosen).
+/// Largest fitted thickness over the contact radius on a half space at the whole range of depths (chosen: the sample is then a
+/// half space).
 const MAX_THICKNESS_RATIO: f64 = 1000.0;
-/// Largest depth relative to the range of depths (chosen): the contact point may precede the curve by half the range.
+/// Largest depth of a profile over the range of depths of the curve (chosen): the contact point may precede the curve by half
+/// the range.
 const DEPTH_MARGIN: f64 = 1.5;
 /// Ratio of depth to thickness above which strains are not small (chosen, as for scenes).
 const LARGE_STRAIN_RATIO: f64 = 1.0 / 3.0;
@@ -28,19 +30,25 @@ const LARGE_STRAIN_RATIO: f64 = 1.0 / 3.0;
 /// A body on a sample.
 #[derive(Clone)]
 pub(super) struct Sample<'a> {
+    /// The rigid body.
     pub(super) body: &'a dyn Axisymmetric,
+    /// What is under the surface.
     base: Base<'a>,
 }
 
+/// What is under the surface of the sample.
 #[derive(Clone)]
 enum Base<'a> {
+    /// A half space.
     HalfSpace,
+    /// The profile on a layer of known thickness, and that thickness \[m].
     Known(Arc<LayerProfile>, f64),
     /// The logarithm of the thickness is the last parameter.
     Fitted(Arc<ProfileTable<'a>>),
 }
 
 impl<'a> Sample<'a> {
+    /// The half space or the layer of the options, for depths up to the largest one of the curve above its first.
     pub(super) fn new(
         body: &'a dyn Axisymmetric,
         curve: &IndentationCurve,
@@ -59,6 +67,7 @@ impl<'a> Sample<'a> {
         Ok(Self { body, base })
     }
 
+    /// True if the thickness is a parameter of the fit.
     pub(super) const fn is_fitted(&self) -> bool {
         matches!(self.base, Base::Fitted(_))
     }
@@ -71,7 +80,7 @@ impl<'a> Sample<'a> {
         }
     }
 
-    /// Initial values of the logarithm of the thickness; a single `None` if it is not fitted.
+    /// Initial values of the logarithm of the thickness, 0.3 to 30 contact radii; a single `None` if it is not fitted.
     pub(super) fn starts(&self) -> Vec<Option<f64>> {
         let Some([first, _]) = self.range() else {
             return vec![None];
@@ -111,13 +120,16 @@ impl<'a> Sample<'a> {
 struct ProfileTable<'a> {
     body: &'a dyn Axisymmetric,
     poisson_ratio: f64,
+    /// Largest depth of the profiles, \[m].
     depth: f64,
     /// Logarithm of the first thickness.
     first: f64,
+    /// Profiles at steps of [`LOG_THICKNESS_STEP`]; empty until first needed.
     profiles: Vec<OnceLock<Result<LayerProfile, FrictionError>>>,
 }
 
 impl<'a> ProfileTable<'a> {
+    /// An empty table for depths up to `width` \[m].
     fn new(
         body: &'a dyn Axisymmetric,
         width: f64,
@@ -145,11 +157,13 @@ impl<'a> ProfileTable<'a> {
         })
     }
 
+    /// Smallest and largest logarithm of the thickness.
     fn range(&self) -> [f64; 2] {
         let last = self.profiles.len() - 1;
         [self.first, self.first + LOG_THICKNESS_STEP * last as f64]
     }
 
+    /// The profile for a logarithm of the thickness, by cubic interpolation between four steps.
     fn interpolate(&self, logarithm: f64) -> Result<InterpolatedProfile<'_>, MeasurementError> {
         let place = (logarithm - self.first) / LOG_THICKNESS_STEP;
         let last = self.profiles.len() - 4;
@@ -174,6 +188,7 @@ impl<'a> ProfileTable<'a> {
         ))
     }
 
+    /// Computes the profile at a step of the table.
     fn profile_of_step(&self, step: usize) -> Result<LayerProfile, FrictionError> {
         let thickness = (self.first + LOG_THICKNESS_STEP * step as f64).exp();
         let layer = BondedLayer::new(thickness, self.poisson_ratio)?;
@@ -185,6 +200,7 @@ impl<'a> ProfileTable<'a> {
 struct InterpolatedProfile<'a>(Vec<(&'a LayerProfile, f64)>);
 
 impl InterpolatedProfile<'_> {
+    /// Largest depth that all profiles have, \[m].
     fn depth(&self) -> f64 {
         let depths = self.0.iter().map(|(profile, _)| profile.depth());
         depths.fold(f64::INFINITY, f64::min)

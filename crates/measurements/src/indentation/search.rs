@@ -13,14 +13,14 @@ use crate::MeasurementError;
 
 /// Largest number of branches (chosen: one curve never determines more).
 pub(super) const MAX_BRANCHES: usize = 6;
-/// Number of points of the first search (chosen).
+/// Approximate number of points of the first search, in which all initial values are followed (chosen).
 const COARSE_POINTS: usize = 200;
 /// Difference of two criteria from which on there is strong evidence for the lower one (Kass and Raftery 1995,
 /// DOI 10.1080/01621459.1995.10476572).
 const STRONG_EVIDENCE: f64 = 6.0;
-/// Smallest relaxation time, relative to the shortest time step (chosen).
+/// Smallest relaxation time over the shortest time step of the curve (chosen: faster branches act like a dashpot).
 const MIN_TIME_FACTOR: f64 = 1.0 / 3.0;
-/// Largest relaxation time, relative to the duration of the curve (chosen).
+/// Largest relaxation time over the duration of the curve (chosen: slower branches act like a spring).
 const MAX_TIME_FACTOR: f64 = 30.0;
 
 /// A minimum of the sum of squares.
@@ -33,9 +33,12 @@ pub(super) struct Found<'a> {
     pub(super) linear: Linear<'a>,
     /// Noises with their posterior probabilities, in decreasing order.
     pub(super) noises: Vec<(Noise, f64)>,
+    /// Bounds and largest steps of all parameters.
     pub(super) ranges: Vec<ParameterRange>,
 }
 
+/// Fits the requested kind of material. The elastic one is kept if it explains the curve about as well; of a Prony series
+/// without a given number, branches are added while Schwarz's criterion falls.
 pub(super) fn search<'a>(
     sample: &Sample<'a>,
     measured: &'a Measured,
@@ -91,7 +94,7 @@ fn select<'a>(
     if is_better { second } else { first }
 }
 
-/// Adds branches to one as long as they lower the criterion.
+/// Adds branches to a fit with one, until another branch does not lower Schwarz's criterion or there are [`MAX_BRANCHES`].
 fn with_branches<'a>(
     mut best: Option<Found<'a>>,
     fit_kind: impl Fn(Kind) -> Option<Found<'a>>,
@@ -132,6 +135,7 @@ fn fit<'a>(
     let found = starts.filter_map(|start| descend(&coarse, &coarse_squares, start, 1e-3));
     let best = found.min_by(|one, other| one.model.sum.total_cmp(&other.model.sum))?;
     let found = descend(&model, &squares, best.parameters, 1e-4)?;
+    // Outliers depend on the fit, and the fit on them: find them twice.
     let mut parameters = sort_branches(model.kind, found.parameters);
     for sufficient in [1e-3, 1e-6] {
         squares.find_outliers(&model, &parameters, 1e-12 * peak)?;
@@ -149,7 +153,8 @@ fn fit<'a>(
     })
 }
 
-/// Linearised model at the parameters, with normalised columns.
+/// The model linearised at the parameters, for the noise: columns of derivatives of unit norm, and the residuals without
+/// outliers. `None` if the model has no forces there.
 fn linear<'a>(
     model: &Model<'a>,
     measured: &'a Measured,
@@ -189,6 +194,8 @@ impl Found<'_> {
     }
 }
 
+/// Bounds and largest steps of all parameters around the elastic initial fit: nine decades either way for moduli,
+/// [`MIN_TIME_FACTOR`] to [`MAX_TIME_FACTOR`] for times. Baseline and tilt are unbounded.
 fn ranges(model: &Model, begin: &Start) -> Vec<ParameterRange> {
     let range = |bounds: [f64; 2], largest_step| ParameterRange {
         bounds,
@@ -220,6 +227,7 @@ fn ranges(model: &Model, begin: &Start) -> Vec<ParameterRange> {
     ranges
 }
 
+/// Initial values of all parameters: those of the elastic fit, with one or several guesses of how the modulus relaxes.
 fn starts(model: &Model, begin: &Start) -> Vec<Vec<f64>> {
     let modulus = begin.modulus.abs();
     let [step, length] = model.times;
@@ -270,6 +278,7 @@ const OUTLIER_NEIGHBOURS: usize = 12;
 
 /// Scaled residuals, with outliers replaced by the median of their neighbours.
 pub(super) struct Squares<'a> {
+    /// Numbers of measured points in each mean.
     counts: &'a [f64],
     /// Distances of the outliers from the median of their neighbours, \[N]; 0 for all other points.
     outlier_offsets: Vec<f64>,
@@ -320,7 +329,7 @@ impl<'a> Squares<'a> {
         pairs.map(|(residual, offset)| residual - offset).collect()
     }
 
-    /// A column in units of the standard deviation of each point.
+    /// A column, one entry per point \[N], in units of the standard deviation of each point, scale/√count.
     pub(super) fn weighted(&self, column: &[f64]) -> Vec<f64> {
         let pairs = column.iter().zip(self.counts);
         pairs
@@ -328,6 +337,7 @@ impl<'a> Squares<'a> {
             .collect()
     }
 
+    /// Weighted sum of squares without outliers, with its Gauss–Newton model; `None` if the model has no forces there.
     fn linearise(&self, model: &Model, parameters: &[f64]) -> Option<QuadraticModel> {
         let forces = model.forces(parameters).ok()?;
         let without_outliers = self.without_outliers(&forces.residuals);

@@ -9,7 +9,9 @@ use crate::MeasurementError;
 
 /// An elastic fit of the approach.
 pub(super) struct Start {
+    /// Depth of first contact, \[m].
     pub(super) contact_point: f64,
+    /// Force without contact, \[N].
     pub(super) baseline: f64,
     /// Shear modulus, \[Pa].
     pub(super) modulus: f64,
@@ -25,24 +27,25 @@ pub(super) struct Start {
     pub(super) thickness: Option<f64>,
 }
 
-/// Smallest number of points of a curve (chosen).
+/// Smallest number of points of a curve that is fitted (chosen).
 pub(super) const MIN_POINTS: usize = 30;
-/// Number of points of the approach in the elastic fit (chosen).
+/// Approximate number of points of the approach in the elastic fit (chosen).
 const APPROACH_POINTS: usize = 100;
-/// Number of candidates of the contact point (chosen).
+/// Number of equally spaced candidates of the contact point in the first search (chosen).
 const CONTACT_POINT_CANDIDATES: usize = 24;
 /// Number of bisections around the best candidate (chosen).
 const CONTACT_POINT_REFINEMENTS: i32 = 6;
-/// Fraction of the rise of the force in which the contact is searched (chosen).
+/// Fraction of the rise of the force up to which the beginning of the contact is searched (chosen).
 const INITIAL_RISE_FRACTION: f64 = 0.3;
 /// Exponents of the force as a power of the depth (chosen: flat punch to blunt and sharp bodies).
 const FORCE_EXPONENTS: [f64; 4] = [1.0, 1.5, 2.0, 3.0];
-/// Largest rise of the sum of squares of an admissible contact point, in variances of independent points (chosen).
+/// Rise of the sum of squares above its minimum, in variances of independent points, up to which a contact point is admissible
+/// (chosen).
 const CONTACT_UNCERTAINTY: f64 = 5.0;
-/// Fraction of the depth range at which the approach ends (chosen).
+/// Fraction of the way from the first to the largest depth at which the approach ends (chosen).
 const APPROACH_END_FRACTION: f64 = 0.98;
 
-/// The best elastic fit for all initial thicknesses.
+/// The elastic fit with the smallest residual over all initial thicknesses; an error if none succeeds.
 pub(super) fn start(
     sample: &Sample,
     curve: &IndentationCurve,
@@ -64,6 +67,8 @@ pub(super) fn approach_end(depth: &[f64]) -> usize {
     end.unwrap_or(depth.len() - 1)
 }
 
+/// The elastic fit of the approach with the best contact point, for one thickness: candidates over the range of depths, then
+/// bisection around the best.
 fn start_at(
     thickness: Option<f64>,
     sample: &Sample,
@@ -115,6 +120,7 @@ fn start_at(
 /// The first third of the force is used. The exponent is free, so that a wrong body or depth has no effect.
 pub(super) fn free_points(curve: &IndentationCurve, turn: usize) -> usize {
     let force = &curve.force[..=turn];
+    // Take up to `APPROACH_POINTS` points of the first part of the rise, above the median of the first 5 %.
     let first = median(force[..=turn / 20].to_vec());
     let high = first + INITIAL_RISE_FRACTION * (min_max(force)[1] - first);
     let last = force
@@ -124,6 +130,7 @@ pub(super) fn free_points(curve: &IndentationCurve, turn: usize) -> usize {
     let step = last.div_ceil(APPROACH_POINTS).max(1);
     let few: Vec<usize> = (0..last).step_by(step).collect();
     let measured: Vec<f64> = few.iter().map(|&i| force[i]).collect();
+    // At each candidate for the contact point, fit the force by a constant plus a power of the depth beyond it.
     let residuals = |place: usize, power: f64| {
         let contact_depth = curve.depth[place];
         let rises = few
@@ -147,6 +154,8 @@ pub(super) fn free_points(curve: &IndentationCurve, turn: usize) -> usize {
     else {
         return 0;
     };
+    // Take the last candidate whose sum of squares is not significantly larger than the least one: correlated residuals count
+    // as fewer points.
     let uncertain = CONTACT_UNCERTAINTY * correlated_points(residuals) / few.len() as f64;
     let is_good = |one: &&(usize, f64, Vec<f64>)| one.1 <= least * (1.0 + uncertain);
     candidates
@@ -155,7 +164,7 @@ pub(super) fn free_points(curve: &IndentationCurve, turn: usize) -> usize {
         .map_or(0, |(place, ..)| *place)
 }
 
-/// Residuals of the regression of values on others.
+/// Residuals of the linear regression of `values` on `over`.
 fn regression_residuals(over: &[f64], values: &[f64]) -> Vec<f64> {
     let n = over.len() as f64;
     let mean = |values: &[f64]| values.iter().sum::<f64>() / n;

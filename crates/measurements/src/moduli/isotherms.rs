@@ -5,11 +5,13 @@ use std::collections::BTreeMap;
 /// A measurement, in SI and in shear.
 pub(super) struct IsothermRow {
     pub(super) line: usize,
-    /// Angular frequency ω or time t, greater than 0.
+    /// Angular frequency ω \[rad/s] or time t \[s], greater than 0.
     pub(super) at: f64,
-    /// Moduli G' and G'', or G(t) twice.
+    /// Moduli G' and G'' \[Pa], or G(t) or J(t) twice.
     pub(super) moduli: [f64; 2],
+    /// Temperature in the unit of the table.
     pub(super) temperature: Option<f64>,
+    /// Number of the isotherm, if the table has a column of it.
     pub(super) set: Option<f64>,
 }
 
@@ -25,6 +27,7 @@ impl IsothermRow {
 pub(super) struct Group {
     /// First line of the group.
     pub(super) line: usize,
+    /// Temperatures of all rows, in the unit of the table.
     pub(super) temperatures: Vec<f64>,
     set: Option<f64>,
     /// Rows by the bits of ω or t, whose order is that of the positive numbers.

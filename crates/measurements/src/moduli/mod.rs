@@ -112,6 +112,7 @@ pub fn measured_moduli(
 /// Kind of measurement, which all tables of a file must have in common.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Kind {
+    /// Whether the variable is the time rather than a frequency.
     is_relaxation: bool,
     /// Whether the quantity measured over time is a compliance.
     is_creep: bool,
@@ -120,6 +121,7 @@ struct Kind {
 }
 
 impl Kind {
+    /// The kind of a table, from its columns.
     fn of(table: &Table) -> Self {
         let temperature = table.find(Temperature);
         Self {
@@ -130,6 +132,7 @@ impl Kind {
     }
 }
 
+/// The measurement of a line, in SI units and in shear. From one modulus and tan δ, or the phase angle δ, follow G' and G''.
 fn row(table: &Table, line: &Line) -> Result<IsothermRow, MeasurementError> {
     let numbers = table.positives(line)?;
     let [first, last] = [numbers[1], numbers[numbers.len() - 1]];
@@ -157,6 +160,8 @@ fn row(table: &Table, line: &Line) -> Result<IsothermRow, MeasurementError> {
     })
 }
 
+/// The groups as isotherms, or as one relaxation curve, to which a creep compliance is converted. Refuses relaxation at several
+/// temperatures.
 fn measurements(
     source: &Source,
     groups: Vec<Group>,
@@ -188,6 +193,7 @@ fn measurements(
     Ok(Measurements::Relaxation(rows.map(point).collect()))
 }
 
+/// The isotherm of a group, at the mean of its temperatures.
 fn isotherm(group: Group) -> Isotherm {
     let point = |IsothermRow { at, moduli, .. }: IsothermRow| ModulusPoint {
         angular_frequency: at,

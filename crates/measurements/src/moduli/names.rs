@@ -7,6 +7,7 @@ use Quantity::{
     Time,
 };
 
+/// Names and columns of a table of moduli.
 pub(super) static MODULI: Vocabulary = Vocabulary {
     names: "f or ω with two of E', E'' and tan delta (or G' and G''), or with one of E', E'' and |E*| (or G', G'' and |G*|) and a \
             phase angle or tan delta, or t with E_relax (or G_relax) or J(t) (or D(t)), and perhaps T and Set",
@@ -17,7 +18,9 @@ pub(super) static MODULI: Vocabulary = Vocabulary {
     has_order: false,
 };
 
+/// Deformation of a name that states Young's modulus E.
 const TENSION: Option<Deformation> = Some(Deformation::Tension);
+/// Deformation of a name that states the shear modulus G.
 const SHEAR: Option<Deformation> = Some(Deformation::Shear);
 
 /// Known names, without blanks, points, dashes, underscores and accents.
@@ -108,7 +111,8 @@ fn is_head(columns: &[Quantity]) -> bool {
     columns.len() >= 2 && quantities.any(|one| one.is_modulus() || *one == LossFactor)
 }
 
-/// Needed columns. A table of an oscillation may have a column of times, too.
+/// The columns that every row must have, of a table with the given ones: time and modulus or compliance, or frequency and two
+/// of the moduli, loss factor and phase. A table of an oscillation may have a column of times, too.
 fn needed(columns: &[Quantity]) -> Vec<Quantity> {
     let has = |quantity: &Quantity| columns.contains(quantity);
     if has(&Time) && (has(&Relaxation) || has(&Creep) || !has(&Frequency)) {

@@ -72,6 +72,7 @@ pub fn master_curve(
 
 /// Isotherms of a table.
 struct Table<'a> {
+    /// Isotherms in the order of the table, with temperatures in its unit.
     isotherms: &'a [Isotherm],
     /// Offset from the temperatures of the table to °C.
     to_celsius: f64,
@@ -86,7 +87,7 @@ impl Table<'_> {
         temperatures
     }
 
-    /// Master curve by a law about the reference temperature.
+    /// Master curve at the temperature `wanted`, in the unit of the table, shifted by a given law about it.
     fn by_law(
         &self,
         wanted: f64,
@@ -116,7 +117,8 @@ impl Table<'_> {
         })
     }
 
-    /// Master curve of isotherms shifted onto one another, then to the reference temperature by a law fitted to the shifts.
+    /// Master curve of isotherms shifted onto one another. If none has the temperature `wanted`, in the unit of the table, it
+    /// is shifted there by a law fitted to the shifts.
     fn automatic(
         &self,
         wanted: f64,
@@ -146,7 +148,7 @@ impl Table<'_> {
         })
     }
 
-    /// Law of the factor b_T of a master curve.
+    /// Law of the factor b_T on the moduli of a master curve, over °C; `None` if moduli do not change.
     fn vertical_law(&self, master: &MasterCurve) -> Option<VerticalLaw> {
         let of_isotherm =
             |shift: &IsothermShift| [shift.temperature + self.to_celsius, shift.modulus_factor];
@@ -195,7 +197,8 @@ fn fit_law_around(shifts: &[[f64; 2]], [nearest, wanted]: [f64; 2]) -> Option<Sh
     found
 }
 
-/// The better fit of the WLF law and of the law of Arrhenius.
+/// The law of WLF or of Arrhenius, about the temperature `reference` \[°C], with the smaller largest deviation from the shifts
+/// (°C, log₁₀ a_T); `None` if neither can be fitted.
 fn fit_closest_law(shifts: &[[f64; 2]], reference: f64) -> Option<Shift> {
     let kelvin = |celsius: f64| celsius + KELVIN_AT_ZERO_CELSIUS;
     let in_kelvin: Vec<[f64; 2]> = shifts.iter().map(|[t, log]| [kelvin(*t), *log]).collect();

@@ -12,21 +12,29 @@ use Quantity::{
 /// Quantity in a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Quantity {
+    /// Frequency f or ω.
     Frequency,
+    /// Time t.
     Time,
+    /// Storage modulus G' or E'.
     Storage,
+    /// Loss modulus G'' or E''.
     Loss,
+    /// Loss factor tan δ.
     LossFactor,
     /// Magnitude |G*| or |E*|.
     Magnitude,
     /// Phase angle δ by which strain lags behind stress.
     Phase,
+    /// Relaxation modulus G(t) or E(t).
     Relaxation,
     /// Creep compliance.
     Creep,
+    /// Temperature.
     Temperature,
     /// Number of the isotherm.
     Set,
+    /// Normal force.
     Force,
     /// Indentation depth.
     Depth,
@@ -38,6 +46,7 @@ pub(crate) enum Quantity {
     Height,
     /// Position of the tip, away from the sample.
     Tip,
+    /// Deflection of a cantilever, as a length, a force or a voltage.
     Deflection,
     /// Speed of sliding or rolling, along the track or as a rotation.
     Velocity,
@@ -91,6 +100,7 @@ impl Vocabulary {
         found.or_else(|| SYMBOLS.iter().find_map(with_symbol))
     }
 
+    /// Index in `known` of a name; case and accents count only for single letters.
     fn find(&self, name: &str) -> Option<usize> {
         let folded = fold_accents(name);
         let is_same = |word: &str| {
@@ -231,14 +241,17 @@ impl Quantity {
         }
     }
 
+    /// Usual names of the quantity, for messages.
     pub(crate) const fn usual(self) -> &'static str {
         self.names().0
     }
 
+    /// Known units, separated by blanks; an empty one means that no unit is needed.
     pub(crate) const fn units(self) -> &'static str {
         self.names().1
     }
 
+    /// True for moduli and compliances, which depend on the deformation.
     pub(crate) const fn is_modulus(self) -> bool {
         matches!(self, Storage | Loss | Magnitude | Relaxation | Creep)
     }

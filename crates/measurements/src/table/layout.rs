@@ -27,7 +27,9 @@ pub(crate) fn text_of<'a>(contents: &'a [u8], vocabulary: &Vocabulary) -> Cow<'a
 /// Separator of the cells and decimal mark of the numbers of a table.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Layout {
+    /// Character between cells.
     separator: char,
+    /// `.` or `,`.
     decimal_mark: char,
 }
 
@@ -85,6 +87,7 @@ impl Layout {
         found.map_or("", |(_, name)| name)
     }
 
+    /// Cells of a line, without surrounding blanks and quotes.
     pub(crate) fn cells(self, line: &str) -> Vec<&str> {
         if self.is_blank() {
             return line.split_whitespace().collect();
@@ -113,6 +116,7 @@ impl Layout {
         self.cells(line)
     }
 
+    /// The number in a cell, with the decimal mark of the layout; `None` for a text and for a number that is not finite.
     pub(crate) fn number(self, cell: &str) -> Option<f64> {
         let number = match self.decimal_mark {
             '.' => cell.parse().ok(),
@@ -123,6 +127,7 @@ impl Layout {
     }
 }
 
+/// A cell without the quotes around it.
 fn unquoted(cell: &str) -> &str {
     let rest = cell.strip_prefix('"');
     rest.map_or(cell, |rest| rest.strip_suffix('"').unwrap_or(rest).trim())
@@ -138,6 +143,7 @@ pub(crate) fn tagged(line: &str) -> Option<(&str, &str)> {
 /// First characters of a comment.
 const COMMENT_MARKS: [char; 2] = ['#', '%'];
 
+/// True for a line that begins with `#`, `%` or `//`.
 pub(crate) fn is_comment(line: &str) -> bool {
     line.trim_start().starts_with(COMMENT_MARKS) || line.trim_start().starts_with("//")
 }

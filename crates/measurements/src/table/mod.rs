@@ -37,10 +37,14 @@ pub enum Deformation {
 
 /// The text of a file with its layout and vocabulary.
 pub(crate) struct Source<'a> {
+    /// Path for messages.
     file: &'a Path,
+    /// Separator and decimal mark.
     layout: Layout,
+    /// Names of the quantities.
     vocabulary: &'static Vocabulary,
     meaning: Meaning<'a>,
+    /// Lines that are not empty.
     lines: Vec<Line<'a>>,
 }
 
@@ -62,9 +66,11 @@ pub(crate) struct Line<'a> {
 
 /// A column with a known name.
 pub(crate) struct Column<'a> {
+    /// Quantity of its numbers.
     pub(crate) quantity: Quantity,
     pub(crate) deformation: Option<Deformation>,
     pub(crate) name: &'a str,
+    /// Index of the column, counted from 0.
     place: usize,
     /// Index of its name in the vocabulary.
     order: usize,
@@ -150,6 +156,8 @@ impl<'a> Source<'a> {
         Ok(tables)
     }
 
+    /// The columns of a line of names whose names are known, with the units in the names; their factors to SI are not known
+    /// yet.
     fn columns<'b>(&self, line: &Line<'b>) -> Vec<Column<'b>> {
         let names = self.layout.names(line.text).into_iter().enumerate();
         let columns = names.filter_map(|(place, name)| {
@@ -201,6 +209,7 @@ impl<'a> Source<'a> {
         format!("separated by {separators}, the columns are {names}")
     }
 
+    /// Error for a text without a line of names, at the line that is most similar to one.
     fn without_head(&self) -> MeasurementError {
         let needed = format!("a line of names is needed: {}", self.vocabulary.names);
         let is_number = |cell: &&&str| self.layout.number(cell).is_some();
@@ -217,6 +226,7 @@ impl<'a> Source<'a> {
         self.wrong_line(line.number, &format!("{needed}; {}", self.found(line)))
     }
 
+    /// Error for a cell of a column, with what was expected.
     fn wrong(&self, line: usize, column: &Column, expected: &str, cell: &str) -> MeasurementError {
         let [name, cell] = [column.shown(), shown(cell, 40)];
         let place = column.place + 1;
@@ -232,6 +242,7 @@ impl Column<'_> {
     }
 }
 
+/// Quantities of columns, in their order.
 fn quantities(columns: &[Column]) -> Vec<Quantity> {
     columns.iter().map(|column| column.quantity).collect()
 }
@@ -336,7 +347,7 @@ impl<'a> Table<'a> {
         self.source.wrong_line(self.line, &problem)
     }
 
-    /// Reads the units in the names or in the line below.
+    /// Reads the units in the names or in the line below, and sets the factors to SI. Refuses an unknown or missing unit.
     fn read_units(&mut self, block: &[Line<'a>]) -> Result<()> {
         let layout = self.source.layout;
         let is_open = |one: &Column| one.unit.is_empty() && one.quantity.unit("").is_none();
@@ -388,6 +399,7 @@ impl<'a> Table<'a> {
         Ok(())
     }
 
+    /// The first column of a quantity; `None` if the table has none.
     pub(crate) fn find(&self, quantity: Quantity) -> Option<&Column<'a>> {
         let mut columns = self.columns.iter();
         columns.find(|column| column.quantity == quantity)
@@ -471,6 +483,7 @@ impl<'a> Table<'a> {
         self.wrong(line, first, expected)
     }
 
+    /// Number of a column in SI; an error unless it is greater than 0 and finite.
     fn positive(&self, line: &Line, column: &Column) -> Result<f64> {
         let number = self.number(line, column)?;
         let in_si = number * column.factor;
@@ -485,12 +498,14 @@ impl<'a> Table<'a> {
         Err(self.wrong(line, column, expected))
     }
 
+    /// Number of a column in its own unit; an error for an empty cell and a text.
     fn number(&self, line: &Line, column: &Column) -> Result<f64> {
         let cell = line.cells.get(column.place);
         let number = cell.and_then(|cell| self.source.layout.number(cell));
         number.ok_or_else(|| self.wrong(line, column, "a finite number"))
     }
 
+    /// Error for the cell of a column in a line, with what was expected.
     fn wrong(&self, line: &Line, column: &Column, expected: &str) -> MeasurementError {
         let cell = line.cells.get(column.place).copied().unwrap_or_default();
         self.source.wrong(line.number, column, expected, cell)
