@@ -19,10 +19,11 @@ pub struct Files<'a> {
     pub memory: Option<u64>,
 }
 
-/// Bound of the memory per table row while it is read, \[bytes]: the points of a history, three times during growth of the list.
-const PER_ROW: u64 = 200;
+/// Bound of the memory per table row while it is read, \[bytes]. A parsed row with its line number has at most 56 bytes. It
+/// counts three times, because a list that grows holds its old and its doubled storage at once.
+const BYTES_PER_ROW: u64 = 200;
 /// Largest size of a material file, \[bytes] (chosen: a fit writes the covariance of up to 200 branches).
-const LARGEST_MATERIAL: u64 = 1 << 21;
+const MAX_MATERIAL_FILE: u64 = 1 << 21;
 
 impl<'a> Files<'a> {
     /// The files of a scene in a folder.
@@ -38,19 +39,20 @@ impl<'a> Files<'a> {
         })
     }
 
-    /// Memory limit for one file, \[bytes].
+    /// Memory limit for one file with all data derived from it, \[bytes]; 4 GiB if none is given.
     pub fn memory(&self) -> u64 {
         self.memory.unwrap_or(1 << 32)
     }
 
-    /// Path and contents of a table of numbers, checked against the memory limit.
+    /// Path and contents of a table of numbers in the folder of the scene. Refuses one whose rows would exceed the memory limit
+    /// when parsed.
     pub(crate) fn table(&self, name: &Path) -> Result<(PathBuf, Vec<u8>), WrongInput> {
         let memory = self.memory();
         let file = self.folder.join(name);
         let table = self.contents(name, memory)?;
         let ends = |end: u8| table.iter().filter(|byte| **byte == end).count() as u64;
         let rows = ends(b'\n').max(ends(b'\r'));
-        let needed = table.len() as u64 + PER_ROW * rows;
+        let needed = table.len() as u64 + BYTES_PER_ROW * rows;
         if needed > memory {
             let file = file.display();
             return Err(WrongInput(format!(
@@ -60,14 +62,14 @@ impl<'a> Files<'a> {
         Ok((file, table))
     }
 
-    /// Path and contents of a material file.
+    /// Path and contents of a material file in the folder of the scene, of at most [`MAX_MATERIAL_FILE`] bytes.
     pub(crate) fn material(&self, name: &Path) -> Result<(PathBuf, Vec<u8>), WrongInput> {
-        let contents = self.contents(name, LARGEST_MATERIAL)?;
+        let contents = self.contents(name, MAX_MATERIAL_FILE)?;
         Ok((self.folder.join(name), contents))
     }
 
-    /// Contents of a file of at most `most` bytes.
-    pub(crate) fn contents(&self, name: &Path, most: u64) -> Result<Vec<u8>, WrongInput> {
-        (self.read)(&self.folder.join(name), most)
+    /// Contents of a file in the folder of the scene, of at most `max_bytes` bytes.
+    pub(crate) fn contents(&self, name: &Path, max_bytes: u64) -> Result<Vec<u8>, WrongInput> {
+        (self.read)(&self.folder.join(name), max_bytes)
     }
 }

@@ -5,7 +5,8 @@ const MAGIC: &[u8] = b"\x93NUMPY";
 /// Version of the format, 1.0.
 const VERSION: [u8; 2] = [1, 0];
 
-/// An array in the format NPY 1.0, little-endian, row-major.
+/// The bytes of an NPY 1.0 file: little-endian `f64` in row-major order, with the lengths of the axes in `shape`, whose product
+/// is the number of values.
 pub fn to_npy(values: &[f64], shape: &[usize]) -> Vec<u8> {
     let lengths: String = shape.iter().map(|length| format!("{length},")).collect();
     let mut header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({lengths}), }}");

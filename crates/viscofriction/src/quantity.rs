@@ -26,13 +26,15 @@ pub struct Quantity {
     pub(crate) is_dissipative: bool,
     /// Value on the coarse grid of an ensemble; `None` if coarse solutions do not have it.
     pub(crate) on_coarse_grid: Option<fn(&Coarse) -> f64>,
-    /// True if the answer has its scatter over an ensemble.
+    /// True if an ensemble answer states the standard error of its mean and its standard deviation over the random surfaces.
     pub(crate) has_scatter: bool,
-    /// Change of its logarithm in an answer; `None` if the quantity has no derivatives.
+    /// Derivative of its logarithm, from which sensitivities and uncertainties follow; `None` if the quantity has no
+    /// derivatives.
     pub(crate) log_change: Option<LogChange>,
 }
 
-/// Change of the logarithm of a quantity in an answer, from the change by the adjoint method; `None` if the quantity is given.
+/// Change of the logarithm of a quantity of an answer, with its error. The second argument has the changes of all quantities
+/// that the adjoint method finds for a change of the scene. `None` if the quantity is given.
 pub(crate) type LogChange = fn(&Answer, &Change<Estimate>) -> Option<Estimate>;
 
 /// Unit of a quantity; empty for a number.
@@ -46,17 +48,23 @@ pub struct Unit {
 }
 
 impl Unit {
+    /// No unit: a dimensionless number.
     pub(crate) const NUMBER: Self = Self::of_any("");
+    /// Depths, and edges of a contact.
     const LENGTH: Self = Self::of_any("m");
+    /// Pressures and moduli.
     const PRESSURE: Self = Self::of_any("Pa");
+    /// Contact areas.
     const AREA: Self = Self {
         of_body: "m²",
         of_cylinder: "m²/m",
     };
+    /// Normal and tangential forces.
     const FORCE: Self = Self {
         of_body: "N",
         of_cylinder: "N/m",
     };
+    /// Works and dissipated energies.
     const ENERGY: Self = Self {
         of_body: "J",
         of_cylinder: "J/m",
@@ -71,7 +79,7 @@ impl Unit {
     }
 }
 
-/// A quantity without symbol, computed from an answer.
+/// A quantity that a function computes from an answer, without symbol, derivatives, scatter, and value on a coarse grid.
 const fn computed(key: &'static str, unit: Unit, of: fn(&Answer) -> Option<Estimate>) -> Quantity {
     Quantity {
         key,
@@ -86,7 +94,7 @@ const fn computed(key: &'static str, unit: Unit, of: fn(&Answer) -> Option<Estim
     }
 }
 
-/// A quantity without symbol, stored in the field of the answer that has its name.
+/// A quantity stored in the field of [`Answer`] that has its name; otherwise like [`computed`].
 macro_rules! stored {
     ($field:ident, $unit:expr) => {
         Quantity {
@@ -226,7 +234,7 @@ impl<T> Default for ByQuantity<T> {
 }
 
 impl<T: Copy> ByQuantity<T> {
-    /// The numbers that a function knows.
+    /// One number for each quantity for which a function returns `Some`.
     pub(crate) fn new(of: impl Fn(&Quantity) -> Option<T>) -> Self {
         let known = QUANTITIES.iter();
         Self(

@@ -1,6 +1,7 @@
 //! Line numbers in text files, and the error that reports them.
 
-/// Invalid input; a message of one line that names the place.
+/// Invalid input: a message that names file and line where it can. Line breaks and other control characters are printed as
+/// blanks.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{}", _0.replace(char::is_control, " "))]
 pub struct WrongInput(pub String);
@@ -16,6 +17,7 @@ pub(crate) struct RecordLines<'a> {
 }
 
 impl<'a> RecordLines<'a> {
+    /// Starts at the first line of a file.
     pub(crate) const fn new(contents: &'a [u8]) -> Self {
         Self {
             contents,
@@ -24,7 +26,8 @@ impl<'a> RecordLines<'a> {
         }
     }
 
-    /// Line of a record that does not precede the last one queried. Its position may include preceding empty lines.
+    /// Line of a record, counted from 1; the record must not precede the one queried before. `position` is where the reader
+    /// began, which may be at empty lines before the record; they are skipped.
     pub(crate) fn of(&mut self, position: Option<&csv::Position>) -> usize {
         let start = position.map_or(0, csv::Position::byte);
         let start = usize::try_from(start).unwrap_or(usize::MAX);

@@ -11,7 +11,7 @@ use rheology::{
 use super::{Free, FrictionFitError, FrictionPrior};
 use crate::files::{Files, ReadFile};
 use crate::scene::{Covariance, MaterialTable, Scene, SceneError};
-use crate::solve::half_space::{half_space, of_table_in};
+use crate::solve::half_space::{half_space, read_material_file};
 use crate::solve::sensitivity::{Number, Numbers};
 
 /// Keys of moduli, viscosities and coefficients, all proportional to a stress.
@@ -27,26 +27,27 @@ const STRESSES: [&str; 6] = [
 const EXPONENT: &str = "exponent";
 /// Key of the relaxation time of a power law.
 const TIME: &str = "relaxation_time";
-/// Range of a modulus or viscosity, relative to the sum of all parameters of its unit (chosen).
-const MODULI: [f64; 2] = [1e-5, 1e3];
-/// Range of a relaxation time, relative to its start (chosen).
-const TIMES: [f64; 2] = [1e-4, 1e4];
-/// Range of the WLF constant C₁ (chosen; it includes all polymers).
-const C1: [f64; 2] = [0.1, 1e3];
-/// Upper limit of the WLF constant C₂, \[K] (chosen; it includes all polymers).
-const HIGHEST_C2: f64 = 1e4;
-/// Range of activation energies, \[J/mol] (chosen; it includes all polymers).
-const ENERGIES: [f64; 2] = [1e3, 1e7];
-/// Range of exponents that scenes accept.
-const EXPONENTS: [f64; 2] = [0.01, 0.99];
-/// Lower limit of C₂, relative to the distance of the coldest point below the reference temperature (chosen): the pole of the WLF
-/// law stays 1 % of this distance below that point.
-const FROM_POLE: f64 = 1.01;
-/// Relative standard deviation added to each modulus of the covariance (chosen, below the accuracy of measured friction), so that
-/// combinations of zero variance have a finite weight.
-const LEAST_DEVIATION: f64 = 1e-3;
-/// Largest change of a logarithm in one step of the least squares (chosen).
-const STEP: f64 = 2.0;
+/// Lower and upper bound of a modulus or viscosity, over the sum of the start values of all free parameters of its unit
+/// (chosen). A parameter that the points do not determine runs into a bound, and its interval is left open there.
+const MODULUS_BOUNDS: [f64; 2] = [1e-5, 1e3];
+/// Lower and upper bound of the relaxation time of a power law, over its start value (chosen, four decades either way).
+const TIME_BOUNDS: [f64; 2] = [1e-4, 1e4];
+/// Lower and upper bound of the WLF constant C₁ (chosen; about 17 for most polymers at the glass transition).
+const C1_BOUNDS: [f64; 2] = [0.1, 1e3];
+/// Upper bound of the WLF constant C₂, \[K] (chosen; about 50 K for most polymers at the glass transition).
+const MAX_C2: f64 = 1e4;
+/// Lower and upper bound of the activation energy of an Arrhenius law, \[J/mol] (chosen; polymers have some 10⁴ to 10⁶).
+const ENERGY_BOUNDS: [f64; 2] = [1e3, 1e7];
+/// Lower and upper bound of the exponent of a power law: the range that scenes accept.
+const EXPONENT_BOUNDS: [f64; 2] = [0.01, 0.99];
+/// Lower bound of C₂ over the distance \[K] of the coldest point below the reference temperature (chosen). The WLF law has its
+/// pole C₂ below the reference; it thus stays 1 % of the distance below that point.
+const MIN_C2_OVER_DISTANCE: f64 = 1.01;
+/// Relative standard deviation whose square is added to each variance of the covariance of the moduli (chosen, below the
+/// accuracy of measured friction). Without it a combination of moduli of zero variance would have infinite weight in the prior.
+const MIN_RELATIVE_DEVIATION: f64 = 1e-3;
+/// Largest change of the logarithm of a parameter in one step of the least squares (chosen): a factor of 7.4.
+const MAX_LOG_STEP: f64 = 2.0;
 
 /// A scene whose material has free parameters, and the map from these to the material.
 pub(super) struct Family<'a> {
@@ -54,17 +55,21 @@ pub(super) struct Family<'a> {
     pub(super) scene: Scene,
     /// Temperature of points without one of their own, \[°C]; `None` if the scene states none.
     temperature: Option<f64>,
+    /// The numbers of the scene by their paths, and the scene with other values of them.
     numbers: Numbers<'a>,
     files: Files<'a>,
     /// Covariance of the moduli of the scene; `None` if the material has none.
     covariance: Option<Covariance>,
-    /// The free numbers of the material; in the parameter vector the constants of the law follow.
+    /// The free numbers of the material. The vector of parameters holds their logarithms, then those of the free constants of
+    /// the shift law.
     moduli: Vec<Number>,
+    /// The shift law of the material of the scene; `None` if it has none.
     shift: Option<Shift>,
+    /// True if the constants of the shift law are parameters of the fit.
     shift_is_free: bool,
 }
 
-/// A constant of the shift law, with its range.
+/// A free constant of the shift law: name and unit, and start and bounds in this unit.
 struct Constant {
     name: &'static str,
     unit: &'static str,
@@ -73,6 +78,8 @@ struct Constant {
 }
 
 impl<'a> Family<'a> {
+    /// Reads the material of a scene and lists its free parameters. Refuses an elastic material, which has no friction, and a
+    /// free shift law of a material without one.
     pub(super) fn new(
         scene: &Scene,
         (folder, read): (&'a std::path::Path, ReadFile),
@@ -114,14 +121,14 @@ impl<'a> Family<'a> {
         })
     }
 
-    /// The free parameters, and the logarithms of their starts.
+    /// The free parameters with their bounds, and the logarithms of their start values; the points bound C₂ from below.
     pub(super) fn parameters(&self, points: &[FrictionPoint]) -> (Vec<FreeParameter>, Vec<f64>) {
         let of_material = self.moduli.iter().map(|number| {
-            let [lowest, highest] = self.range(number);
+            let [lowest, highest] = self.bounds_of(number);
             let parameter = FreeParameter {
                 name: number.path().trim_start_matches("material.").to_owned(),
                 unit: unit(number),
-                range: range([lowest, highest]),
+                range: log_range([lowest, highest]),
             };
             (parameter, number.value.ln())
         });
@@ -130,18 +137,19 @@ impl<'a> Family<'a> {
             let parameter = FreeParameter {
                 name: constant.name.to_owned(),
                 unit: constant.unit,
-                range: range(constant.bounds),
+                range: log_range(constant.bounds),
             };
             (parameter, constant.start.ln())
         });
         of_material.chain(of_law).unzip()
     }
 
-    /// Prior of the logarithms of the parameters, centred on their starts; `None` if nothing is known.
+    /// Gaussian prior of the logarithms of the parameters, with the mean `start`; `None` without prior knowledge, or if its
+    /// covariance is singular.
     pub(super) fn prior(&self, known: FrictionPrior, start: &[f64]) -> Option<Prior> {
         let (places, covariance) = match known {
             FrictionPrior::None => return None,
-            FrictionPrior::Relative(spread) => self.independent(spread.ln_1p()),
+            FrictionPrior::Relative(spread) => self.independent_moduli(spread.ln_1p()),
             FrictionPrior::Covariance => self.covariance()?,
         };
         let (n, rank) = (start.len(), places.len());
@@ -157,8 +165,9 @@ impl<'a> Family<'a> {
         })
     }
 
-    /// Indices of the moduli of elements that relax at measured frequencies, and their covariance for one standard deviation.
-    fn independent(&self, deviation: f64) -> (Vec<usize>, Vec<f64>) {
+    /// Indices of the moduli of elements that relax at measured frequencies, and their covariance matrix, row by row:
+    /// `deviation` squared on the diagonal, 0 elsewhere.
+    fn independent_moduli(&self, deviation: f64) -> (Vec<usize>, Vec<f64>) {
         let moduli = self.moduli.iter().enumerate();
         let moduli = moduli.filter(|(_, number)| is_stress(number) && self.is_measured(number));
         let places: Vec<usize> = moduli.map(|(place, _)| place).collect();
@@ -174,7 +183,8 @@ impl<'a> Family<'a> {
         (places, entries)
     }
 
-    /// Indices of the moduli with their covariance in the material; `None` if the material has none.
+    /// Indices of the free moduli, and their relative covariance matrix in the material, row by row, with the square of
+    /// [`MIN_RELATIVE_DEVIATION`] added on the diagonal. `None` if the material has no covariance.
     fn covariance(&self) -> Option<(Vec<usize>, Vec<f64>)> {
         let known = self.covariance.as_ref()?;
         let moduli = self.moduli.iter().enumerate();
@@ -187,7 +197,11 @@ impl<'a> Family<'a> {
         let moduli: Vec<(usize, usize)> = moduli.collect();
         let entries = moduli.iter().flat_map(|&(row, from)| {
             moduli.iter().map(move |&(column, to)| {
-                let least = if row == column { LEAST_DEVIATION } else { 0.0 };
+                let least = if row == column {
+                    MIN_RELATIVE_DEVIATION
+                } else {
+                    0.0
+                };
                 known.relative[from][to] + least * least
             })
         });
@@ -195,7 +209,8 @@ impl<'a> Family<'a> {
         Some((moduli.iter().map(|(place, _)| *place).collect(), entries))
     }
 
-    /// The applicable prior: [`FrictionPrior::None`] if its covariance is missing or no modulus is free.
+    /// The prior that can be applied: that asked for, or [`FrictionPrior::None`] if it needs a covariance that the material
+    /// does not have, or if no modulus is free.
     pub(super) fn known(&self, asked: FrictionPrior) -> FrictionPrior {
         let has_covariance = self.covariance.is_some() && !self.moduli.is_empty();
         match asked {
@@ -220,24 +235,25 @@ impl<'a> Family<'a> {
         self.shift_is_free
     }
 
-    /// Range of a number of the material.
-    fn range(&self, number: &Number) -> [f64; 2] {
+    /// Lower and upper bound of a free number of the material, in its unit.
+    fn bounds_of(&self, number: &Number) -> [f64; 2] {
         let [_, key] = number.ends();
         if key == EXPONENT {
-            return EXPONENTS;
+            return EXPONENT_BOUNDS;
         }
         if key == TIME {
-            return TIMES.map(|factor| factor * number.value);
+            return TIME_BOUNDS.map(|factor| factor * number.value);
         }
         let alike = self
             .moduli
             .iter()
             .filter(|other| unit(other) == unit(number));
         let all: f64 = alike.map(|other| other.value).sum();
-        MODULI.map(|factor| factor * all)
+        MODULUS_BOUNDS.map(|factor| factor * all)
     }
 
-    /// True if the element of a modulus relaxes at measured frequencies, or if the material states no such range.
+    /// True if 1/τ of the branch of a modulus is within the valid frequencies of the material. Of a Prony series with such
+    /// frequencies, the equilibrium modulus counts as not measured. True for every number of other materials.
     fn is_measured(&self, number: &Number) -> bool {
         let Some([lowest, highest]) = self.scene.material.valid_frequencies() else {
             return true;
@@ -249,7 +265,8 @@ impl<'a> Family<'a> {
         own.is_some_and(|branch| (lowest..=highest).contains(&branch.relaxation_time.recip()))
     }
 
-    /// The constants of the free shift law; it must hold down to `below` kelvin under its reference temperature.
+    /// The constants of the shift law, empty if it is not free. It must hold down to `below` \[K] under its reference
+    /// temperature.
     fn law(&self, below: f64) -> Vec<Constant> {
         let constant = |name, unit, start, bounds| Constant {
             name,
@@ -260,10 +277,17 @@ impl<'a> Family<'a> {
         let law = self.shift.as_ref().filter(|_| self.shift_is_free);
         match law.map(|shift| shift.law) {
             Some(ShiftLaw::Wlf([c1, c2])) => vec![
-                constant("C1", "", c1, C1),
-                constant("C2", "K", c2, [FROM_POLE * below.max(1.0), HIGHEST_C2]),
+                constant("C1", "", c1, C1_BOUNDS),
+                constant(
+                    "C2",
+                    "K",
+                    c2,
+                    [MIN_C2_OVER_DISTANCE * below.max(1.0), MAX_C2],
+                ),
             ],
-            Some(ShiftLaw::Arrhenius(energy)) => vec![constant("E_a", "J/mol", energy, ENERGIES)],
+            Some(ShiftLaw::Arrhenius(energy)) => {
+                vec![constant("E_a", "J/mol", energy, ENERGY_BOUNDS)]
+            }
             None => Vec::new(),
         }
     }
@@ -275,12 +299,12 @@ impl<'a> Family<'a> {
         temperatures.fold(0.0, |most, temperature| most.max(reference - temperature))
     }
 
-    /// Temperature of a point, \[°C], else that of the scene.
+    /// Temperature of a point, \[°C]; that of the scene if the point has none, `None` if the scene has none either.
     fn temperature_of(&self, point: &FrictionPoint) -> Option<f64> {
         point.temperature.or(self.temperature)
     }
 
-    /// The material for given logarithms of the parameters.
+    /// The material at its reference temperature, for given logarithms of the parameters.
     pub(super) fn material(&self, logs: &[f64]) -> Result<Box<dyn Material>, SceneError> {
         let table = self.table(logs)?;
         Ok(half_space(&table, &self.files)?.material)
@@ -293,7 +317,9 @@ impl<'a> Family<'a> {
         Ok(self.numbers.scene_with_all(values)?.material)
     }
 
-    /// ln a_T of a point, and its derivatives by the logarithms of the free constants of the law.
+    /// ln a_T at the temperature of a point, and its derivatives by the logarithms of the free constants of the law: with ln
+    /// a_T = −C₁ ln 10 (T − T_r)/(C₂ + T − T_r) these are ln a_T and −ln a_T C₂/(C₂ + T − T_r). For the law of Arrhenius,
+    /// proportional to its energy, it is ln a_T. Both are 0 without a temperature.
     pub(super) fn shift_of(
         &self,
         point: &FrictionPoint,
@@ -326,7 +352,8 @@ impl<'a> Family<'a> {
         }
     }
 
-    /// Factor b_T on all moduli at the temperature of a point.
+    /// Factor b_T on all moduli at the temperature of a point, relative to the reference temperature; 1 without a shift law or
+    /// temperature.
     pub(super) fn modulus_factor_of(&self, point: &FrictionPoint) -> Result<f64, RheologyError> {
         match (&self.shift, self.temperature_of(point)) {
             // A free law is valid in the range of the points.
@@ -344,8 +371,9 @@ impl<'a> Family<'a> {
         }
     }
 
-    /// The fitted material table, with its shift law valid in the range of the points.
-    pub(super) fn found(
+    /// The material table for given logarithms of the parameters. A free shift law gets the fitted constants, and is valid from
+    /// the lowest to the highest temperature of the points, its reference included.
+    pub(super) fn fitted_table(
         &self,
         logs: &[f64],
         points: &[FrictionPoint],
@@ -406,11 +434,11 @@ impl<'a> Family<'a> {
     }
 }
 
-/// The range of a parameter as logarithms.
-fn range(bounds: [f64; 2]) -> ParameterRange {
+/// The bounds of a parameter as logarithms, with the largest step of a logarithm.
+fn log_range(bounds: [f64; 2]) -> ParameterRange {
     ParameterRange {
         bounds: bounds.map(f64::ln),
-        largest_step: STEP,
+        largest_step: MAX_LOG_STEP,
     }
 }
 
@@ -427,7 +455,7 @@ fn branch_of(number: &Number) -> Option<usize> {
     branch.parse().ok()
 }
 
-/// Unit of a number of the material.
+/// Unit of a number of the material; empty for an exponent.
 fn unit(number: &Number) -> &'static str {
     match number.ends() {
         [_, "viscosity"] => "Pa s",
@@ -438,7 +466,8 @@ fn unit(number: &Number) -> &'static str {
     }
 }
 
-/// The free numbers of a material: moduli and viscosities, for power laws also exponent and time; none for an elastic material.
+/// The free numbers of a material: moduli and viscosities, for power laws also exponent and relaxation time. None for an
+/// elastic material, which has no friction at any modulus.
 fn free_numbers(numbers: &Numbers, material: &MaterialTable) -> Vec<Number> {
     let is_power_law = matches!(
         material,
@@ -467,7 +496,7 @@ fn with_material(scene: &Scene, files: &Files<'_>) -> Result<(Scene, Option<f64>
     else {
         return Ok((scene.clone(), None));
     };
-    let material = of_table_in(path, files, Ok)?;
+    let material = read_material_file(path, files, Ok)?;
     let material = material.with_given(*poisson_ratio, *valid_frequencies)?;
     if let (Some(_), None) = (temperature, material.shift()) {
         let problem = "the file has no shift law, as fit-material writes it for isotherms of several temperatures";

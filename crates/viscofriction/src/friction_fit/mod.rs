@@ -68,17 +68,18 @@ pub struct FittedFriction {
     pub prior: FrictionPrior,
 }
 
-/// Approximate number of points in the first search (chosen).
-const FEW: usize = 8;
-/// Scales of the starts of the first search, in decades: on all moduli, or on the constants of the law if no modulus is free
-/// (chosen).
-const SCALES: [f64; 7] = [0.0, -0.5, 0.5, -1.0, 1.0, -1.5, 1.5];
-/// Largest number of starts followed to a minimum (chosen).
-const STARTS: usize = 4;
-/// Largest number of grid corrections (chosen).
-const CORRECTIONS: usize = 4;
-/// Change of the logarithms of all parameters below which the grids are not corrected again (chosen).
-const NEAR: f64 = 0.2;
+/// Largest number of points in the first search, which takes every n-th of the points (chosen).
+const FIRST_SEARCH_POINTS: usize = 8;
+/// Common factors on all moduli at the starts of the first search, as powers of ten; on the constants of the shift law if no
+/// modulus is free (chosen).
+const START_DECADES: [f64; 7] = [0.0, -0.5, 0.5, -1.0, 1.0, -1.5, 1.5];
+/// Largest number of starts from which the first search follows the sum of squares to a minimum (chosen).
+const MAX_STARTS: usize = 4;
+/// Largest number of times that the ratio of fine to coarse solution is computed for all points (chosen). After the last one
+/// the fit ends even if the parameters have moved by more than [`CORRECTION_REACH`].
+const MAX_CORRECTIONS: usize = 4;
+/// Change of the logarithm of every parameter up to which the ratio of fine to coarse solution still counts as known (chosen).
+const CORRECTION_REACH: f64 = 0.2;
 
 /// Fits the free parameters of the material of a scene to measured friction of its body. Velocities, and forces and temperatures
 /// if stated, are those of the points. `watch` receives the progress.
@@ -125,7 +126,7 @@ pub fn fit_friction(
     };
     Ok(FittedFriction {
         fit: fitting.fit(&model, &found, &intervals)?,
-        material: family.found(logs, points)?,
+        material: family.fitted_table(logs, points)?,
         points: points.to_vec(),
         shifted_velocities: shifted
             .map_err(|error| SceneError::at("material", error.to_string()))?,
@@ -134,7 +135,8 @@ pub fn fit_friction(
     })
 }
 
-/// The scene with velocity and force of the first point, for the validation of all.
+/// The scene with the velocity of the first point, and its force if all points have one and the scene prescribes no depth.
+/// Checked once, it stands for all points.
 fn with_load(scene: &Scene, points: &[FrictionPoint]) -> Result<Scene, FrictionFitError> {
     let first = points.first().ok_or(MeasurementError::TooFewPoints {
         needed: 1,
@@ -150,7 +152,7 @@ fn with_load(scene: &Scene, points: &[FrictionPoint]) -> Result<Scene, FrictionF
     Ok(scene)
 }
 
-/// Rejects periodic surfaces, motions and histories, before a surface is sampled or a file read.
+/// Rejects periodic surfaces, motions and histories, before a random surface is drawn or a file read.
 fn check_scene(scene: &Scene) -> Result<(), SceneError> {
     let is_endless = match &scene.indenter {
         Indenter::SelfAffine(_) | Indenter::Spectrum(_) => true,
@@ -182,8 +184,9 @@ const ENDLESS_SURFACE: &str = "moduli are not fitted to the friction of a rough 
 const STEADY_SLIDING: &str = "friction is fitted at constant speeds, which are those of the table; leave this out, and give normal_force \
      without a motion";
 
-/// Least squares of about [`FEW`] points on coarser grids, from scaled starts in order of their sum of squares. Returns the first
-/// minimum consistent with the noise, else the best one.
+/// Least squares of at most [`FIRST_SEARCH_POINTS`] points on coarser grids. The starts are `start` itself, then its multiples
+/// by [`START_DECADES`] in order of their sum of squares. Returns the logarithms of the parameters at the first minimum that
+/// noise explains, else at the lowest minimum.
 fn first_search(
     model: &Model,
     family: &Family,
@@ -191,7 +194,7 @@ fn first_search(
     start: &[f64],
     watch: &(dyn Fn(&FitProgress) + Sync),
 ) -> Result<Vec<f64>, FrictionFitError> {
-    let few = model.some(model.points.len().div_ceil(FEW));
+    let few = model.every_nth_point(model.points.len().div_ceil(FIRST_SEARCH_POINTS));
     let points = few.points.clone();
     let of_few = fitting.of(&points);
     let scaled = |decades: f64| -> Vec<f64> {
@@ -206,7 +209,7 @@ fn first_search(
         moved.collect()
     };
     // Rank the scaled starts by their sum of squares.
-    let mut tried = SCALES.map(|decades| {
+    let mut tried = START_DECADES.map(|decades| {
         let start = scaled(decades);
         let sum = of_few.sum(&few, &start);
         (sum.unwrap_or(f64::INFINITY), start)
@@ -216,9 +219,12 @@ fn first_search(
     // Search from the best starts.
     let sum = |found: &FrictionMinimum| found.minimum.model.sum;
     let mut best: Option<FrictionMinimum> = None;
-    for (done, (_, start)) in tried.iter().take(STARTS).enumerate() {
+    for (done, (_, start)) in tried.iter().take(MAX_STARTS).enumerate() {
         let residual = best.as_ref().and_then(|best| of_few.mean_residual(best));
-        let stage = FitStage::Starts { done, of: STARTS };
+        let stage = FitStage::Starts {
+            done,
+            of: MAX_STARTS,
+        };
         watch(&FitProgress { stage, residual });
         let found = of_few.minimum(&few, start);
         let known = best.as_ref().map_or(f64::INFINITY, sum);
@@ -231,7 +237,8 @@ fn first_search(
     Ok(best.minimum.parameters)
 }
 
-/// Least squares of all points on corrected grids. The correction is repeated until the parameters move by less than [`NEAR`].
+/// Least squares of all points, with the coarse solutions corrected at the start of each round. Rounds end when the parameters
+/// move by less than [`CORRECTION_REACH`]. Returns the minimum and the largest relative error of the corrected friction.
 fn corrected(
     model: &mut Model,
     fitting: &FrictionFitting,
@@ -253,14 +260,14 @@ fn corrected(
         let moved = moved
             .map(|(new, old)| (new - old).abs())
             .fold(0.0, f64::max);
-        if moved < NEAR || corrected == CORRECTIONS {
+        if moved < CORRECTION_REACH || corrected == MAX_CORRECTIONS {
             return Ok((found, solver_error));
         }
         start = found.minimum.parameters;
     }
 }
 
-/// The last error of the model, else that of the least squares.
+/// Error if no minimum was found: caused by the last error of the model, if there was one.
 fn not_converged(model: &Model) -> FrictionFitError {
     let refused = model.refused.lock().unwrap_or_else(PoisonError::into_inner);
     match refused.clone() {

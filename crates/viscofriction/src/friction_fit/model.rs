@@ -24,50 +24,62 @@ use crate::solve::mdr;
 use crate::solve::work::closed_line;
 use crate::solve::{Motion, Problem, Result, SolveError};
 
-/// Elements along the contact. The error of friction is about 1 %, which the correction removes, and that of its logarithmic
-/// derivatives up to 5 % (measured, docs/fit-friction.md).
-const ELEMENTS: usize = 8;
-/// Elements along the contact in the first search (chosen).
-const FEW_ELEMENTS: usize = 5;
-/// Relative error of the solutions that correct the grids (chosen).
-const CORRECTION: f64 = 5e-3;
-/// Relative error requested of the one-dimensional model (chosen, so that differences give derivatives).
-const EXACT: f64 = 1e-9;
-/// Step of a logarithm for adjoint derivatives (chosen).
-const STEP: f64 = 1e-5;
-/// Step of a logarithm for central differences of friction in the one-dimensional model (chosen): their error is about
-/// [`EXACT`]/step.
-const LONG_STEP: f64 = 1e-4;
+/// Elements along the contact of the coarse solutions. Their friction is off by about 1 %, which the correction removes, and
+/// its logarithmic derivatives by up to 5 % (measured, docs/fit-friction.md).
+const COARSE_ELEMENTS: usize = 8;
+/// Elements along the contact in the first search (chosen): it only has to find the right one of several minima.
+const FIRST_SEARCH_ELEMENTS: usize = 5;
+/// Relative error of friction requested of the fine solutions that correct the coarse ones (chosen, below the scatter of
+/// measured friction).
+const CORRECTION_ERROR: f64 = 5e-3;
+/// Relative error of friction requested of the one-dimensional model (chosen, so small that differences give derivatives).
+const LINE_ERROR: f64 = 1e-9;
+/// Change of the logarithm of a parameter between the materials whose compliances the adjoint method takes the difference of
+/// (chosen).
+const ADJOINT_STEP: f64 = 1e-5;
+/// Change of the logarithm of a parameter for central differences of the friction of the one-dimensional model (chosen): their
+/// error is about [`LINE_ERROR`] over this step.
+const DIFFERENCE_STEP: f64 = 1e-4;
 
-/// The forward problem of a point.
+/// The body on its model, which decide how the friction of a point is solved.
 enum Forward<'a> {
+    /// A finite body on the half space or layer.
     Surface(&'a dyn Surface),
+    /// A cylinder on the half space or layer, in plane strain.
     Cylinder(&'a Cylinder),
+    /// A body of revolution in the one-dimensional model.
     Line(&'a Revolution),
 }
 
-/// The forward model of all points.
+/// Friction of all points as a function of the parameters of a family of materials.
 pub(super) struct Model<'a> {
     family: &'a Family<'a>,
     forward: Forward<'a>,
+    /// Thickness of the elastomer, \[m]; infinite for a half space.
     thickness: f64,
+    /// Length of the track after which the body returns, \[m]; `None` if it never does.
     track: Option<f64>,
+    /// Force or depth of the scene, for points without a force of their own.
     control: Control,
+    /// Elements along the contact of the coarse solutions.
     elements: usize,
     pub(super) points: Vec<FrictionPoint>,
-    /// Factor on the coarse-grid friction of each point.
+    /// Friction of the fine over that of the coarse solution, for each point; 1 before the first correction.
     corrections: Vec<f64>,
     /// The last error of the model; `None` if there was none.
     pub(super) refused: Mutex<Option<FrictionFitError>>,
 }
 
-/// The material at the parameters, and those at both neighbours of each parameter.
+/// The material at the parameters, and the pairs of materials with one parameter of the material decreased and increased by the
+/// step of its logarithm.
 struct Materials {
     own: Box<dyn Material>,
     beside: Vec<[Box<dyn Material>; 2]>,
 }
 
 impl<'a> Model<'a> {
+    /// The model of measured points, not yet corrected. Refuses a time march, a given depth if moduli are free, and a body that
+    /// is neither single nor a cylinder.
     pub(super) fn new(
         family: &'a Family<'a>,
         problem: &'a Problem,
@@ -92,17 +104,17 @@ impl<'a> Model<'a> {
             thickness: problem.thickness(),
             track: problem.track(),
             control,
-            elements: ELEMENTS,
+            elements: COARSE_ELEMENTS,
             points: points.to_vec(),
             corrections: vec![1.0; points.len()],
             refused: Mutex::new(None),
         })
     }
 
-    /// Every `step`-th point, on coarser grids.
-    pub(super) fn some(&self, step: usize) -> Self {
-        let some = |index: &usize| index.is_multiple_of(step);
-        let places = || (0..self.points.len()).filter(some);
+    /// The model of every `step`-th point, beginning with the first, with [`FIRST_SEARCH_ELEMENTS`] along the contact.
+    pub(super) fn every_nth_point(&self, step: usize) -> Self {
+        let is_kept = |index: &usize| index.is_multiple_of(step);
+        let places = || (0..self.points.len()).filter(is_kept);
         Self {
             forward: match self.forward {
                 Forward::Surface(surface) => Forward::Surface(surface),
@@ -111,36 +123,40 @@ impl<'a> Model<'a> {
             },
             points: places().map(|index| self.points[index]).collect(),
             corrections: places().map(|index| self.corrections[index]).collect(),
-            elements: FEW_ELEMENTS,
+            elements: FIRST_SEARCH_ELEMENTS,
             refused: Mutex::new(None),
             ..*self
         }
     }
 
-    /// Updates the correction factors at these parameters. Returns the largest relative error of the corrected friction.
+    /// Computes the ratio of fine to coarse friction of every point at these logarithms of the parameters. Returns the largest
+    /// relative error of a fine solution, that of the corrected friction. The one-dimensional model needs no correction.
     pub(super) fn correct(
         &mut self,
         parameters: &[f64],
     ) -> std::result::Result<f64, FrictionFitError> {
         if let Forward::Line(_) = self.forward {
-            return Ok(EXACT);
+            return Ok(LINE_ERROR);
         }
         let materials = self.materials(parameters, false)?;
         let of_point = |point: &FrictionPoint| {
-            let load = self.load(point, parameters)?;
-            let coarse = self.on_grid(&*materials.own, &load)?.friction_coefficient();
-            let fine = self.refined(&*materials.own, &load)?;
+            let load = self.reduced_load(point, parameters)?;
+            let coarse = self
+                .coarse_solution(&*materials.own, &load)?
+                .friction_coefficient();
+            let fine = self.refined_friction(&*materials.own, &load)?;
             Ok((fine.value / coarse, fine.error / fine.value))
         };
-        let found = self.of_all(of_point)?;
+        let found = self.at_all_points(of_point)?;
         let worst = found.iter().map(|(_, error)| *error);
         let worst = worst.fold(0.0, f64::max);
         self.corrections = found.into_iter().map(|(ratio, _)| ratio).collect();
         Ok(worst)
     }
 
-    /// Applies a function to all points in parallel; results are in the order of the points.
-    fn of_all<T: Send>(
+    /// Applies a function to all points, in parallel; results are in the order of the points. The error is that of the first
+    /// point that has one.
+    fn at_all_points<T: Send>(
         &self,
         of_point: impl Fn(&FrictionPoint) -> Result<T> + Sync,
     ) -> std::result::Result<Vec<T>, FrictionFitError> {
@@ -159,7 +175,8 @@ impl<'a> Model<'a> {
         found.into_iter().collect()
     }
 
-    /// The material at the parameters, and optionally at their neighbours.
+    /// The material at the logarithms of the parameters. With `with_neighbours` also those needed for derivatives by the
+    /// parameters of the material.
     fn materials(
         &self,
         parameters: &[f64],
@@ -184,16 +201,17 @@ impl<'a> Model<'a> {
         })
     }
 
-    /// Step of a logarithm for the derivatives of this forward problem.
+    /// Change of the logarithm of a parameter, or of the velocity, for the derivatives of this forward problem.
     const fn step(&self) -> f64 {
         match self.forward {
-            Forward::Line(_) => LONG_STEP,
-            _ => STEP,
+            Forward::Line(_) => DIFFERENCE_STEP,
+            _ => ADJOINT_STEP,
         }
     }
 
-    /// The equivalent load at the reference temperature: velocity a_T v, and a given force divided by the modulus factor b_T.
-    fn load(&self, point: &FrictionPoint, parameters: &[f64]) -> Result<SlidingLoad> {
+    /// The load at the reference temperature with the same friction as the point: velocity a_T v, a given force divided by the
+    /// factor b_T of the moduli, a given depth unchanged.
+    fn reduced_load(&self, point: &FrictionPoint, parameters: &[f64]) -> Result<SlidingLoad> {
         let (shift, _) = self.family.shift_of(point, parameters)?;
         let factor = self.family.modulus_factor_of(point)?;
         let control = point
@@ -206,14 +224,18 @@ impl<'a> Model<'a> {
         self.at_speed(control, point.velocity * shift.exp())
     }
 
-    /// A sliding load, on the track of the scene if it has one.
+    /// A sliding load at a velocity \[m/s], on the track of the scene if it has one.
     fn at_speed(&self, control: Control, velocity: f64) -> Result<SlidingLoad> {
         let load = SlidingLoad::with(control, velocity)?;
         Ok(self.track.map_or(Ok(load), |track| load.on_track(track))?)
     }
 
-    /// Coarse-grid solution with its sensitivities; an error for the one-dimensional model.
-    fn on_grid(&self, material: &dyn Material, load: &SlidingLoad) -> Result<SensitivityOnGrid> {
+    /// Solution on a grid of `self.elements` along the contact, with its adjoint; an error in the one-dimensional model.
+    fn coarse_solution(
+        &self,
+        material: &dyn Material,
+        load: &SlidingLoad,
+    ) -> Result<SensitivityOnGrid> {
         let layer = Layer::new(material, self.thickness).map_err(bem_halfspace::BemError::from)?;
         Ok(match self.forward {
             Forward::Cylinder(cylinder) => {
@@ -228,22 +250,23 @@ impl<'a> Model<'a> {
         })
     }
 
-    /// Friction with an error estimate, to the relative error [`CORRECTION`].
-    fn refined(&self, material: &dyn Material, load: &SlidingLoad) -> Result<Estimate> {
+    /// Friction coefficient with an error estimate, to the relative error [`CORRECTION_ERROR`]; that of the one-dimensional
+    /// model counts as exact.
+    fn refined_friction(&self, material: &dyn Material, load: &SlidingLoad) -> Result<Estimate> {
         let layer = Layer::new(material, self.thickness).map_err(bem_halfspace::BemError::from)?;
         Ok(match self.forward {
             Forward::Cylinder(cylinder) => {
-                steady_line(cylinder, &layer, load, CORRECTION)?.friction_coefficient
+                steady_line(cylinder, &layer, load, CORRECTION_ERROR)?.friction_coefficient
             }
             Forward::Surface(surface) => {
-                steady(surface, &layer, load, CORRECTION)?.friction_coefficient
+                steady(surface, &layer, load, CORRECTION_ERROR)?.friction_coefficient
             }
-            Forward::Line(body) => Estimate::exact(self.on_line(body, material, load)?),
+            Forward::Line(body) => Estimate::exact(self.line_friction(body, material, load)?),
         })
     }
 
-    /// Friction of the one-dimensional model, in closed form if there is one.
-    fn on_line(
+    /// Friction coefficient of the one-dimensional model, in closed form if there is one and the scene has no track.
+    fn line_friction(
         &self,
         body: &Revolution,
         material: &dyn Material,
@@ -253,14 +276,14 @@ impl<'a> Model<'a> {
         let closed = closed_line(simple.as_ref(), body, *load);
         let answer = match closed.ok().filter(|_| self.track.is_none()) {
             Some(closed) => closed(&SilentProgress)?,
-            None => mdr::stationary(&**body, material, load, EXACT)?,
+            None => mdr::stationary(&**body, material, load, LINE_ERROR)?,
         };
         let friction = answer.friction_coefficient.map(|friction| friction.value);
         friction.ok_or_else(|| no_derivatives(answer.method))
     }
 
-    /// Friction, its logarithmic derivatives by the parameters of the material, and that by the velocity, which is 0 unless the
-    /// shift law is free.
+    /// Uncorrected friction μ; its derivatives ∂ ln μ/∂ ln θ by the free numbers θ of the material; and ∂ ln μ/∂ ln v, which is
+    /// 0 unless the shift law is free.
     fn with_derivatives(
         &self,
         materials: &Materials,
@@ -268,9 +291,10 @@ impl<'a> Model<'a> {
     ) -> Result<(f64, Vec<f64>, f64)> {
         let (velocity, step) = (load.velocity(), self.step());
         let faster = [-1.0, 1.0].map(|side: f64| velocity * (side * step).exp());
+        // The one-dimensional model is so cheap and accurate that central differences of ln μ serve as derivatives.
         if let Forward::Line(body) = self.forward {
             let of = |material: &dyn Material, load: &SlidingLoad| {
-                Ok::<f64, SolveError>(self.on_line(body, material, load)?.ln())
+                Ok::<f64, SolveError>(self.line_friction(body, material, load)?.ln())
             };
             let log = of(&*materials.own, load)?;
             let slopes = materials.beside.iter().map(|[below, above]| {
@@ -285,7 +309,8 @@ impl<'a> Model<'a> {
             };
             return Ok((log.exp(), slopes, by_speed));
         }
-        let grid = self.on_grid(&*materials.own, load)?;
+        // On the half space one solution and its adjoint give the change between any two materials or speeds.
+        let grid = self.coarse_solution(&*materials.own, load)?;
         let friction = grid.friction_coefficient();
         let relative = |ends: [&dyn Material; 2], velocities: [f64; 2]| -> Result<f64> {
             Ok(grid.between_materials(ends, velocities)? / (2.0 * step * friction))
@@ -303,11 +328,15 @@ impl<'a> Model<'a> {
         Ok((friction, slopes, by_speed))
     }
 
-    /// Corrected friction of all points, with derivatives by all parameters.
-    fn all(&self, parameters: &[f64]) -> std::result::Result<Vec<ModelledPoint>, FrictionFitError> {
+    /// Corrected friction of all points, with derivatives ∂ ln μ by the logarithms of all parameters. Those by the constants of
+    /// the shift law follow from the velocity a_T v: (∂ ln μ/∂ ln v)(∂ ln a_T/∂ ln C).
+    fn corrected_friction(
+        &self,
+        parameters: &[f64],
+    ) -> std::result::Result<Vec<ModelledPoint>, FrictionFitError> {
         let materials = self.materials(parameters, true)?;
-        let mut modelled = self.of_all(|point| {
-            let load = self.load(point, parameters)?;
+        let mut modelled = self.at_all_points(|point| {
+            let load = self.reduced_load(point, parameters)?;
             let (friction, mut slopes, by_speed) = self.with_derivatives(&materials, &load)?;
             let (_, by_law) = self.family.shift_of(point, parameters)?;
             slopes.extend(by_law.iter().map(|slope| by_speed * slope));
@@ -325,7 +354,7 @@ impl<'a> Model<'a> {
 
 impl FrictionModel for Model<'_> {
     fn friction(&self, parameters: &[f64]) -> Option<Vec<ModelledPoint>> {
-        match self.all(parameters) {
+        match self.corrected_friction(parameters) {
             Ok(modelled) => Some(modelled),
             Err(why) => {
                 *self.refused.lock().unwrap_or_else(PoisonError::into_inner) = Some(why);
@@ -335,7 +364,8 @@ impl FrictionModel for Model<'_> {
     }
 }
 
-/// The forward problem of a scene; an error for unsuitable bodies.
+/// Body and model of a problem. An error for periodic surfaces, and unless the body is one of revolution in the one-dimensional
+/// model.
 fn forward(problem: &Problem) -> std::result::Result<Forward<'_>, FrictionFitError> {
     match (problem.model(), problem.body()) {
         (Dimensions::Line, Body::Revolution(body)) => Ok(Forward::Line(body)),

@@ -16,11 +16,12 @@ pub struct Covariance {
     pub method: Option<String>,
 }
 
-/// Largest relative error by rounding of a covariance, and of a pivot of the correlation matrix (chosen, far above f64 rounding).
-const ROUNDING: f64 = 1e-9;
-/// Largest residual correlation in a column whose pivot is rounding: the square root of [`ROUNDING`] with a margin of 3 (derived
-/// from the Cauchy–Schwarz inequality).
-const LEFT: f64 = 1e-4;
+/// Largest relative asymmetry of a covariance, and largest size of a pivot of the correlation matrix that counts as 0 (chosen,
+/// far above the rounding of f64).
+const ROUNDING_TOLERANCE: f64 = 1e-9;
+/// Largest size of an entry below a pivot that counts as 0: about three times √[`ROUNDING_TOLERANCE`]. By the Cauchy–Schwarz
+/// inequality an entry is at most the square root of its pivot if the matrix is positive semidefinite.
+const MAX_ENTRY_BELOW_ZERO_PIVOT: f64 = 1e-4;
 
 impl Covariance {
     /// Rejects a matrix that is not a covariance of the moduli of a table with `n_branches` branches: size, finiteness, symmetry,
@@ -60,7 +61,7 @@ impl Covariance {
                     );
                 }
                 let size = entry.abs().max(mirrored.abs());
-                if (entry - mirrored).abs() > ROUNDING * size {
+                if (entry - mirrored).abs() > ROUNDING_TOLERANCE * size {
                     let problem = "a covariance is symmetric, but the mirrored number is";
                     return wrong(
                         place,
@@ -78,8 +79,8 @@ impl Covariance {
         }
     }
 
-    /// Cholesky factor L with L Lᵀ = C, computed for the correlation matrix; the error is the row at which C is not positive
-    /// semidefinite.
+    /// Lower triangular Cholesky factor L with L Lᵀ = C, as a list of rows, factorised as correlation matrix and scaled back.
+    /// The error is the row, counted from 0, at which C is not positive semidefinite.
     pub(crate) fn factor(&self) -> Result<Vec<Vec<f64>>, usize> {
         let n = self.relative.len();
         // Scale to the correlation matrix.
@@ -100,13 +101,17 @@ impl Covariance {
                     self.relative[row][column] * scale(row) * scale(column) - known.sum::<f64>();
                 let pivot: f64 = factor[column][column];
                 if row == column {
-                    if left < -ROUNDING {
+                    if left < -ROUNDING_TOLERANCE {
                         return Err(row);
                     }
-                    factor[row][column] = if left > ROUNDING { left.sqrt() } else { 0.0 };
+                    factor[row][column] = if left > ROUNDING_TOLERANCE {
+                        left.sqrt()
+                    } else {
+                        0.0
+                    };
                 } else if pivot > 0.0 {
                     factor[row][column] = left / pivot;
-                } else if left.abs() > LEFT
+                } else if left.abs() > MAX_ENTRY_BELOW_ZERO_PIVOT
                     || (deviations[row] * deviations[column] == 0.0
                         && self.relative[row][column] != 0.0)
                 {

@@ -45,18 +45,18 @@ impl SceneError {
         }
     }
 
-    /// Rejects the first of these keys that is given.
+    /// Rejects the first of these keys that has a value, with `problem` as message.
     pub(crate) fn none_given(keys: &[(&str, Option<f64>)], problem: &str) -> Result<(), Self> {
         let given = keys.iter().find(|(_, value)| value.is_some());
         given.map_or(Ok(()), |(key, _)| Err(Self::at(*key, problem)))
     }
 
-    /// A parameter of a table is out of range.
+    /// Error for a number out of range whose name is the last part of its path; `table` is the path of its table.
     pub(crate) fn within(table: &str, refused: InvalidParameter) -> Self {
         Self::value(format!("{table}.{}", refused.parameter), refused)
     }
 
-    /// The number at a key is out of range.
+    /// Error for a number out of range at the path `key`.
     pub(crate) const fn value(key: String, refused: InvalidParameter) -> Self {
         let InvalidParameter { value, allowed, .. } = refused;
         Self::Value {

@@ -13,7 +13,7 @@ use serde::de::DeserializeOwned;
 use super::load::{LoadPoint, MotionPoint};
 use crate::text::{RecordLines, line_of};
 
-/// A row of a profile.
+/// A row of the profile of a body of revolution, \[m].
 #[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ProfileRow {
@@ -26,7 +26,7 @@ struct ProfileRow {
 /// # Errors
 /// A message with file, line and problem.
 pub fn profile(file: &Path, contents: &[u8]) -> Result<PiecewiseLinearProfile, String> {
-    let wrong = |(line, problem): (usize, String)| at(file, line, &problem);
+    let wrong = |(line, problem): (usize, String)| located(file, line, &problem);
     let rows = rows::<ProfileRow>(contents).map_err(wrong)?;
     let radii = rows.iter().map(|(_, row)| row.radius_m).collect();
     let heights = rows.iter().map(|(_, row)| row.height_m).collect();
@@ -34,7 +34,7 @@ pub fn profile(file: &Path, contents: &[u8]) -> Result<PiecewiseLinearProfile, S
         .map_err(|error| wrong((line_of_error(&error, &rows), error.to_string())))
 }
 
-/// A row of a power spectrum.
+/// A row of a power spectrum: wave number \[1/m] and density \[m⁴].
 #[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SpectrumRow {
@@ -51,7 +51,7 @@ struct SpectrumRow {
 /// # Errors
 /// A message with file, line and problem.
 pub fn spectrum(file: &Path, contents: &[u8], factor: f64) -> Result<TabulatedSpectrum, String> {
-    let wrong = |(line, problem): (usize, String)| at(file, line, &problem);
+    let wrong = |(line, problem): (usize, String)| located(file, line, &problem);
     let rows = rows::<SpectrumRow>(contents).map_err(wrong)?;
     let mut before = 0.0;
     for (line, row) in &rows {
@@ -72,8 +72,7 @@ pub fn spectrum(file: &Path, contents: &[u8], factor: f64) -> Result<TabulatedSp
         .map_err(|error| wrong((last, error.to_string())))
 }
 
-/// A row of a load history.
-/// A row of a motion.
+/// A row of a load history: time \[s], and force \[N] or depth \[m].
 #[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct HistoryTableRow {
@@ -82,6 +81,7 @@ struct HistoryTableRow {
     indentation_depth_m: Option<f64>,
 }
 
+/// A row of a motion: time \[s], position along the surface \[m], and optionally force \[N] or depth \[m].
 #[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct MotionTableRow {
@@ -92,9 +92,9 @@ struct MotionTableRow {
 }
 
 /// A motion from the contents of a CSV file with the columns `time_s` and `position_m`, and optionally `indentation_depth_m`
-/// or `normal_force_n`.
+/// or `normal_force_n`. Times increase; the error is a message with file and line.
 pub(super) fn motion(file: &Path, contents: &[u8]) -> Result<Vec<MotionPoint>, String> {
-    let wrong = |(line, problem): (usize, String)| at(file, line, &problem);
+    let wrong = |(line, problem): (usize, String)| located(file, line, &problem);
     let rows = rows::<MotionTableRow>(contents).map_err(wrong)?;
     check_count(rows.len(), rows.first().map(|(line, _)| *line)).map_err(wrong)?;
     let controls = |row: &MotionTableRow| [row.normal_force_n, row.indentation_depth_m];
@@ -118,9 +118,10 @@ pub(super) fn motion(file: &Path, contents: &[u8]) -> Result<Vec<MotionPoint>, S
     rows.into_iter().map(point).collect()
 }
 
-/// A history from the contents of a CSV file with the columns `time_s` and `indentation_depth_m` or `normal_force_n`.
+/// A history from the contents of a CSV file with the columns `time_s` and `indentation_depth_m` or `normal_force_n`. Times do
+/// not decrease; the error is a message with file and line.
 pub(super) fn history(file: &Path, contents: &[u8]) -> Result<Vec<LoadPoint>, String> {
-    let wrong = |(line, problem): (usize, String)| at(file, line, &problem);
+    let wrong = |(line, problem): (usize, String)| located(file, line, &problem);
     let rows = rows::<HistoryTableRow>(contents).map_err(wrong)?;
     check_count(rows.len(), rows.first().map(|(line, _)| *line)).map_err(wrong)?;
     let controls = |row: &HistoryTableRow| [row.normal_force_n, row.indentation_depth_m];
@@ -146,7 +147,8 @@ pub(super) fn history(file: &Path, contents: &[u8]) -> Result<Vec<LoadPoint>, St
     rows.into_iter().map(point).collect()
 }
 
-/// Rejects a table of fewer than two rows; `first` is the line of its first row, if there is one.
+/// Rejects a table of fewer than two rows; `first` is the line of its first row, if there is one. The error is line and
+/// problem.
 fn check_count(count: usize, first: Option<usize>) -> Result<(), (usize, String)> {
     match count {
         0 | 1 => {
@@ -159,7 +161,7 @@ fn check_count(count: usize, first: Option<usize>) -> Result<(), (usize, String)
     }
 }
 
-/// Rejects a time that is not finite, is negative, or does not follow the time before.
+/// Rejects a time \[s] that is not finite, is negative, or for which `follows(time, before)` does not hold.
 fn check_time(time: f64, before: Option<f64>, follows: fn(f64, f64) -> bool) -> Result<(), String> {
     check_finite("time_s", time)?;
     if time < 0.0 {
@@ -190,7 +192,8 @@ fn check_finite(column: &str, number: f64) -> Result<(), String> {
     }
 }
 
-/// Rejects a row whose control differs from that of the first row, or has both force and depth.
+/// Rejects a row whose force and depth are not given like those of the first row, or are both given; and a negative force.
+/// `controls` are force and depth of the row, `first` says which of them the first row has.
 fn check_control(controls: [Option<f64>; 2], first: [bool; 2]) -> Result<(), String> {
     let names = ["normal_force_n", "indentation_depth_m"];
     for (name, number) in names.into_iter().zip(controls) {
@@ -223,15 +226,15 @@ fn check_control(controls: [Option<f64>; 2], first: [bool; 2]) -> Result<(), Str
     }
 }
 
-/// A message with file and line.
-fn at(file: &Path, line: usize, problem: &str) -> String {
+/// A message with file and line, as `FILE:LINE: PROBLEM`.
+fn located(file: &Path, line: usize, problem: &str) -> String {
     format!("{}:{line}: {problem}", file.display())
 }
 
-/// The rows with their lines, or a line and its problem. The text is UTF-8, or UTF-16 with a byte-order mark; columns are
-/// separated by commas, semicolons or tabs; comments begin with `#`.
+/// The rows of a CSV table with their lines, or the line and problem of the first invalid row. The text is UTF-8, or UTF-16
+/// with a byte-order mark; columns are separated by commas, semicolons or tabs; comments begin with `#`.
 fn rows<R: DeserializeOwned>(contents: &[u8]) -> Result<Vec<(usize, R)>, (usize, String)> {
-    let (text, separator) = plain(contents)?;
+    let (text, separator) = decoded(contents)?;
     let mut reader = ReaderBuilder::new()
         .delimiter(separator)
         .trim(Trim::All)
@@ -240,7 +243,7 @@ fn rows<R: DeserializeOwned>(contents: &[u8]) -> Result<Vec<(usize, R)>, (usize,
     let names = reader.headers().cloned();
     let names = names.map_err(|error| {
         let line = lines.of(error.position());
-        (line, problem(&error, [&StringRecord::new(); 2]))
+        (line, csv_problem(&error, [&StringRecord::new(); 2]))
     })?;
     let head = lines.of(names.position());
     let mut rows = Vec::new();
@@ -253,7 +256,7 @@ fn rows<R: DeserializeOwned>(contents: &[u8]) -> Result<Vec<(usize, R)>, (usize,
             } else {
                 lines.of(error.position())
             };
-            (line, problem(&error, [&names, record]))
+            (line, csv_problem(&error, [&names, record]))
         };
         let record = record.map_err(|error| wrong(error, &StringRecord::new(), &mut lines))?;
         let row = record.deserialize(Some(&names));
@@ -263,9 +266,9 @@ fn rows<R: DeserializeOwned>(contents: &[u8]) -> Result<Vec<(usize, R)>, (usize,
     Ok(rows)
 }
 
-/// The text with decimal points and empty lines for comments, and the separator: the first comma, semicolon or tab in the line
-/// of names.
-fn plain(contents: &[u8]) -> Result<(String, u8), (usize, String)> {
+/// The decoded text, with decimal points for decimal commas and empty lines for comments, so that line numbers stay. Also the
+/// separator: the first comma, semicolon or tab in the line of names. The error is line and problem.
+fn decoded(contents: &[u8]) -> Result<(String, u8), (usize, String)> {
     let (text, encoding, is_garbled) = UTF_8.decode(contents);
     if is_garbled {
         let valid = contents.utf8_chunks().next();
@@ -297,8 +300,9 @@ fn plain(contents: &[u8]) -> Result<(String, u8), (usize, String)> {
     Ok((text.replace(',', "."), separator))
 }
 
-/// The problem, with the name of the column and the contents of the cell.
-fn problem(error: &csv::Error, [names, record]: [&StringRecord; 2]) -> String {
+/// Message for an error of the CSV reader, with the name of the column and the contents of the cell where they are known. The
+/// two records are the names of the columns and the row.
+fn csv_problem(error: &csv::Error, [names, record]: [&StringRecord; 2]) -> String {
     match error.kind() {
         ErrorKind::Deserialize { err, .. } => {
             let field = err.field().and_then(|field| usize::try_from(field).ok());
@@ -314,7 +318,7 @@ fn problem(error: &csv::Error, [names, record]: [&StringRecord; 2]) -> String {
     }
 }
 
-/// Line of the row that the library rejects.
+/// Line of the row of a profile that its constructor rejects; the last line if the error names no row.
 fn line_of_error(error: &IndenterError, rows: &[(usize, ProfileRow)]) -> usize {
     let has = |row: &ProfileRow, value: f64| {
         let numbers = [row.radius_m, row.height_m];

@@ -152,7 +152,7 @@ impl HeightMapTable {
         positive("indenter.height-map.spacing[0]", surface.spacing[0])?;
         positive("indenter.height-map.spacing[1]", surface.spacing[1])?;
         self.check_sizes(&surface)?;
-        surface.notes.extend(marker(&surface.heights));
+        surface.notes.extend(marker_note(&surface.heights));
         // Fill holes, remove the tilt, and rotate x into the direction of motion.
         let mut surface = self.without_holes(surface)?;
         let sizes = surface.heights.iter().map(|height| height.abs());
@@ -187,22 +187,23 @@ impl HeightMapTable {
         Ok(surface)
     }
 
-    /// Rejects implausibly large heights, which are probably markers of missing heights.
+    /// Rejects heights beyond [`MAX_HEIGHT`], which are probably markers of missing heights.
     fn check_sizes(&self, surface: &Topography) -> Result<(), SceneError> {
         let columns = surface.shape[1];
         let mut heights = surface.heights.iter();
-        let Some(index) = heights.position(|height| height.abs() > LARGEST_HEIGHT) else {
+        let Some(index) = heights.position(|height| height.abs() > MAX_HEIGHT) else {
             return Ok(());
         };
         let (row, column) = (index / columns + 1, index % columns + 1);
         Err(self.in_file(&format!(
-            "the height in row {row}, column {column} is {:e} m, where at most {LARGEST_HEIGHT:e} m is allowed; if it marks a \
+            "the height in row {row}, column {column} is {:e} m, where at most {MAX_HEIGHT:e} m is allowed; if it marks a \
              missing height, write nan",
             surface.heights[index]
         )))
     }
 
-    /// Fills the holes if requested and if they are at most half of the heights.
+    /// Fills missing heights if the table requests it; an error if it does not, or if more than half of the heights are
+    /// missing.
     fn without_holes(&self, surface: Topography) -> Result<Topography, SceneError> {
         let (points, missing) = (surface.heights.len(), surface.missing());
         if missing == 0 {
@@ -219,13 +220,13 @@ impl HeightMapTable {
         Err(SceneError::at("indenter.height-map.fill_missing", problem))
     }
 
-    /// Rejects a flat map; `largest` is its largest height before the tilt was removed.
+    /// Rejects a flat map; `largest` is its largest absolute height \[m] before the tilt was removed.
     fn check_relief(&self, surface: &Topography, largest: f64) -> Result<(), SceneError> {
         let heights = surface.heights.iter().copied();
         let [lowest, highest] =
             [f64::min, f64::max].map(|pick| heights.clone().fold(f64::NAN, pick));
         // A single row or column is rejected later, by the constructor of the body.
-        if highest - lowest > FLAT * largest || surface.shape.contains(&1) {
+        if highest - lowest > MAX_FLAT_RANGE * largest || surface.shape.contains(&1) {
             return Ok(());
         }
         let problem = if self.level {
@@ -241,22 +242,25 @@ impl HeightMapTable {
         )))
     }
 
-    /// An error of the file of heights.
+    /// An error at the key of the file of heights, with the name of the file.
     fn in_file(&self, problem: &str) -> SceneError {
         let file = self.file.display();
         SceneError::at("indenter.height-map.file", format!("{file}: {problem}"))
     }
 }
 
-/// Largest height, \[m] (chosen, beyond any length and far from overflow).
-const LARGEST_HEIGHT: f64 = 1e30;
-/// Largest height range of a flat map, relative to its largest height (chosen, above rounding).
-const FLAT: f64 = 1e-12;
-/// Smallest distance of a marker from all other heights, relative to their range (chosen).
-const MARKER_DISTANCE: f64 = 20.0;
+/// Largest absolute height, \[m] (chosen: beyond any length, and its square is far from overflow).
+const MAX_HEIGHT: f64 = 1e30;
+/// Range of heights over the largest absolute height, up to which a map counts as flat (chosen, above the rounding of a removed
+/// tilt).
+const MAX_FLAT_RANGE: f64 = 1e-12;
+/// Distance of a height from all others, over the range of these, above which it is reported as a possible marker of missing
+/// heights (chosen).
+const MIN_MARKER_DISTANCE: f64 = 20.0;
 
-/// A note if the lowest or highest height is far from all others, like -9999 or 1e10 for missing heights.
-fn marker(heights: &[f64]) -> Option<String> {
+/// A note if the lowest or highest height is far from all others, as if it marked missing heights (-9999, 1e10); `None`
+/// otherwise.
+fn marker_note(heights: &[f64]) -> Option<String> {
     let known = || heights.iter().copied().filter(|height| !height.is_nan());
     let [lowest, highest] = [f64::min, f64::max].map(|pick| known().fold(f64::NAN, pick));
     [lowest, highest].into_iter().find_map(|end| {
@@ -264,7 +268,7 @@ fn marker(heights: &[f64]) -> Option<String> {
         let [from, to] = [f64::min, f64::max].map(|pick| others().fold(f64::NAN, pick));
         let distance = (from - end).abs().min((to - end).abs());
         // With two distinct heights there is no range to compare with.
-        let is_far = to > from && distance > MARKER_DISTANCE * (to - from);
+        let is_far = to > from && distance > MIN_MARKER_DISTANCE * (to - from);
         let count = known().count() - others().count();
         is_far.then(|| {
             format!(

@@ -10,7 +10,8 @@ use crate::files::Files;
 use crate::text::WrongInput;
 
 impl Load {
-    /// Validated points of the history; `None` if the load has no history.
+    /// Validated points of the history, read from its file if it is in one; `None` if the load has no history. Rejects a force,
+    /// depth, pressure or velocity beside it.
     pub(crate) fn checked_history(
         &self,
         files: &Files<'_>,
@@ -44,12 +45,13 @@ impl Load {
             (false, "") => format!("load.history[{index}]"),
             (false, _) => format!("load.history[{index}].{name}"),
         };
-        checked(&points, key).map(Some)
+        checked_points(&points, key).map(Some)
     }
 }
 
-/// Validated points: time does not decrease, and all points have a force or all have a depth.
-fn checked(
+/// Validated points: at least two, time does not decrease, and all have a force or all have a depth. `key` returns the path of
+/// a value from the index of its point and its name; an empty name stands for the point.
+fn checked_points(
     points: &[LoadPoint],
     key: impl Fn(usize, &str) -> String,
 ) -> Result<Vec<HistoryPoint>, SceneError> {

@@ -189,7 +189,7 @@ pub enum SpectrumConvention {
 }
 
 impl SpectrumConvention {
-    /// Factor that converts a density to the convention of Persson.
+    /// Factor by which densities are multiplied to follow the convention of Persson, ⟨h²⟩ = 2π ∫ q C dq.
     pub(crate) fn factor(self) -> f64 {
         match self {
             Self::Persson => 1.0,
@@ -198,8 +198,9 @@ impl SpectrumConvention {
     }
 }
 
-/// Largest number of random surfaces of a scene (chosen), as in their range.
-const MOST_REALISATIONS: u64 = 1000;
+/// Number of random surfaces at which sampling stops if only a standard error is given; the upper bound of `realisations`
+/// (chosen).
+const MAX_REALISATIONS: u64 = 1000;
 /// Smallest number of surfaces whose scatter gives a standard error of their mean (chosen: its own relative error is 1/√18, 24 %).
 pub(crate) const FEWEST_REALISATIONS: usize = 10;
 
@@ -248,7 +249,7 @@ impl Indenter {
             return Ok((1, None));
         };
         self.check()?;
-        let count = realisations.unwrap_or(standard_error.map_or(1, |_| MOST_REALISATIONS));
+        let count = realisations.unwrap_or(standard_error.map_or(1, |_| MAX_REALISATIONS));
         let holds = standard_error.is_none() || count >= FEWEST_REALISATIONS as u64;
         let allowed = "from 10 to 1000 with a standard_error, which fewer do not tell";
         in_range("realisations", count as f64, holds, allowed)

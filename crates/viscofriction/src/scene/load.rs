@@ -79,8 +79,8 @@ pub struct LoadPoint {
 }
 
 impl Load {
-    /// The constant force or depth. `period` is the area of one period \[m²], on which a mean pressure is a force; `None` for a
-    /// body that is not periodic.
+    /// Validated force \[N] or depth \[m], constant in time. `period` is the area of one period \[m²], by which a mean pressure
+    /// is multiplied to a force; `None` for a body that is not periodic. Rejects a missing control, and several.
     pub(crate) fn control(&self, period: Option<f64>) -> Result<Control, SceneError> {
         let at = |key: &str, problem: &str| Err(SceneError::at(format!("load.{key}"), problem));
         let pressed = |key, force| Ok(Control::NormalForce(positive(key, force)?));
@@ -114,7 +114,7 @@ impl Load {
         }
     }
 
-    /// Validated sliding velocity, \[m/s].
+    /// Validated sliding velocity, at least 0, \[m/s]; an error if it is missing.
     pub(crate) fn checked_velocity(&self) -> Result<f64, SceneError> {
         let missing = || {
             let problem = "missing field `velocity`: give a velocity [m/s], or a stroke, a motion or a history";

@@ -247,7 +247,7 @@ impl MaterialTable {
         self
     }
 
-    /// Overrides Poisson ratio and valid frequencies of a material file by those of the scene, if given.
+    /// Replaces Poisson ratio and valid frequencies \[rad/s] of a material file by those that the scene gives.
     pub(crate) fn with_given(
         self,
         poisson_ratio: Option<f64>,
@@ -268,7 +268,8 @@ impl MaterialTable {
         Self::try_from(Table::from_iter([("material".to_owned(), material)]))
     }
 
-    /// The material at another temperature \[°C], by its shift law.
+    /// The material at another temperature \[°C]: times are multiplied by the shift factor a_T of its law, moduli by b_T. An
+    /// error without a shift law, and outside its range.
     pub(crate) fn at(mut self, celsius: f64) -> Result<Self, SceneError> {
         let key = "material.file.temperature";
         let Self::Prony {

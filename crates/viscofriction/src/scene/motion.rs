@@ -92,7 +92,8 @@ impl Load {
         Ok(())
     }
 
-    /// The points with their own forces or depths, else with that of the load.
+    /// Validated points of a motion, with their own forces or depths, or else all with the constant one that `control` returns.
+    /// `key` is the path of the points for errors.
     fn pressed(
         &self,
         points: &[MotionPoint],
@@ -163,7 +164,7 @@ impl Place<'_> {
         }
     }
 
-    /// Rejects a number that is not finite or not allowed.
+    /// The number, unless it is not finite or `holds` is false; then an error with the range `allowed`.
     fn number(
         &self,
         name: &'static str,
@@ -201,7 +202,7 @@ impl Place<'_> {
     }
 }
 
-/// Attributes an error of a derived number to a key.
+/// The error of the motion of `indenters` at the key of the scene that caused it, with advice for a motion of length 0.
 fn refused(key: &str, error: &IndenterError) -> SceneError {
     let advice = match error {
         IndenterError::InvalidParameter(refused) if refused.value == 0.0 => {

@@ -15,7 +15,8 @@ use toml::Value;
 
 use super::{Scene, SceneError};
 
-/// Ranges as doc comments state them, with their words in the schema; `x-allowed` is the range in messages.
+/// Ranges as doc comments state them, with the keywords that they become in the schema. `x-allowed` is the wording in messages,
+/// where it differs from that of the comment.
 fn ranges() -> [(&'static str, Json); 9] {
     [
         (
@@ -76,7 +77,8 @@ pub fn json_schema() -> Result<String, serde_json::Error> {
     Ok(text)
 }
 
-/// Adds the words of range and unit that the description states to a number, or to the numbers of a list.
+/// Adds the keywords of the range and unit that its description states to the schema of a number, or of the numbers of a list.
+/// Other schemas stay unchanged.
 fn add_range_and_unit(schema: &mut Schema, ranges: &[(&str, Json)]) {
     let description = schema.get("description").and_then(Json::as_str);
     let description = description.unwrap_or_default().to_owned();
@@ -107,7 +109,7 @@ fn is_of_type(kind: Option<&Json>, name: &str) -> bool {
     kind.is_some_and(|kind| kind == name || kind[0] == name)
 }
 
-/// The words of a number, or of the numbers of a list; `None` for other values.
+/// The part of the schema that describes a number, or the numbers of a list; `None` for the schema of another value.
 pub fn number(words: &Json) -> Option<&Json> {
     if is_of_type(words.get("type"), "number") {
         return Some(words);
@@ -122,6 +124,8 @@ pub fn units() -> BTreeMap<&'static str, Option<&'static str>> {
     units
 }
 
+/// Adds the units of all numbers below a part of the schema, by their keys; `None` if two numbers of one key have different
+/// units.
 fn add_units(words: &'static Json, units: &mut BTreeMap<&'static str, Option<&'static str>>) {
     for (key, words) in words["properties"].as_object().into_iter().flatten() {
         if let Some(number) = number(words) {
@@ -192,7 +196,7 @@ pub fn keys(words: &'static Json) -> impl Iterator<Item = Key> {
     required.chain(others).map(key)
 }
 
-/// The words of a type instead of a reference to it, also of one that may be left out.
+/// The schema of a type in place of a reference (`$ref`) to it, also if the value may be left out (`anyOf`).
 pub fn resolved(words: &'static Json) -> &'static Json {
     let mut types = [words, &words["anyOf"][0]].into_iter();
     let reference = types.find_map(|words| words["$ref"].as_str());
@@ -208,25 +212,25 @@ pub(super) fn check_ranges<T: JsonSchema + Serialize>(
     let words = &schema()["$defs"][&*T::schema_name()];
     let value = Value::try_from(value);
     let value = value.map_err(|error| SceneError::at(table, error.to_string()))?;
-    check(words, &value, table)
+    check_value(words, &value, table)
 }
 
-/// Checks the numbers of a value; `path` is its key.
-fn check(words: &'static Json, value: &Value, path: &str) -> Result<(), SceneError> {
+/// Checks all numbers of a value against its part `words` of the schema; `path` is its key in messages.
+fn check_value(words: &'static Json, value: &Value, path: &str) -> Result<(), SceneError> {
     let words = resolved(words);
     match value {
         Value::Table(table) => table.iter().try_for_each(|(key, value)| {
             let kinds = words["oneOf"].as_array().into_iter().flatten();
             let mut tables = std::iter::once(words).chain(kinds);
             let words = tables.find_map(|table| table["properties"].get(key));
-            check(
+            check_value(
                 words.unwrap_or(&Json::Null),
                 value,
                 &format!("{path}.{key}"),
             )
         }),
         Value::Array(items) => items.iter().enumerate().try_for_each(|(index, item)| {
-            check(&words["items"], item, &format!("{path}[{index}]"))
+            check_value(&words["items"], item, &format!("{path}[{index}]"))
         }),
         Value::Float(number) => check_number(words, *number, path),
         Value::Integer(number) => check_number(words, *number as f64, path),
@@ -234,7 +238,7 @@ fn check(words: &'static Json, value: &Value, path: &str) -> Result<(), SceneErr
     }
 }
 
-/// Checks a number; one without a range may have any value.
+/// Checks a number against the range that its part `words` of the schema states; one without a range may have any value.
 fn check_number(words: &'static Json, value: f64, path: &str) -> Result<(), SceneError> {
     let Some(allowed) = words["x-allowed"].as_str() else {
         return Ok(());

@@ -78,7 +78,7 @@ impl Model {
 }
 
 /// Units of memory with their size, \[bytes].
-const UNITS: [(&str, f64); 9] = [
+const MEMORY_UNITS: [(&str, f64); 9] = [
     ("B", 1.0),
     ("kB", 1e3),
     ("MB", 1e6),
@@ -89,11 +89,12 @@ const UNITS: [(&str, f64); 9] = [
     ("GiB", 1_073_741_824.0),
     ("TiB", 1_099_511_627_776.0),
 ];
-/// Largest memory limit, \[bytes]: whole numbers are exact in f64 up to 2⁵³.
-const MOST_BYTES: f64 = (1_u64 << 53) as f64;
+/// Largest memory limit that a scene may give, \[bytes]: whole numbers are exact in f64 up to 2⁵³.
+const MAX_BYTES: f64 = (1_u64 << 53) as f64;
 
-/// Default relative error (chosen).
-const RELATIVE_ERROR: f64 = 1e-3;
+/// Relative error of the requested quantity if the scene gives neither error nor elements (chosen; below the error of measured
+/// moduli).
+const DEFAULT_RELATIVE_ERROR: f64 = 1e-3;
 
 impl Method {
     /// Name in a scene file.
@@ -126,7 +127,7 @@ impl Solve {
                 Ok(Accuracy::Elements(elements))
             }
             (given, None) => {
-                let value = given.unwrap_or(RELATIVE_ERROR);
+                let value = given.unwrap_or(DEFAULT_RELATIVE_ERROR);
                 let holds = value > 0.0 && value <= 0.1;
                 let allowed = "greater than 0 and at most 0.1";
                 let value = in_range("solve.relative_error", value, holds, allowed)?;
@@ -151,10 +152,10 @@ impl Solve {
         };
         let number = text.trim_end_matches(char::is_alphabetic);
         let unit = &text[number.len()..];
-        let unit = UNITS.iter().find(|(name, _)| *name == unit);
+        let unit = MEMORY_UNITS.iter().find(|(name, _)| *name == unit);
         let number: Option<f64> = number.trim().parse().ok();
         let bytes = number.zip(unit).map(|(number, (_, size))| number * size);
-        let bytes = bytes.filter(|bytes| (1.0..=MOST_BYTES).contains(bytes));
+        let bytes = bytes.filter(|bytes| (1.0..=MAX_BYTES).contains(bytes));
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
@@ -176,7 +177,8 @@ impl Solve {
         Ok(())
     }
 
-    /// Validated sliding distance to the requested state, \[m]; `None` for the stationary state.
+    /// Validated sliding distance to the requested state, \[m]: that of the scene, or its duration times `velocity` \[m/s].
+    /// `None` for the stationary state.
     pub(crate) fn distance(&self, velocity: f64) -> Result<Option<f64>, SceneError> {
         Ok(match (self.duration, self.sliding_distance) {
             (Some(_), Some(_)) => Err(SceneError::at(

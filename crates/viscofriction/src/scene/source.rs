@@ -66,8 +66,10 @@ impl Source {
                 .nth(line_of(self.text.as_bytes(), start) - 1);
             let has_both = line.is_some_and(|line| line.contains('"') && line.contains('\\'));
             let advice = match line {
-                _ if has_both => BACKSLASH,
-                Some(line) if line.contains('=') && error.message().contains("expected") => VALUES,
+                _ if has_both => BACKSLASH_ADVICE,
+                Some(line) if line.contains('=') && error.message().contains("expected") => {
+                    VALUE_ADVICE
+                }
                 _ => "",
             };
             wrong(start, format!("{}{advice}", error.message()))
@@ -75,7 +77,7 @@ impl Source {
         if let Ok(document) = DeTable::parse(&self.text)
             && let Some(path) = escaped_path(document.get_ref(), &self.text)
         {
-            let problem = format!("{} is no path{BACKSLASH}", &self.text[path.clone()]);
+            let problem = format!("{} is no path{BACKSLASH_ADVICE}", &self.text[path.clone()]);
             return Err(wrong(path.start, problem));
         }
         Ok(table)
@@ -90,7 +92,8 @@ impl Source {
         WrongInput(format!("{}:{line}: {error}", self.path.display()))
     }
 
-    /// Line of a key, else of the innermost existing table on its path, else line 1.
+    /// Line of the key with the path `key`, counted from 1. If it is absent the line of the innermost table on its path that
+    /// exists, else 1.
     fn line_of_key(&self, key: &str) -> usize {
         let Ok(document) = DeTable::parse(&self.text) else {
             return 1;
@@ -114,7 +117,8 @@ impl Source {
     }
 }
 
-/// Keys of a path without the quotes that some have, as in `uncertainty."load.velocity"`.
+/// Splits a path at its points into keys, except at points between quotes, as in `uncertainty."load.velocity"`; quotes are
+/// removed.
 fn segments(path: &str) -> Vec<&str> {
     let mut is_quoted = false;
     let parts = path.split(|letter| {
@@ -135,7 +139,7 @@ pub(crate) fn quoted(table: &str, key: &str) -> String {
     format!("{table}{between}{key}")
 }
 
-/// Path at which serde rejects a value.
+/// The path at which deserialization failed, in the notation of error messages: `a.b[2].c`.
 fn path_of(path: &serde_path_to_error::Path) -> String {
     path.iter()
         .fold(String::new(), |before, segment| match segment {
@@ -166,19 +170,20 @@ fn check_quotes(table: &Table) -> Result<(), SceneError> {
 }
 
 /// Advice for a Windows path between double quotes.
-const BACKSLASH: &str = "; between double quotes a backslash begins an escape, as \\t a tab: write the path between single quotes, \
+const BACKSLASH_ADVICE: &str = "; between double quotes a backslash begins an escape, as \\t a tab: write the path between single quotes, \
     '…', or with / in the place of every backslash";
 /// Advice for a quantity with a unit.
-const NO_UNITS: &str = "; numbers of a scene are in SI units, and stand there without a unit";
+const UNIT_ADVICE: &str = "; numbers of a scene are in SI units, and stand there without a unit";
 
 /// Advice for a value that is not TOML, such as `radius = 5 mm`, `velocity = 0,1` or `model = line`.
-const VALUES: &str =
+const VALUE_ADVICE: &str =
     "; a number is in SI units, with a point and without a unit, and a text stands between quotes";
 
 /// Keys of a scene whose values are file names.
 pub(crate) const PATH_KEYS: [&str; 4] = ["file", "path", "history_file", "motion_file"];
 
-/// First file name with an escape other than `\\` or `\"`, which is probably an unescaped Windows path.
+/// Byte range in `text` of the first file name with an escape other than `\\` or `\"`, which is probably a Windows path with
+/// single backslashes; `None` if there is none.
 fn escaped_path(table: &DeTable<'_>, text: &str) -> Option<Range<usize>> {
     table.iter().find_map(|(key, value)| match value.get_ref() {
         DeValue::Table(table) => escaped_path(table, text),
@@ -220,7 +225,7 @@ pub(super) fn problem_of(error: &toml::de::Error) -> String {
         Some((found, "f64")) => {
             let is_quantity =
                 found.contains("string \"") && found.contains(|c: char| c.is_ascii_digit());
-            let advice = if is_quantity { NO_UNITS } else { "" };
+            let advice = if is_quantity { UNIT_ADVICE } else { "" };
             format!("{found}, expected a number{advice}")
         }
         Some((found, "usize" | "u64")) => format!("{found}, expected a whole number"),
@@ -228,8 +233,8 @@ pub(super) fn problem_of(error: &toml::de::Error) -> String {
     }
 }
 
-/// Keys whose values are matrices.
-const ROWS: [&str; 2] = [".covariance.relative", ".shift.vertical.table"];
+/// Ends of the paths of keys whose values are matrices, lists of lists of numbers.
+const MATRIX_KEYS: [&str; 2] = [".covariance.relative", ".shift.vertical.table"];
 
 /// Rejects lists in place of tables, whose values serde would assign to the keys by order.
 fn check_tables(key: &str, value: &Value) -> Result<(), SceneError> {
@@ -239,7 +244,7 @@ fn check_tables(key: &str, value: &Value) -> Result<(), SceneError> {
         let inner = format!("{key}.{name}");
         match value {
             // A matrix needs no tables.
-            Value::Array(_) if ROWS.iter().any(|key| inner.ends_with(key)) => {}
+            Value::Array(_) if MATRIX_KEYS.iter().any(|key| inner.ends_with(key)) => {}
             Value::Table(_) => check_tables(&inner, value)?,
             Value::Array(elements) => {
                 // For a list of plain values serde reports the expected type itself.
@@ -265,7 +270,8 @@ fn no_table(key: &str, value: &Value) -> SceneError {
     SceneError::at(key, problem)
 }
 
-/// Rejects a table without a kind, and one with several.
+/// Rejects a table at `key` that does not contain exactly one table, named by its kind, as `[material.prony]`. A missing table
+/// is no error here.
 fn check_kind(key: &str, table: &Table) -> Result<(), SceneError> {
     match table.get(key).and_then(Value::as_table) {
         Some(kinds) if kinds.len() != 1 => {
@@ -279,7 +285,7 @@ fn check_kind(key: &str, table: &Table) -> Result<(), SceneError> {
     }
 }
 
-/// Path of the unknown or missing key that a message names.
+/// Path of the unknown or missing key that a message of serde names: `path` is where serde was, with or without that key.
 fn full_key(path: &str, problem: &str) -> String {
     let starts = ["unknown field `", "unknown variant `", "missing field `"];
     let rest = starts.iter().find_map(|start| problem.strip_prefix(start));

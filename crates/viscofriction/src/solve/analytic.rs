@@ -19,14 +19,14 @@ use super::half_space::{Simple, simple};
 use crate::scene::{Method, Model};
 
 /// Intervals of the sampled line load along the contact (chosen; output only).
-const N_POINTS: usize = 200;
+const N_LOAD_INTERVALS: usize = 200;
 /// Relative error stated for force, depth and radius of a body pressed into the half space (chosen, above the error of the
 /// quadrature and of the search for the radius).
-const QUADRATURE: f64 = 1e-10;
+const QUADRATURE_ERROR: f64 = 1e-10;
 /// Relative error stated for closed forms whose contact front is found by root search (chosen, far above rounding).
-const SEARCHED: f64 = 1e-12;
+const FRONT_ERROR: f64 = 1e-12;
 /// Relative error stated for the closed form of the pressed cylinder (chosen, about 50 units of rounding).
-const ROUNDING: f64 = 1e-14;
+const ROUNDING_ERROR: f64 = 1e-14;
 
 /// The answer of frictionless sliding on an elastic material: the pressed contact with μ = 0.
 pub(crate) fn without_friction(pressed: Answer) -> Answer {
@@ -57,44 +57,49 @@ pub(crate) fn viscous_line(
             axisymmetric_sliding(&**body, material, &under_force)
         }
     }?;
-    let (force, depth) = found_beside(load.control(), [force, state.indentation_depth], SEARCHED);
+    let (force, depth) = force_and_depth(
+        load.control(),
+        [force, state.indentation_depth],
+        FRONT_ERROR,
+    );
     let mut answer = Answer {
         friction_coefficient: Some(Estimate::new(state.friction_coefficient, state.error)),
         indentation_depth: Some(depth),
-        contact_box: ends(&state.contact_line).map(along),
+        contact_box: ends(&state.contact_line).map(contact_interval),
         ..Answer::new(Method::Analytic, Model::Line, force)
     };
     answer.fields.line_load = load_along(body, per_depth, &state);
     Ok(answer)
 }
 
-/// Normal force and indentation depth as estimates: the given one is exact, the other has the relative error `error`.
-fn found_beside(given: Control, [force, depth]: [f64; 2], error: f64) -> (Estimate, Estimate) {
+/// Normal force \[N] and indentation depth \[m] as estimates: the given one is exact, the other has the relative error `error`.
+fn force_and_depth(given: Control, [force, depth]: [f64; 2], error: f64) -> (Estimate, Estimate) {
     match given {
         Control::NormalForce(force) => (Estimate::exact(force), within(depth, error)),
         Control::IndentationDepth(depth) => (within(force, error), Estimate::exact(depth)),
     }
 }
 
-/// The contact interval of a closed form, with the error of the searched front.
-fn along(ends: [f64; 2]) -> ContactBox {
+/// The contact interval between rear and front \[m] of a closed form, with the error of a front found by root search.
+fn contact_interval(ends: [f64; 2]) -> ContactBox {
     let length = ends[1] - ends[0];
-    ContactBox::along(ends, SEARCHED * length)
+    ContactBox::along(ends, FRONT_ERROR * length)
 }
 
-/// Rear and front end of a contact line of one or more intervals; `None` if it is empty.
+/// Rear end of the first and front end of the last interval of a contact line, \[m]; `None` if it is empty.
 fn ends(intervals: &[[f64; 2]]) -> Option<[f64; 2]> {
     Some([intervals.first()?[0], intervals.last()?[1]])
 }
 
-/// Line load w = 4 η v h̃'(x), \[N/m], at equally spaced positions of the contact; infinite values are left out.
+/// Position \[m] and line load 4 η v h̃'(x) \[N/m], `per_depth` being 4 η v \[N/m], at equally spaced positions from the rear
+/// to the front of the contact. Infinite values are left out.
 fn load_along(body: &Revolution, per_depth: f64, state: &StationarySliding) -> Vec<[f64; 2]> {
     let Some([rear, front]) = ends(&state.contact_line) else {
         return Vec::new();
     };
-    let position = |index: usize| rear + (front - rear) * (index as f64 / N_POINTS as f64);
+    let position = |index: usize| rear + (front - rear) * (index as f64 / N_LOAD_INTERVALS as f64);
     let load = |position: f64| [position, per_depth * body.line_slope(position)];
-    let loads = (0..=N_POINTS).map(position).map(load);
+    let loads = (0..=N_LOAD_INTERVALS).map(position).map(load);
     loads.filter(|[_, load]| load.is_finite()).collect()
 }
 
@@ -161,9 +166,9 @@ pub(crate) fn viscous_transient(
     let state = transient_sliding(profile, material, load, distance / load.velocity())?;
     let force = Estimate::exact(load.require_normal_force()?);
     Ok(Answer {
-        friction_coefficient: Some(within(state.friction_coefficient, SEARCHED)),
-        indentation_depth: Some(within(state.indentation_depth, SEARCHED)),
-        contact_box: Some(along(state.contact_line)),
+        friction_coefficient: Some(within(state.friction_coefficient, FRONT_ERROR)),
+        indentation_depth: Some(within(state.indentation_depth, FRONT_ERROR)),
+        contact_box: Some(contact_interval(state.contact_line)),
         ..Answer::new(Method::Analytic, Model::Line, force)
     })
 }
@@ -186,16 +191,17 @@ pub(crate) fn viscoelastic_line(
     };
     let state = at_front(front)?;
     let found = [state.normal_force, state.indentation_depth];
-    let (force, depth) = found_beside(load.control(), found, SEARCHED);
+    let (force, depth) = force_and_depth(load.control(), found, FRONT_ERROR);
     Ok(Answer {
-        friction_coefficient: Some(within(state.friction_coefficient, SEARCHED)),
+        friction_coefficient: Some(within(state.friction_coefficient, FRONT_ERROR)),
         indentation_depth: Some(depth),
-        contact_box: Some(along(state.contact)),
+        contact_box: Some(contact_interval(state.contact)),
         ..Answer::new(Method::Analytic, Model::Line, force)
     })
 }
 
-/// Contact front at which an increasing ratio equals 1; a ratio of `None` counts as above 1 while the bracket shrinks.
+/// Contact front \[m] at which an increasing ratio, that of its force to the given one, equals 1. The search for a bracket
+/// begins at 1 m and halves or doubles; a ratio of `None` counts as above 1 while it halves. `None` if no bracket is found.
 fn front_of_force(ratio: impl Fn(f64) -> Option<f64>) -> Option<f64> {
     let mut front = 1.0;
     while ratio(front).is_none_or(|ratio| ratio > 1.0) {
@@ -237,30 +243,37 @@ pub(crate) fn pressed(
             (force, depth, contact_radius(&**body, depth)?)
         }
     };
+    // The peak pressure depends on the history of the contact unless the material is elastic; it has no bound for p ≤ 1.
     let peak_pressure = match (body, simple(material)?) {
         (Revolution::Power(profile), Some(Simple::Elastic)) if profile.exponent() > 1.0 => {
             Some(stiffness(material, duration)? * power_peak_pressure(profile, radius)?)
         }
         _ => None,
     };
-    let (force, depth) = found_beside(control, [force, depth], QUADRATURE);
+    let (force, depth) = force_and_depth(control, [force, depth], QUADRATURE_ERROR);
     let across = [-radius, radius];
     Ok(Answer {
         indentation_depth: Some(depth),
-        contact_area: Some(within(PI * radius * radius, 2.0 * QUADRATURE)),
-        contact_box: Some(ContactBox::around(across, across, QUADRATURE * radius)),
-        peak_pressure: peak_pressure.map(|pressure| within(pressure, 2.0 * QUADRATURE)),
+        contact_area: Some(within(PI * radius * radius, 2.0 * QUADRATURE_ERROR)),
+        contact_box: Some(ContactBox::around(
+            across,
+            across,
+            QUADRATURE_ERROR * radius,
+        )),
+        peak_pressure: peak_pressure.map(|pressure| within(pressure, 2.0 * QUADRATURE_ERROR)),
         ..Answer::new(Method::Analytic, Model::HalfSpace, force)
     })
 }
 
-/// Impulse on the dashpot of unit viscosity that is equivalent to a force held for a duration.
+/// Impulse on a dashpot of the viscosity 1 Pa s that leads to the contact of a force \[N] held for a duration \[s]: 2 (1 − ν) F
+/// J(t).
 fn impulse(material: &dyn Material, force: f64, duration: f64) -> Result<f64> {
     let compliance = material.half_space_factor() * material.creep_compliance(duration)?;
     Ok(force * compliance)
 }
 
-/// Force at a depth held for a duration, divided by the impulse on the unit dashpot that reaches the same depth, \[1/s].
+/// Force at a depth held for a duration \[s], over the impulse on a dashpot of 1 Pa s that reaches the same depth: G(t)/(2 (1 −
+/// ν)), in units of 1 Pa s. An error if the material has relaxed to 0.
 pub(crate) fn stiffness(material: &dyn Material, duration: f64) -> Result<f64> {
     let modulus = material.relaxation_modulus(duration)?;
     let stiffness = modulus / material.half_space_factor();
@@ -285,9 +298,9 @@ pub(crate) fn cylinder_pressed(
     let ends = [-half_width, half_width];
     Ok(Answer {
         is_per_length: true,
-        contact_area: Some(within(2.0 * half_width, ROUNDING)),
-        contact_box: Some(ContactBox::along(ends, ROUNDING * half_width)),
-        peak_pressure: peak_pressure.map(|pressure| within(pressure, ROUNDING)),
+        contact_area: Some(within(2.0 * half_width, ROUNDING_ERROR)),
+        contact_box: Some(ContactBox::along(ends, ROUNDING_ERROR * half_width)),
+        peak_pressure: peak_pressure.map(|pressure| within(pressure, ROUNDING_ERROR)),
         ..Answer::new(Method::Analytic, Model::HalfSpace, Estimate::exact(force))
     })
 }

@@ -160,7 +160,9 @@ pub(crate) struct Grid {
 /// Options of the finest grid of a stationary contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum StationaryGrid {
+    /// Grid of the contact of a finite body.
     Contact(SteadyOptions),
+    /// Grid of a cylinder in plane strain.
     Line(LineOptions),
 }
 
@@ -196,7 +198,7 @@ pub struct HistoryRow {
     pub friction_coefficient: f64,
 }
 
-/// A value with a relative error.
+/// A value with the absolute error `relative_error` times its size.
 pub(crate) const fn within(value: f64, relative_error: f64) -> Estimate {
     Estimate::new(value, relative_error * value.abs())
 }
@@ -376,6 +378,7 @@ impl ContactBox {
         Self { x, y, error }
     }
 
+    /// The ends of the rectangle in the order of [`EDGES`], \[m]; those along y are `None` if it has no width.
     fn edges(&self) -> [Option<f64>; 4] {
         let [rear, front] = self.x.map(Some);
         let [right, left] = self.y.map_or([None; 2], |y| y.map(Some));

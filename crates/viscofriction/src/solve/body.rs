@@ -11,7 +11,7 @@ use indenters::{
 };
 use numerics::MessageNumber;
 
-use super::heights::{STEEPEST, body_of_heights};
+use super::heights::{MAX_RMS_SLOPE, body_of_heights};
 use super::memory::check_waves_to_draw;
 use crate::files::Files;
 use crate::scene::{
@@ -20,7 +20,7 @@ use crate::scene::{
 use crate::text::WrongInput;
 
 /// Largest relative deviation of the rms slope of a sampled surface from that of its spectrum without a warning (chosen).
-const MOST_OFF: f64 = 0.1;
+const MAX_SLOPE_DEVIATION: f64 = 0.1;
 
 /// The rigid body, by the kinds that methods distinguish.
 #[derive(Debug)]
@@ -107,6 +107,7 @@ impl Deref for Revolution {
 }
 
 impl Revolution {
+    /// The body as a surface h(x, y), for the half-space methods.
     pub(crate) fn surface(&self) -> &dyn Surface {
         match self {
             Self::Power(profile) => profile,
@@ -144,7 +145,9 @@ pub fn body(indenter: &Indenter, files: &Files<'_>) -> Result<BodyOfScene, Scene
         &Indenter::TruncatedParaboloid { radius, curvature } => {
             TruncatedParaboloid::new(radius, curvature).map(other)
         }
-        Indenter::Superposition { terms } => Ok(Body::Revolution(Revolution::Sum(sum(terms)?))),
+        Indenter::Superposition { terms } => {
+            Ok(Body::Revolution(Revolution::Sum(superposition(terms)?)))
+        }
         Indenter::Table { file } => Ok(table_profile(file, files)?),
         &Indenter::Cylinder { radius } => Cylinder::new(radius).map(Body::Cylinder),
         Indenter::HeightMap(table) => {
@@ -160,7 +163,7 @@ pub fn body(indenter: &Indenter, files: &Files<'_>) -> Result<BodyOfScene, Scene
             check_waves_to_draw(surface.period, surface.shortest_wavelength, files.memory)?;
             self_affine(surface).surface().map(Body::Periodic)
         }
-        Indenter::Spectrum(surface) => return random(surface, files),
+        Indenter::Spectrum(surface) => return drawn_from_spectrum(surface, files),
     };
     let body = body.map_err(|error| refused(&indenter.key(), error))?;
     Ok(BodyOfScene {
@@ -199,8 +202,12 @@ fn self_affine(surface: &SelfAffineSurface) -> SelfAffine {
     }
 }
 
-/// Samples a surface with a given power spectrum, with warnings about implausible slopes.
-fn random(surface: &SpectrumSurface, files: &Files<'_>) -> Result<BodyOfScene, SceneError> {
+/// Draws the waves of a random surface from a tabulated power spectrum, with warnings about an implausible rms slope and about
+/// one that differs from that of the spectrum.
+fn drawn_from_spectrum(
+    surface: &SpectrumSurface,
+    files: &Files<'_>,
+) -> Result<BodyOfScene, SceneError> {
     let wrong = |problem: String| SceneError::at("indenter.spectrum.file", problem);
     let table = files.table(&surface.file);
     let (file, contents) = table.map_err(|WrongInput(problem)| wrong(problem))?;
@@ -211,15 +218,17 @@ fn random(surface: &SpectrumSurface, files: &Files<'_>) -> Result<BodyOfScene, S
     check_waves_to_draw(surface.period, kept, files.memory)?;
     let drawn = spectrum.surface(surface.period, kept, surface.seed);
     let drawn = drawn.map_err(|error| refused("indenter.spectrum", error))?;
+    // A slope that linear theory does not allow suggests another unit; one that differs from the spectrum, a period too short.
     let slope = drawn.rms_slope();
     let whole = spectrum.rms_slope();
     let strange = [
         (
-            slope > STEEPEST,
+            slope > MAX_RMS_SLOPE,
             "is the file in metres, and of that convention?",
         ),
         (
-            surface.shortest_wavelength.is_none() && (slope / whole - 1.0).abs() > MOST_OFF,
+            surface.shortest_wavelength.is_none()
+                && (slope / whole - 1.0).abs() > MAX_SLOPE_DEVIATION,
             "give a larger period, of which more waves are parts, or another seed",
         ),
     ];
@@ -240,8 +249,8 @@ fn other(shape: impl Axisymmetric + 'static) -> Body {
     Body::Revolution(Revolution::Other(Box::new(shape)))
 }
 
-/// A sum of powers.
-fn sum(terms: &[Term]) -> Result<Superposition, SceneError> {
+/// The body of revolution h = Σ cᵢ r^pᵢ.
+fn superposition(terms: &[Term]) -> Result<Superposition, SceneError> {
     let term = |term: &Term| PowerTerm {
         coefficient: term.coefficient,
         exponent: term.exponent,
@@ -250,7 +259,7 @@ fn sum(terms: &[Term]) -> Result<Superposition, SceneError> {
         .map_err(|error| SceneError::at("indenter.superposition.terms", error.to_string()))
 }
 
-/// A body of revolution from a table of radii and heights.
+/// A body of revolution from a CSV file of radii and heights \[m], straight between its rows.
 fn table_profile(file: &Path, files: &Files<'_>) -> Result<Body, SceneError> {
     let wrong = |problem: String| SceneError::at("indenter.table.file", problem);
     let table = files.table(file);
@@ -258,7 +267,7 @@ fn table_profile(file: &Path, files: &Files<'_>) -> Result<Body, SceneError> {
     profile(&file, &contents).map(other).map_err(wrong)
 }
 
-/// Attributes an error of the library to the key of the scene.
+/// The error of `indenters` for a number of the table at the path `table`, with the path of that number if the error names it.
 fn refused(table: &str, error: IndenterError) -> SceneError {
     match error {
         IndenterError::InvalidParameter(refused) => SceneError::within(table, refused),

@@ -44,16 +44,16 @@ pub(crate) type OfPoint<P> = ([&'static str; 2], fn(&P) -> Estimate);
 impl CurveColumn {
     /// Largest absolute value over all points.
     pub fn largest(&self) -> f64 {
-        self.over(|known| known.value.abs())
+        self.largest_of(|known| known.value.abs())
     }
 
     /// Largest absolute error over all points.
     pub fn error(&self) -> f64 {
-        self.over(|known| known.error)
+        self.largest_of(|known| known.error)
     }
 
-    /// Maximum of a non-negative statistic over all points.
-    fn over(&self, of: fn(&Estimate) -> f64) -> f64 {
+    /// Largest value over all points of `of`, which is not negative; 0 without points.
+    fn largest_of(&self, of: fn(&Estimate) -> f64) -> f64 {
         self.values.iter().map(of).fold(0.0, f64::max)
     }
 }

@@ -9,9 +9,9 @@ use serde::ser::{SerializeMap as _, Serializer};
 use super::answer::Answer;
 
 /// Relative change of friction or area by the shortest octave above which a warning is given (chosen).
-const MOST: f64 = 0.1;
-/// Smallest relative error requested of the answer without the octave (chosen): well below the change [`MOST`] to detect.
-const RELATIVE_ERROR: f64 = 0.03;
+const MAX_CHANGE: f64 = 0.1;
+/// Smallest relative error requested of the answer without the octave (chosen): well below the change [`MAX_CHANGE`] to detect.
+const MIN_RELATIVE_ERROR: f64 = 0.03;
 
 /// The answer without the shortest octave, the waves shorter than twice the shortest wavelength.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,7 +25,7 @@ pub struct WithoutShortestOctave {
 }
 
 impl WithoutShortestOctave {
-    /// Solves without the shortest octave, to the requested relative error but at least [`RELATIVE_ERROR`]. No grid has more
+    /// Solves without the shortest octave, to the requested relative error but at least [`MIN_RELATIVE_ERROR`]. No grid has more
     /// elements along an edge than the `finest` grid of the answer itself. `None` if no wave remains or the solution fails.
     pub(super) fn of(
         surface: &PeriodicSurface,
@@ -38,8 +38,8 @@ impl WithoutShortestOctave {
     ) -> Option<Self> {
         let left = surface.without_shortest_octave()?;
         let relative_error = match request.accuracy {
-            Accuracy::RelativeError(error) => error.max(RELATIVE_ERROR),
-            Accuracy::Elements(_) => RELATIVE_ERROR,
+            Accuracy::RelativeError(error) => error.max(MIN_RELATIVE_ERROR),
+            Accuracy::Elements(_) => MIN_RELATIVE_ERROR,
         };
         let request = Request {
             accuracy: relative_error.into(),
@@ -69,7 +69,8 @@ impl WithoutShortestOctave {
         (friction.value > 0.0).then(|| 1.0 - without.value / friction.value)
     }
 
-    /// A warning if friction or area changes by more than [`MOST`] and by more than the error estimates.
+    /// A warning if friction or area without the octave differs by more than [`MAX_CHANGE`], and by more than both error
+    /// estimates. `slope` is the rms slope of the whole surface.
     pub(super) fn warning(&self, answer: &Answer, slope: f64) -> Option<String> {
         let (friction, area) = (answer.friction_coefficient, answer.area_fraction);
         let changes = [
@@ -83,7 +84,7 @@ impl WithoutShortestOctave {
             known.filter(|(_, with, _)| with.value > 0.0).collect();
         let matters = |(_, with, without): &(&str, Estimate, Estimate)| {
             let change = (with.value - without.value).abs();
-            change > MOST * with.value && change > with.error + without.error
+            change > MAX_CHANGE * with.value && change > with.error + without.error
         };
         if !known.iter().any(matters) {
             return None;
@@ -95,8 +96,7 @@ impl WithoutShortestOctave {
             )
         });
         let changes: Vec<String> = changes.collect();
-        // Rms slope of the octave itself.
-        // Squares of slopes add up over waves.
+        // Rms slope of the octave itself, because mean square slopes add up over waves.
         let octave = ((slope + self.rms_slope) * (slope - self.rms_slope))
             .max(0.0)
             .sqrt();

@@ -63,8 +63,9 @@ pub(super) fn dissipation(problem: &Problem, answer: &Answer) -> Dissipation {
     }
 }
 
-/// Fractions outside the window for sliding at constant speed, where each wave has one frequency. A march from rest is treated as
-/// stationary at its end.
+/// Fractions of the dissipated power below and above the measured frequencies, for sliding at constant speed v, where a wave of
+/// wave number q along x has the frequency v q. A march from rest is treated as stationary at its end. `None` for other motions
+/// and without measured frequencies.
 fn outside_window(problem: &Problem, answer: &Answer) -> Option<OutsideWindow> {
     let (Some(window), Motion::Sliding(load)) = (problem.window(), problem.motion()) else {
         return None;
@@ -80,11 +81,12 @@ fn outside_window(problem: &Problem, answer: &Answer) -> Option<OutsideWindow> {
         let bands = creep.bands_along(&answer.fields.line_load, velocity, |_| 1.0);
         return creep.outside_window(window, bands);
     }
-    creep.outside_window(window, stress(problem, answer, velocity)?)
+    creep.outside_window(window, stress_spectrum(problem, answer, velocity)?)
 }
 
-/// Frequency spectrum of the pressure on the half space; `None` if the answer has no pressure field or contact.
-fn stress(problem: &Problem, answer: &Answer, velocity: f64) -> Option<Vec<StressBand>> {
+/// Frequency spectrum of the moving pressure on the half space or layer, in bands of angular frequency, for a velocity \[m/s].
+/// `None` if the answer has no pressure field and no contact from which one follows.
+fn stress_spectrum(problem: &Problem, answer: &Answer, velocity: f64) -> Option<Vec<StressBand>> {
     let elastomer = problem.elastomer().ok()?;
     let fields = &answer.fields;
     match (problem.body(), &fields.pressure, &answer.contact_box) {

@@ -20,12 +20,16 @@ use super::curve::{AREA, Curve, DEPTH, FORCE, OfPoint};
 use super::cut_off::WithoutShortestOctave;
 use super::error::Result;
 use super::half_space::Simple;
-use super::mdr::of_motion;
+use super::mdr::answer_from_motion;
 use super::problem::{Motion, Problem};
 use crate::scene::{Method, Model};
 
-/// The common quantities of an estimate, with the ends of its contact along x and y.
-fn answer<S, O>(estimate: &ContactEstimate<S, O>, method: Method, [x, y]: [[f64; 2]; 2]) -> Answer {
+/// An answer with the quantities that all estimates for a single body have; `[x, y]` are the ends of the contact \[m].
+fn common_answer<S, O>(
+    estimate: &ContactEstimate<S, O>,
+    method: Method,
+    [x, y]: [[f64; 2]; 2],
+) -> Answer {
     Answer {
         friction_coefficient: Some(estimate.friction_coefficient),
         indentation_depth: estimate.indentation_depth,
@@ -44,11 +48,11 @@ pub(crate) fn stationary(
     load: &SlidingLoad,
     request: Request,
 ) -> Result<Answer> {
-    of_steady(steady(surface, &problem.elastomer()?, load, request)?)
+    answer_from_steady(steady(surface, &problem.elastomer()?, load, request)?)
 }
 
 /// The answer of a stationary estimate.
-fn of_steady(estimate: SteadyEstimate) -> Result<Answer> {
+fn answer_from_steady(estimate: SteadyEstimate) -> Result<Answer> {
     let (finest, options) = (&estimate.finest, &estimate.options);
     let ends = [finest.contact_x, finest.contact_y];
     let mut answer = Answer {
@@ -59,7 +63,7 @@ fn of_steady(estimate: SteadyEstimate) -> Result<Answer> {
             factorised: finest.is_factorised(),
         }),
         stationary: Some(StationaryGrid::Contact(*options)),
-        ..answer(&estimate, Method::BemSteady, ends)
+        ..common_answer(&estimate, Method::BemSteady, ends)
     };
     answer.fields.pressure = Some(estimate.finest.pressure);
     Ok(answer)
@@ -73,11 +77,11 @@ pub(crate) fn line_contact(
     request: Request,
 ) -> Result<Answer> {
     let estimate = steady_line(cylinder, &problem.elastomer()?, load, request)?;
-    Ok(of_line(estimate))
+    Ok(answer_from_line(estimate))
 }
 
 /// The answer of a stationary line contact.
-fn of_line(estimate: LineEstimate) -> Answer {
+fn answer_from_line(estimate: LineEstimate) -> Answer {
     let finest = &estimate.finest;
     let contact = ContactBox::along(finest.contact, estimate.contact_box_error);
     let mut answer = Answer {
@@ -86,7 +90,7 @@ fn of_line(estimate: LineEstimate) -> Answer {
         unknowns: finest.unknowns,
         iterations: finest.iterations,
         stationary: Some(StationaryGrid::Line(estimate.options)),
-        ..answer(&estimate, Method::BemSteady, [finest.contact; 2])
+        ..common_answer(&estimate, Method::BemSteady, [finest.contact; 2])
     };
     answer.fields.line_pressure = estimate.finest.pressure;
     answer
@@ -108,7 +112,7 @@ pub(crate) fn periodic(problem: &Problem, rough: Rough, request: Request) -> Res
         |surface: &_, request: Request| periodic::steady(surface, &elastomer, &rough.load, request);
     let estimate = solve(rough.surface, request)?;
     let finest = estimate.finest.pressure.grid.shape();
-    let mut answer = of_periodic(problem, rough, estimate)?;
+    let mut answer = answer_from_periodic(problem, rough, estimate)?;
     answer.cut_off(WithoutShortestOctave::of(
         rough.surface,
         request,
@@ -119,12 +123,12 @@ pub(crate) fn periodic(problem: &Problem, rough: Rough, request: Request) -> Res
 }
 
 /// The answer of a periodic stationary estimate, with Persson's theory.
-fn of_periodic(
+fn answer_from_periodic(
     problem: &Problem,
     rough: Rough,
     estimate: PeriodicEstimate<PeriodicSliding>,
 ) -> Result<Answer> {
-    let mut answer = of_rough(problem, rough, Method::BemSteady, &estimate);
+    let mut answer = common_periodic_answer(problem, rough, Method::BemSteady, &estimate);
     answer.iterations = estimate.finest.products;
     answer.persson = Persson::of(problem)?;
     Ok(answer.under(estimate.finest.pressure))
@@ -143,7 +147,7 @@ pub(crate) fn periodic_pressed(
     };
     let estimate = solve(rough.surface, request)?;
     let finest = estimate.finest.pressure.grid.shape();
-    let mut answer = of_pressed(problem, rough, estimate);
+    let mut answer = answer_from_pressed(problem, rough, estimate);
     answer.cut_off(WithoutShortestOctave::of(
         rough.surface,
         request,
@@ -154,12 +158,12 @@ pub(crate) fn periodic_pressed(
 }
 
 /// The answer of a pressed periodic surface, without friction.
-fn of_pressed(
+fn answer_from_pressed(
     problem: &Problem,
     rough: Rough,
     estimate: PeriodicEstimate<PeriodicSliding>,
 ) -> Answer {
-    let mut answer = of_rough(problem, rough, Method::BemTransient, &estimate);
+    let mut answer = common_periodic_answer(problem, rough, Method::BemTransient, &estimate);
     answer.iterations = estimate.finest.products;
     answer.friction_coefficient = None;
     answer.error_parts = ErrorParts::discretisation_only(answer.requested_quantity().error);
@@ -172,7 +176,8 @@ fn of_pressed(
     answer
 }
 
-/// Coarse-grid solution of a sliding or pressed periodic surface, without error estimates, and Persson's theory if it slides.
+/// Solution for a sliding or pressed periodic surface on one coarse grid, without error estimates; and Persson's theory if it
+/// slides. The grid has `finer` times the elements of the first grid of an answer, along each axis.
 pub(crate) fn on_coarse_grid(
     problem: &Problem,
     rough: Rough,
@@ -196,16 +201,16 @@ pub(crate) fn periodic_transient(
     request: Request,
 ) -> Result<Answer> {
     let estimate = periodic::slide(rough.surface, &problem.elastomer()?, &rough.load, request)?;
-    Ok(of_way(problem, rough, estimate))
+    Ok(answer_from_periodic_transient(problem, rough, estimate))
 }
 
 /// The answer of a periodic march in time.
-fn of_way(
+fn answer_from_periodic_transient(
     problem: &Problem,
     rough: Rough,
     estimate: PeriodicEstimate<PeriodicTransient>,
 ) -> Answer {
-    let mut answer = of_rough(problem, rough, Method::BemTransient, &estimate);
+    let mut answer = common_periodic_answer(problem, rough, Method::BemTransient, &estimate);
     let rows = &estimate.finest.rows;
     answer.iterations = rows.len();
     let row = |row: &PeriodicRow| HistoryRow {
@@ -218,8 +223,9 @@ fn of_way(
     answer.under(estimate.finest.pressure)
 }
 
-/// The quantities that all periodic estimates share.
-fn of_rough<S>(
+/// An answer with the quantities that all estimates for a periodic surface have; forces and areas are those of one period, the
+/// depth is known on a layer only.
+fn common_periodic_answer<S>(
     problem: &Problem,
     rough: Rough,
     method: Method,
@@ -315,18 +321,18 @@ pub(crate) fn transient(
     load: &SlidingLoad,
     request: Request,
 ) -> Result<Answer> {
-    of_slide(slide(surface, &problem.elastomer()?, load, request)?)
+    answer_from_slide(slide(surface, &problem.elastomer()?, load, request)?)
 }
 
 /// The answer of a time march.
-fn of_slide(estimate: SlideEstimate) -> Result<Answer> {
+fn answer_from_slide(estimate: SlideEstimate) -> Result<Answer> {
     let last = estimate.finest.last();
     let ends = [last.contact_x, last.contact_y];
     let mut answer = Answer {
         unknowns: last.n_contact,
         iterations: estimate.finest.rows.len(),
-        grid: Some(of_march(&estimate.options)?),
-        ..answer(&estimate, Method::BemTransient, ends)
+        grid: Some(grid_of_march(&estimate.options)?),
+        ..common_answer(&estimate, Method::BemTransient, ends)
     };
     let row = |row: &SlideRow| HistoryRow {
         sliding_distance_m: row.sliding_distance,
@@ -347,7 +353,7 @@ pub(crate) fn moved(
     request: Request,
 ) -> Result<Answer> {
     let found = move_along(surface, &problem.elastomer()?, load, request)?;
-    Ok(of_moved(problem, found))
+    Ok(answer_from_moved(problem, found))
 }
 
 /// Reciprocating motion, or motion through given positions, of a periodic surface; its depth is known on a layer only.
@@ -358,12 +364,12 @@ pub(crate) fn periodic_moved(
     request: Request,
 ) -> Result<Answer> {
     let found = periodic::move_along(surface, &problem.elastomer()?, load, request)?;
-    Ok(of_moved(problem, found))
+    Ok(answer_from_moved(problem, found))
 }
 
 /// The answer of a motion, without the unbounded depth of a periodic surface on a half space.
-fn of_moved(problem: &Problem, found: Moved) -> Answer {
-    let mut answer = of_motion(Method::BemTransient, Model::HalfSpace, found);
+fn answer_from_moved(problem: &Problem, found: Moved) -> Answer {
+    let mut answer = answer_from_motion(Method::BemTransient, Model::HalfSpace, found);
     if matches!(problem.body(), Body::Periodic(_)) && !problem.thickness().is_finite() {
         answer.indentation_depth = None;
     }
@@ -377,19 +383,19 @@ pub(crate) fn pressed(
     load: &PressingLoad,
     request: Request,
 ) -> Result<Answer> {
-    of_press(indent(surface, &problem.elastomer()?, load, request)?)
+    answer_from_press(indent(surface, &problem.elastomer()?, load, request)?)
 }
 
 /// The answer of an indentation.
-fn of_press(estimate: PressEstimate) -> Result<Answer> {
+fn answer_from_press(estimate: PressEstimate) -> Result<Answer> {
     let finest = &estimate.finest;
     let ends = [finest.contact_x, finest.contact_y];
     let mut answer = Answer {
         friction_coefficient: None,
         unknowns: finest.n_contact,
         iterations: 1,
-        grid: Some(of_march(&estimate.options)?),
-        ..answer(&estimate, Method::BemTransient, ends)
+        grid: Some(grid_of_march(&estimate.options)?),
+        ..common_answer(&estimate, Method::BemTransient, ends)
     };
     answer.fields.pressure = estimate.finest.pressure;
     Ok(answer)
@@ -402,7 +408,7 @@ pub(crate) fn followed(
     points: &[HistoryPoint],
     request: Request,
 ) -> Result<Answer> {
-    of_curve(&indent_along(
+    answer_from_curve(&indent_along(
         surface,
         &problem.elastomer()?,
         points,
@@ -411,7 +417,7 @@ pub(crate) fn followed(
 }
 
 /// The answer of an indentation history.
-fn of_curve(found: &IndentCurve) -> Result<Answer> {
+fn answer_from_curve(found: &IndentCurve) -> Result<Answer> {
     let last = found.points[found.points.len() - 1];
     let columns: [OfPoint<IndentPoint>; 3] = [
         (FORCE, |point| point.normal_force),
@@ -424,7 +430,7 @@ fn of_curve(found: &IndentCurve) -> Result<Answer> {
         error_parts: found.error_parts,
         unknowns: found.n_contact,
         iterations: found.n_steps,
-        grid: Some(of_march(&found.options)?),
+        grid: Some(grid_of_march(&found.options)?),
         ..Answer::new(Method::BemTransient, Model::HalfSpace, last.normal_force)
     };
     answer.fields.curve = Curve::of(&found.points, |point| point.time, columns);
@@ -434,23 +440,25 @@ fn of_curve(found: &IndentCurve) -> Result<Answer> {
 /// The answer of an estimate that missed the request; `None` if it has no valid answer.
 pub(crate) fn reached(problem: &Problem, rough: Option<Rough>, found: Reached) -> Option<Answer> {
     let answer = match found {
-        Reached::Steady(found) => of_steady(found),
-        Reached::Line(found) => Ok(of_line(found)),
-        Reached::Slide(found) => of_slide(found),
-        Reached::Press(found) => of_press(found),
-        Reached::Curve(found) => of_curve(&found),
-        Reached::Moved(found) => Ok(of_moved(problem, found)),
+        Reached::Steady(found) => answer_from_steady(found),
+        Reached::Line(found) => Ok(answer_from_line(found)),
+        Reached::Slide(found) => answer_from_slide(found),
+        Reached::Press(found) => answer_from_press(found),
+        Reached::Curve(found) => answer_from_curve(&found),
+        Reached::Moved(found) => Ok(answer_from_moved(problem, found)),
         Reached::Periodic(found) if matches!(problem.motion(), Motion::Pressing(_)) => {
-            Ok(of_pressed(problem, rough?, found))
+            Ok(answer_from_pressed(problem, rough?, found))
         }
-        Reached::Periodic(found) => of_periodic(problem, rough?, found),
-        Reached::PeriodicTransient(found) => Ok(of_way(problem, rough?, found)),
+        Reached::Periodic(found) => answer_from_periodic(problem, rough?, found),
+        Reached::PeriodicTransient(found) => {
+            Ok(answer_from_periodic_transient(problem, rough?, found))
+        }
     };
     answer.ok()
 }
 
-/// The finest grid of a time march.
-fn of_march(options: &GridOptions) -> Result<Grid> {
+/// The finest grid of a time march, from its options; its equations are never factorised.
+fn grid_of_march(options: &GridOptions) -> Result<Grid> {
     Ok(Grid {
         footprint: options.footprint.elements(options.spacing)?,
         factorised: false,

@@ -10,7 +10,7 @@ use thiserror::Error;
 
 use super::advice::{of_body, of_closed_form, of_half_space, of_line};
 use super::answer::Answer;
-use super::sensitivity::EXACT;
+use super::sensitivity::MAX_DIFFERENCED_ERROR;
 use crate::scene::{Method, SceneError};
 
 /// Reason why a problem has no answer, or not the requested one.
@@ -89,7 +89,7 @@ pub enum SolveError {
     /// The derivatives of this answer are not available.
     #[error(
         "{} knows no derivatives of this answer; stationary sliding has some by bem-steady, and so have slow sliding and \
-         whatever closed forms and mdr-steady know to {EXACT:e}",
+         whatever closed forms and mdr-steady know to {MAX_DIFFERENCED_ERROR:e}",
         method.name()
     )]
     NoSensitivity {

@@ -11,7 +11,7 @@ use rheology::{Prony, PronyExpansion, RelaxationSpectrum, RheologyError};
 use crate::scene::Approximation;
 
 /// Relative error δ of the complex modulus requested of an expansion (chosen, far below the errors of the methods).
-const RELATIVE_ERROR: f64 = 1e-7;
+const MODULUS_ERROR: f64 = 1e-7;
 
 /// Accuracy of a Prony series that approximates another law.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,22 +28,24 @@ pub struct Expansion {
 }
 
 impl Expansion {
-    /// Upper bound of the fraction of line-contact friction that comes from waves slower than the creep of the series. Waves in dq
-    /// dissipate |p̂|² ω J''(ω)/q dq ∼ q^−a dq from q = 0 to the reciprocal of the contact length.
-    pub(super) fn beyond(&self, contact_time: f64) -> f64 {
+    /// Upper bound (t/T)^(1 − a) of the fraction of the friction of a line contact from waves that are slower than T =
+    /// [`Self::creeps_until`]; `contact_time` t \[s] is contact length over velocity. Waves in dq dissipate |p̂|² ω J''(ω)/q dq
+    /// ∼ q^−a dq from q = 0 to the reciprocal of the contact length.
+    pub(super) fn slow_wave_fraction(&self, contact_time: f64) -> f64 {
         (contact_time / self.creeps_until).powf(1.0 - self.exponent)
     }
 }
 
-/// The Prony series of a fractional element in parallel with a spring. `expand` takes the angular frequencies \[rad/s] and the
-/// relative error.
+/// The Prony series of a fractional element of exponent a in parallel with a spring of `equilibrium_modulus` \[Pa], valid for
+/// times from the first to the second of `time_range` \[s]. `expand` returns the series of the element from a range of angular
+/// frequencies \[rad/s] and a relative error.
 pub(crate) fn expanded(
     expand: impl FnOnce([f64; 2], f64) -> Result<PronyExpansion, RheologyError>,
     exponent: f64,
     equilibrium_modulus: f64,
     time_range: [f64; 2],
 ) -> Result<(Prony, Expansion), RheologyError> {
-    let series = expand(band(time_range)?, RELATIVE_ERROR)?;
+    let series = expand(band(time_range)?, MODULUS_ERROR)?;
     let modulus = not_negative("equilibrium_modulus", equilibrium_modulus)?;
     let sum = RelaxationSpectrum::new(
         modulus + series.spectrum.equilibrium_modulus(),
@@ -65,7 +67,8 @@ pub(crate) fn expanded(
 }
 
 impl Approximation {
-    /// Treats the series as an element whose exponent follows from its phase angle at the end of the range.
+    /// Accuracy and range of a Prony series that a user has expanded. Its exponent a is that of the power law with the phase
+    /// angle of the series at the longest time T, (2/π) arctan(G''/G') at ω = 1/T.
     pub(crate) fn of(self, series: &RelaxationSpectrum) -> Result<Expansion, RheologyError> {
         let [lowest, _] = band(self.time_range)?;
         let holds = (0.0..=0.1).contains(&self.relative_error);
@@ -84,7 +87,7 @@ impl Approximation {
     }
 }
 
-/// Range of angular frequencies that corresponds to a range of times, \[rad/s].
+/// The range [1/T, 1/t] of angular frequencies \[rad/s] for times from t to T \[s]; an error unless 0 < t < T.
 fn band([shortest, longest]: [f64; 2]) -> Result<[f64; 2], RheologyError> {
     positive("time_range[0]", shortest)?;
     positive("time_range[1]", longest)?;

@@ -39,7 +39,7 @@ pub fn half_space(table: &MaterialTable, files: &Files<'_>) -> Result<HalfSpace,
     {
         covariance.check(&table.key(), branches.len())?;
     }
-    let mut found = in_shear(table, files)?;
+    let mut found = shear_material(table, files)?;
     let ratio = table.poisson_ratio();
     let ratio = ratio.unwrap_or_else(|| found.material.poisson_ratio());
     let material = Compressible::new(&*found.material, ratio);
@@ -54,8 +54,9 @@ pub fn half_space(table: &MaterialTable, files: &Files<'_>) -> Result<HalfSpace,
     Ok(found)
 }
 
-/// Reads the material table of another file, shifted to a temperature \[°C] if one is given.
-pub(super) fn of_file(
+/// The table of a material file, checked and shifted to a temperature \[°C] if one is given. An error if it names another file
+/// itself.
+pub(super) fn material_of_file(
     file: &Path,
     temperature: Option<f64>,
     files: &Files<'_>,
@@ -65,15 +66,15 @@ pub(super) fn of_file(
         ..*files
     };
     let read = |table: MaterialTable| half_space(&table, &none).map(|_| table);
-    let table = of_table_in(file, files, read)?;
+    let table = read_material_file(file, files, read)?;
     match temperature {
         Some(temperature) => table.at(temperature),
         None => Ok(table),
     }
 }
 
-/// Applies `read` to the material table of another file; errors name the place in that file.
-pub(crate) fn of_table_in<T>(
+/// Parses the table of a material file and applies `read` to it; errors name file and line.
+pub(crate) fn read_material_file<T>(
     file: &Path,
     files: &Files<'_>,
     read: impl FnOnce(MaterialTable) -> Result<T, SceneError>,
@@ -94,8 +95,9 @@ fn no_file(file: &Path, _: u64) -> Result<Vec<u8>, WrongInput> {
     Err(WrongInput(format!("{}: {problem}", file.display())))
 }
 
-/// The material without the Poisson ratio of the scene.
-fn in_shear(table: &MaterialTable, files: &Files<'_>) -> Result<HalfSpace, SceneError> {
+/// The material of a table as an incompressible one with its moduli in shear; the Poisson ratio of the scene is not applied
+/// yet, only that of a material file.
+fn shear_material(table: &MaterialTable, files: &Files<'_>) -> Result<HalfSpace, SceneError> {
     let found = match table {
         &MaterialTable::Viscous { viscosity, .. } => Viscous::new(viscosity).map(exact),
         &MaterialTable::Elastic { shear_modulus, .. } => Elastic::new(shear_modulus).map(exact),
@@ -160,7 +162,7 @@ fn in_shear(table: &MaterialTable, files: &Files<'_>) -> Result<HalfSpace, Scene
         }),
         MaterialTable::File {
             path, temperature, ..
-        } => return half_space(&of_file(path, *temperature, files)?, files),
+        } => return half_space(&material_of_file(path, *temperature, files)?, files),
     };
     found.map_err(|error| refused(&table.key(), error))
 }
@@ -182,7 +184,8 @@ fn approximate((material, expansion): (Prony, Expansion)) -> HalfSpace {
     }
 }
 
-/// A Prony series, which may approximate another law.
+/// A Prony series; with an `approximation` it stands for another law and has an error. `key` is the path of its table for
+/// errors.
 fn series(
     key: &str,
     spectrum: Result<RelaxationSpectrum, RheologyError>,
@@ -198,7 +201,7 @@ fn series(
     })
 }
 
-/// Attributes an error of the library to the key of a range of times, or to the table.
+/// The error of `rheology` at the path `table`, or at the key `time_range` in it if that is out of range.
 fn refused(table: &str, error: RheologyError) -> SceneError {
     match error {
         RheologyError::InvalidParameter(refused) if refused.parameter.starts_with("time_range") => {
@@ -213,9 +216,13 @@ fn refused(table: &str, error: RheologyError) -> SceneError {
 /// A half space of Poisson ratio ν is 2 (1 − ν) times as compliant, so all moduli are divided by this factor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Simple {
+    /// A dashpot.
     Viscous(Viscous),
+    /// A spring; its modulus is in the spectrum of the material.
     Elastic,
+    /// Spring and dashpot in parallel.
     KelvinVoigt(KelvinVoigt),
+    /// Spring and dashpot in series.
     Maxwell(Maxwell),
 }
 

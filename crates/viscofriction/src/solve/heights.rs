@@ -8,16 +8,17 @@ use numerics::whole_part;
 use super::body::{Body, BodyOfScene};
 use crate::scene::{Edges, HeightMapTable, SceneError};
 
-/// Rms slope above which the unit of the heights is probably wrong (chosen).
-pub(super) const STEEPEST: f64 = 1.0;
-/// Rms slope below which the unit of heights or distances is probably wrong: optical flats have 1e-5.
-const FLATTEST: f64 = 1e-5;
-/// Length of a map above which the unit of its distances is probably wrong, \[m] (chosen).
-const LONGEST: f64 = 1.0;
-/// Fraction of filled heights above which they may influence the answer (chosen).
-const MOST_FILLED: f64 = 0.01;
-/// Fraction of the mean square slope due to the step at the edge above which a warning is given: more than half.
-const MOST: f64 = 0.5;
+/// Rms slope above which the unit of the heights is reported as probably wrong (chosen: linear theory needs small slopes).
+pub(super) const MAX_RMS_SLOPE: f64 = 1.0;
+/// Rms slope below which the unit of heights or distances is reported as probably wrong (chosen: optical flats have 1e-5).
+const MIN_RMS_SLOPE: f64 = 1e-5;
+/// Length of a map, \[m], above which the unit of its distances is reported as probably wrong (chosen).
+const MAX_PERIOD: f64 = 1.0;
+/// Fraction of filled heights above which a warning is given (chosen).
+const MAX_FILLED_FRACTION: f64 = 0.01;
+/// Fraction of the mean square slope that the step at the edge of a periodic map may contribute without a warning (chosen:
+/// half).
+const MAX_STEP_FRACTION: f64 = 0.5;
 
 /// Builds the rigid body from measured heights, given by a scene or an array.
 ///
@@ -97,13 +98,13 @@ pub fn warnings(
 ) -> Vec<String> {
     let mut warnings = units_without_effect(table, surface);
     let (points, filled) = (surface.heights.len(), surface.n_filled);
-    if filled as f64 > MOST_FILLED * points as f64 {
+    if filled as f64 > MAX_FILLED_FRACTION * points as f64 {
         let part = 100.0 * filled as f64 / points as f64;
         warnings.push(format!(
             "{part:.1} % of the heights were missing and are filled from their neighbours, smoother than a surface: {filled} of {points}"
         ));
     }
-    warnings.extend(sizes(table, surface, map, advice));
+    warnings.extend(unit_warnings(table, surface, map, advice));
     if table.edges == Edges::Periodic {
         for (axis, name) in ["x", "y"].into_iter().enumerate() {
             let half = 0.5 * table.shortest_wavelength.unwrap_or(0.0) / map.spacing()[axis];
@@ -134,8 +135,9 @@ fn units_without_effect(table: &HeightMapTable, surface: &Topography) -> Vec<Str
     units.map(sentence).collect()
 }
 
-/// Warnings about slopes and lengths that suggest a wrong unit.
-fn sizes(
+/// Warnings about an rms slope outside [`MIN_RMS_SLOPE`] to [`MAX_RMS_SLOPE`], and a length above [`MAX_PERIOD`], which suggest
+/// a wrong unit.
+fn unit_warnings(
     table: &HeightMapTable,
     surface: &Topography,
     map: &HeightMap,
@@ -146,9 +148,9 @@ fn sizes(
     let slope = slopes[0].hypot(slopes[1]);
     let highest = map.heights().iter().copied().fold(0.0, f64::max);
     // A finite body may be steep far from its contact, so only a height above its width counts.
-    let is_steep = slope > STEEPEST && (table.edges != Edges::Wall || highest > x.max(y));
+    let is_steep = slope > MAX_RMS_SLOPE && (table.edges != Edges::Wall || highest > x.max(y));
     let mut sentences = Vec::new();
-    if is_steep || slope < FLATTEST {
+    if is_steep || slope < MIN_RMS_SLOPE {
         let question = if surface.states_unit {
             "is the unit in the file right?".to_owned()
         } else {
@@ -159,7 +161,7 @@ fn sizes(
         ));
     }
     let [along_x, along_y] = surface.periods();
-    if along_x.max(along_y) > LONGEST {
+    if along_x.max(along_y) > MAX_PERIOD {
         let lateral = advice.lateral_unit;
         sentences.push(format!(
             "the map has a period of {along_x:.3e} m × {along_y:.3e} m: are these metres? {lateral}"
@@ -179,7 +181,8 @@ struct Steps {
 }
 
 impl Steps {
-    /// Differences at a lag of `lag` points along `axis`.
+    /// Height differences between points `lag` points apart along `axis` (0 for x, 1 for y); those across the edge are between
+    /// the last and the first points of the periodic map.
     fn of(map: &HeightMap, axis: usize, lag: usize) -> Self {
         let (shape, heights) = (map.shape(), map.heights());
         let stride = [shape[1], 1][axis];
@@ -206,12 +209,12 @@ impl Steps {
         (sum / count).sqrt() / self.length
     }
 
-    /// A warning if the step across the edge makes up more than [`MOST`] of the mean square slope.
+    /// A warning if the step across the edge makes up more than [`MAX_STEP_FRACTION`] of the mean square slope.
     fn warning(&self, axis: &str, advice: &str) -> Option<String> {
         let [inside, across] = [self.inside, self.across].map(|[sum, count]| (sum / count).sqrt());
         let all = self.inside[0] + self.across[0];
         let part = (self.across[0] - inside * inside * self.across[1]) / all;
-        (part > MOST).then(|| {
+        (part > MAX_STEP_FRACTION).then(|| {
             format!(
                 "{:.0} % of the mean square slope along {axis} belong to the step at the edge of the map, where it is \
                  repeated: {across:.3e} m (root mean square) over {:.3e} m, and {inside:.3e} m elsewhere; {advice}",

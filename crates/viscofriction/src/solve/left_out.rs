@@ -66,7 +66,8 @@ fn n_contact(answer: &Answer) -> usize {
 }
 
 impl Grid {
-    /// Elements of the footprint, without mirror images along the axes of symmetry.
+    /// Number of elements of the footprint; along an axis whose entry in `even` is true, and which has as many elements on both
+    /// sides, without the mirror images.
     fn n_elements(&self, even: [bool; 2]) -> usize {
         let along = |axis: usize| {
             let [before, after] = self.footprint[axis];
@@ -77,8 +78,8 @@ impl Grid {
     }
 }
 
-/// Mirror symmetry of body and motion along x and y. `None` for a cylinder and a periodic surface, for which no omissions are
-/// listed.
+/// Whether body and motion are mirror symmetric about x = 0 and about y = 0; a body that slides is not about x = 0. `None` for
+/// a cylinder and a periodic surface, for which no omissions are listed.
 fn mirrors(problem: &Problem) -> Option<[bool; 2]> {
     let [along, across] = problem.body().surface()?.mirrors();
     let is_pressed = matches!(problem.motion(), Pressing(_));

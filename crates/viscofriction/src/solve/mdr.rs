@@ -25,11 +25,16 @@ pub(crate) fn stationary(
     relative_error: f64,
 ) -> Result<Answer> {
     let line = EquivalentLine(body);
-    Ok(of_steady(steady(&line, material, load, relative_error)?))
+    Ok(answer_from_steady(steady(
+        &line,
+        material,
+        load,
+        relative_error,
+    )?))
 }
 
 /// The answer of a stationary solution.
-pub(crate) fn of_steady(state: SteadySliding) -> Answer {
+pub(crate) fn answer_from_steady(state: SteadySliding) -> Answer {
     let mut answer = Answer {
         friction_coefficient: Some(state.friction_coefficient),
         indentation_depth: Some(state.indentation_depth),
@@ -49,7 +54,7 @@ pub(crate) fn transient(
     load: &SlidingLoad,
     request: Request,
 ) -> Result<Answer> {
-    Ok(of_march(slide(
+    Ok(answer_from_march(slide(
         &EquivalentLine(body),
         material,
         load,
@@ -58,7 +63,7 @@ pub(crate) fn transient(
 }
 
 /// The answer of a time march.
-pub(crate) fn of_march(state: Sliding) -> Answer {
+pub(crate) fn answer_from_march(state: Sliding) -> Answer {
     let mut answer = Answer {
         friction_coefficient: Some(state.friction_coefficient),
         indentation_depth: Some(state.indentation_depth),
@@ -87,11 +92,11 @@ pub(crate) fn moved(
     request: Request,
 ) -> Result<Answer> {
     let found = move_along(&EquivalentLine(body), material, load, request)?;
-    Ok(of_motion(Method::MdrTransient, Model::Line, found))
+    Ok(answer_from_motion(Method::MdrTransient, Model::Line, found))
 }
 
 /// The answer of a motion: friction over all of it, force and depth at its last point.
-pub(crate) fn of_motion(method: Method, model: Model, found: Moved) -> Answer {
+pub(crate) fn answer_from_motion(method: Method, model: Model, found: Moved) -> Answer {
     let last = found.points.last();
     let force = last.map_or(Estimate::exact(0.0), |point| point.normal_force);
     let mut answer = Answer {
@@ -144,14 +149,18 @@ pub(crate) fn followed(
     method: Method,
     relative_error: f64,
 ) -> Result<Answer> {
-    let options = following(problem, relative_error);
+    let options = history_options(problem, relative_error);
     let curve = indent_along(body, problem.material(), points, &options)?;
-    let found = of_curve(problem, method, &curve);
+    let found = answer_from_curve(problem, method, &curve);
     Ok(found.ok_or(MdrError::Empty { list: "history" })?)
 }
 
 /// The answer of a history; `None` if it has no points.
-pub(crate) fn of_curve(problem: &Problem, method: Method, curve: &[CurvePoint]) -> Option<Answer> {
+pub(crate) fn answer_from_curve(
+    problem: &Problem,
+    method: Method,
+    curve: &[CurvePoint],
+) -> Option<Answer> {
     let last = curve.last()?;
     let radius = last.contact_radius;
     let ends = Estimate::new(-radius.value, radius.error);
@@ -176,8 +185,8 @@ pub(super) fn curve_of(points: &[CurvePoint]) -> Curve {
     Curve::of(points, |point| point.time, columns)
 }
 
-/// Options of an indentation history, with the modulus error of the problem.
-pub(super) fn following(problem: &Problem, relative_error: f64) -> HistoryOptions {
+/// Options of an indentation history: the relative error requested, and the error of the moduli of the problem.
+pub(super) fn history_options(problem: &Problem, relative_error: f64) -> HistoryOptions {
     HistoryOptions {
         relative_error,
         modulus_error: problem.modulus_error(),

@@ -34,15 +34,16 @@ pub(super) fn check_first_grid(problem: &Problem, method: Method) -> Result<()> 
             (periodic::elements_of_motion(surface), change)
         }
         (_, Body::Periodic(surface), _) => return Ok(check_waves(problem, surface)?),
-        (_, body, Moving(load)) if method == MdrTransient => {
-            (elements_of_line_motion(problem, body, load)?, OTHERWISE)
-        }
-        _ => (FIRST_ELEMENTS, OTHERWISE),
+        (_, body, Moving(load)) if method == MdrTransient => (
+            elements_of_line_motion(problem, body, load)?,
+            CHOSEN_BY_METHOD,
+        ),
+        _ => (FIRST_ELEMENTS, CHOSEN_BY_METHOD),
     };
-    check(problem, method, elements, change)
+    check_grid(problem, method, elements, change)
 }
 
-/// Elements of the first grid of a motion in the one-dimensional model.
+/// Elements along the contact of the first grid of a motion in the one-dimensional model.
 fn elements_of_line_motion(problem: &Problem, body: &Body, load: &MovingLoad) -> Result<usize> {
     let Some(surface) = body.surface().and_then(Surface::as_axisymmetric) else {
         return Ok(FIRST_ELEMENTS);
@@ -69,7 +70,8 @@ fn check_waves(problem: &Problem, surface: &PeriodicSurface) -> Result<(), Scene
     Err(too_large([elements, most], surface.period(), kept))
 }
 
-/// Rejects a surface for which all grids exceed the limit, before it is sampled.
+/// Rejects a random surface for which every grid exceeds the limit of `memory` \[bytes], before its waves are drawn; lengths in
+/// \[m].
 pub(super) fn check_waves_to_draw(
     period: [f64; 2],
     shortest_wavelength: f64,
@@ -93,7 +95,8 @@ pub(super) fn check_waves_to_draw(
     Err(too_large([elements, most], period, kept))
 }
 
-/// The error for waves that need `elements` elements where `most` are allowed; `kept` are the largest wave numbers that fit.
+/// The error for waves that need a grid of `elements` elements where `most` are allowed. `kept` are the largest numbers of
+/// waves along the periods \[m] that fit; `None` if not even one wave does.
 fn too_large([elements, most]: [f64; 2], period: [f64; 2], kept: Option<[usize; 2]>) -> SceneError {
     let Some(numbers) = kept else {
         let problem = format!(
@@ -112,17 +115,19 @@ fn too_large([elements, most]: [f64; 2], period: [f64; 2], kept: Option<[usize; 
     SceneError::at("indenter", problem)
 }
 
-/// Key and advice if the number of elements is chosen by the method.
-const OTHERWISE: [&str; 2] = ["solve.max_memory", "another method"];
+/// Key to change and advice in the message about too much memory, if the method chooses the number of elements.
+const CHOSEN_BY_METHOD: [&str; 2] = ["solve.max_memory", "another method"];
 
-/// Rejects a grid of `elements` elements along the contact if it exceeds the memory limit.
-fn check(
+/// Rejects a grid of `elements` elements along the contact if it exceeds the memory limit or the largest number of time steps.
+/// `key` is the key to change, `finer` the advice.
+fn check_grid(
     problem: &Problem,
     method: Method,
     elements: usize,
     [key, finer]: [&'static str; 2],
 ) -> Result<()> {
-    let Some((needed, allowed)) = needed(problem, method, elements)?.zip(problem.max_memory())
+    let Some((needed, allowed)) =
+        memory_needed(problem, method, elements)?.zip(problem.max_memory())
     else {
         return Ok(());
     };
@@ -134,7 +139,7 @@ fn check(
         BemTransient | MdrTransient => ", a shorter sliding_distance",
         _ => "",
     };
-    let [needed, allowed] = [needed, allowed as f64].map(written);
+    let [needed, allowed] = [needed, allowed as f64].map(binary_size);
     let problem = format!(
         "{} needs up to {needed} of memory for {elements} elements along the contact, and max_memory allows {allowed}; \
          give {finer}{shorter} or a larger max_memory",
@@ -153,6 +158,7 @@ pub(super) struct Limited<'a> {
 }
 
 impl<'a> Limited<'a> {
+    /// Wraps the progress of the caller; nothing is refused yet.
     pub(super) const fn new(problem: &'a Problem, method: Method, watch: &'a dyn Progress) -> Self {
         Self {
             problem,
@@ -176,7 +182,7 @@ impl<'a> Limited<'a> {
 
 impl Progress for Limited<'_> {
     fn may_refine(&self, elements: usize) -> bool {
-        let fits = check(self.problem, self.method, elements, OTHERWISE);
+        let fits = check_grid(self.problem, self.method, elements, CHOSEN_BY_METHOD);
         let fits = fits.map_err(|refused| drop(self.refused.set(refused)));
         fits.is_ok() && self.watch.may_refine(elements)
     }
@@ -190,7 +196,11 @@ impl Progress for Limited<'_> {
 ///
 /// # Errors
 /// As for the method, before anything is solved.
-pub(super) fn needed(problem: &Problem, method: Method, elements: usize) -> Result<Option<f64>> {
+pub(super) fn memory_needed(
+    problem: &Problem,
+    method: Method,
+    elements: usize,
+) -> Result<Option<f64>> {
     let elastomer = problem.elastomer()?;
     if let Body::Periodic(surface) = problem.body() {
         let needed = match problem.motion() {
@@ -210,13 +220,13 @@ pub(super) fn needed(problem: &Problem, method: Method, elements: usize) -> Resu
             indent_along_memory(surface, &elastomer, points, elements)
         }
         (BemTransient, Moving(load)) => move_along_memory(surface, &elastomer, load, elements),
-        _ => return of_line(problem, method, elements),
+        _ => return line_memory(problem, method, elements),
     };
     Ok(Some(half_space?))
 }
 
 /// Memory needed by a time march of the one-dimensional model, \[bytes]; `None` for other methods and loads.
-fn of_line(problem: &Problem, method: Method, elements: usize) -> Result<Option<f64>> {
+fn line_memory(problem: &Problem, method: Method, elements: usize) -> Result<Option<f64>> {
     let surface = problem.body().surface();
     let surface = surface.and_then(Surface::as_axisymmetric);
     let Some(line) = surface.map(EquivalentLine) else {
@@ -234,8 +244,8 @@ fn of_line(problem: &Problem, method: Method, elements: usize) -> Result<Option<
     })
 }
 
-/// A memory size in binary units.
-fn written(bytes: f64) -> String {
+/// A memory size \[bytes] as text in binary units, such as "1.5 GiB".
+fn binary_size(bytes: f64) -> String {
     if bytes >= 2.0_f64.powi(60) {
         return "more than an exbibyte".to_owned();
     }

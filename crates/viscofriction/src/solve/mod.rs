@@ -84,7 +84,7 @@ impl Plan<'_> {
         realisations::mean(problem, |watch| self.solve_one(watch), watch)
     }
 
-    /// Solves for the one surface that the problem holds.
+    /// Solves for the body of the problem, of random surfaces the first. Refuses a first grid that exceeds the memory limit.
     fn solve_one(self, watch: &dyn Progress) -> Result<Answer> {
         let Self {
             problem,
@@ -150,7 +150,7 @@ impl Found {
     }
 }
 
-/// The answer contained in an error of a method; `None` if it contains none.
+/// The answer of a solution that missed the request and is contained in the error of the method; `None` if it contains none.
 fn reached(problem: &Problem, method: Method, why: &SolveError) -> Option<Answer> {
     match why {
         SolveError::HalfSpace(BemError::NotReached { reached, .. }) => {
@@ -161,16 +161,16 @@ fn reached(problem: &Problem, method: Method, why: &SolveError) -> Option<Answer
             elements::reached(problem, rough, (**reached).clone())
         }
         SolveError::Line(MdrError::SlidingNotReached { reached, .. }) => {
-            Some(mdr::of_march((**reached).clone()))
+            Some(mdr::answer_from_march((**reached).clone()))
         }
-        SolveError::Line(MdrError::MotionNotReached { reached, .. }) => {
-            Some(mdr::of_motion(method, Model::Line, (**reached).clone()))
-        }
+        SolveError::Line(MdrError::MotionNotReached { reached, .. }) => Some(
+            mdr::answer_from_motion(method, Model::Line, (**reached).clone()),
+        ),
         SolveError::Line(MdrError::NotConverged { reached, .. }) if method == Method::MdrSteady => {
-            Some(mdr::of_steady((**reached).clone()))
+            Some(mdr::answer_from_steady((**reached).clone()))
         }
         SolveError::Line(MdrError::HistoryNotReached { reached, .. }) => {
-            mdr::of_curve(problem, method, reached)
+            mdr::answer_from_curve(problem, method, reached)
         }
         _ => None,
     }

@@ -12,11 +12,13 @@ use super::validity::mean_slope;
 use crate::quantity::{QUANTITIES, Quantity, Unit};
 use crate::scene::{Accuracy, Method, Model};
 
-/// Fraction of the requested relative error that is left to the method (chosen); the rest is for the error of the series.
-const OF_THE_METHOD: f64 = 0.95;
-/// Bound of the relative change of a quantity per relative change of the moduli. A force is proportional to them. Under a given
-/// force depth and radius change less, area and peak pressure at most twice as much; the bound doubles this again (chosen).
-pub(super) const PER_MODULUS: f64 = 4.0;
+/// Fraction of the requested relative error that is requested of the method, if a Prony series approximates the material
+/// (chosen); the rest is left for the error of the series.
+const SOLVER_ERROR_SHARE: f64 = 0.95;
+/// Bound of the relative change of a quantity over the relative change of the moduli (chosen). A force at a given depth is
+/// proportional to them. Under a given force depth and radius change less, area and peak pressure at most twice as much; the
+/// bound doubles this.
+pub(super) const MODULUS_ERROR_AMPLIFICATION: f64 = 4.0;
 
 impl Problem {
     /// Relative error of the moduli; 0 if the material is exact.
@@ -25,11 +27,12 @@ impl Problem {
             .map_or(0.0, |expansion| expansion.relative_error)
     }
 
-    /// Accuracy requested of the method, reduced to leave room for the error of the moduli.
-    pub(crate) fn of_the_method(&self) -> Accuracy {
+    /// Accuracy requested of the method: [`SOLVER_ERROR_SHARE`] of the relative error asked for if a series approximates the
+    /// material, else that of the problem.
+    pub(crate) fn solver_accuracy(&self) -> Accuracy {
         match self.accuracy() {
             Accuracy::RelativeError(error) if self.expansion().is_some() => {
-                Accuracy::RelativeError(OF_THE_METHOD * error)
+                Accuracy::RelativeError(SOLVER_ERROR_SHARE * error)
             }
             other => other,
         }
@@ -52,7 +55,7 @@ impl Problem {
             return Ok(answer);
         };
         self.check_times(&answer, expansion.time_range)?;
-        let relative = PER_MODULUS * expansion.relative_error;
+        let relative = MODULUS_ERROR_AMPLIFICATION * expansion.relative_error;
         if let Motion::History { .. } = self.motion() {
             return Ok(match answer.method {
                 Method::BemTransient => answer.curve_widened(relative),
@@ -69,7 +72,8 @@ impl Problem {
         self.with_long_waves(answer, &expansion)
     }
 
-    /// Widens the friction of a line contact by the part from times longer than the creep of the series.
+    /// Widens the error of the friction of a line contact by the fraction from waves slower than the creep of the series
+    /// ([`Expansion::slow_wave_fraction`]). An error if this fraction exceeds the requested relative error.
     fn with_long_waves(&self, mut answer: Answer, expansion: &Expansion) -> Result<Answer> {
         let (Body::Cylinder(_), Motion::Sliding(load)) = (self.body(), self.motion()) else {
             return Ok(answer);
@@ -80,7 +84,7 @@ impl Problem {
         if self.thickness() < expansion.creeps_until * load.velocity() {
             return Ok(answer);
         }
-        let part = expansion.beyond(length / load.velocity());
+        let part = expansion.slow_wave_fraction(length / load.velocity());
         if let Accuracy::RelativeError(asked) = self.accuracy()
             && part > asked
         {
@@ -141,8 +145,9 @@ impl Problem {
 }
 
 impl Answer {
-    /// Widens the errors by a relative error of the moduli. The errors of friction coefficients are relative to the mean slope in
-    /// contact, of which friction is a small fraction on a nearly elastic material; a dissipated energy is in proportion to friction.
+    /// Widens the errors of all computed quantities by `relative`, the amplified error of the moduli. That of friction is
+    /// relative to the mean `slope` in contact, of which friction is a small fraction on a nearly elastic material; that of a
+    /// dissipated energy grows in the same ratio.
     fn widened(mut self, relative: f64, slope: f64) -> Self {
         let friction = self.friction_coefficient.map(|known| known.value.abs());
         let friction = friction.filter(|friction| *friction > 0.0);
@@ -171,7 +176,8 @@ impl Answer {
         self
     }
 
-    /// Widens the points of a history, relative to the largest value of each quantity; the last point is the answer.
+    /// Widens the errors at all points of a history by `relative` times the largest value of each quantity; the last point
+    /// becomes the answer.
     fn curve_widened(mut self, relative: f64) -> Self {
         let curve = &mut self.fields.curve;
         for column in &mut curve.columns {
@@ -202,7 +208,7 @@ mod tests {
         "indentation_depth = 1e-5\nvelocity = 0.0\n[solve]\nduration = 100.0",
     ];
 
-    /// The Prony series of a springpot as a material of its own, and the error that [`PER_MODULUS`] multiplies.
+    /// The Prony series of a springpot as a material of its own, and the error that [`MODULUS_ERROR_AMPLIFICATION`] multiplies.
     fn coarse(exponent: f64) -> (String, f64) {
         let element = Springpot::new(1e6, exponent).expect("a springpot");
         let series = element.expand([1e-3, 1e3], 1e-3).expect("a series");
@@ -320,7 +326,7 @@ mod tests {
             changes.extend(others.map(|(a, b)| (b.value / a.value - 1.0).abs()));
             let largest = changes.iter().copied().fold(0.0, f64::max) / error;
             assert!(
-                largest < PER_MODULUS && largest > 1e-4,
+                largest < MODULUS_ERROR_AMPLIFICATION && largest > 1e-4,
                 "exponent {exponent}, {load}: changes by {largest} times {error:e}; friction first {changes:?}"
             );
         }

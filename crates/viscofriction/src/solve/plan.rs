@@ -82,7 +82,7 @@ impl Plan<'_> {
     }
 }
 
-/// Reason if the method belongs to another model than the requested one.
+/// Reason for refusal if the method belongs to another model than the requested one; `None` if it does not.
 fn other_model(method: Method, asked: Model) -> Option<Refusal> {
     let of_method = method.model()?;
     if of_method == asked {

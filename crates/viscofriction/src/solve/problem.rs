@@ -30,18 +30,24 @@ use crate::text::WrongInput;
 /// ```
 #[derive(Debug)]
 pub struct Problem {
+    /// Body and elastomer.
     parts: Parts,
+    /// Thickness of the elastomer, \[m]; infinite for a half space.
     thickness: f64,
     motion: Motion,
     accuracy: Accuracy,
     method: Option<Method>,
     model: Model,
     threads: Option<usize>,
+    /// Memory limit of one solution, \[bytes]; `None` for no limit.
     max_memory: Option<u64>,
     /// True once the memory limit has rejected a grid.
     is_short_of_memory: Arc<AtomicBool>,
+    /// The material reduced to one with closed forms; `None` if it has none.
     simple: Option<Simple>,
+    /// The scene from which random surfaces are drawn; `None` for a single surface.
     realisations: Option<Realisations>,
+    /// Length \[m] below which waves of the surface were removed; `None` if none were.
     shortest_wavelength: Option<f64>,
 }
 
@@ -52,6 +58,7 @@ struct Realisations {
     count: u64,
     /// Relative standard error of the mean at which sampling stops; `None` for all `count` surfaces.
     standard_error: Option<f64>,
+    /// The scene, from which the problem of each surface is built.
     scene: Scene,
     folder: PathBuf,
     read: ReadFile,
@@ -193,8 +200,9 @@ impl Problem {
             .collect()
     }
 
-    /// The problem for one of the random surfaces, counted from 0, with one of `parts` equal parts of the memory.
-    pub(super) fn of_surface(&self, surface: u64, parts: u64) -> Result<Self, SceneError> {
+    /// The problem for one of the random surfaces, counted from 0, with one of `parts` equal parts of the memory. It has the
+    /// same accuracy and cut-off wavelength.
+    pub(super) fn realisation_problem(&self, surface: u64, parts: u64) -> Result<Self, SceneError> {
         let nothing_random = || SceneError::at("indenter", "no surface is drawn".to_owned());
         let of = self.realisations.as_ref().ok_or_else(nothing_random)?;
         let (indenter, _) = of
@@ -356,7 +364,8 @@ impl Problem {
         Ok(Layer::new(&*self.parts.half_space.material, self.thickness).map_err(BemError::from)?)
     }
 
-    /// Rejects sliding at a given depth over an approximated half space: its force depends on times beyond every range.
+    /// Rejects sliding at a given depth over a half space whose material a Prony series approximates: the force depends on
+    /// times beyond every range.
     fn check_control(&self) -> Result<(), SceneError> {
         if self.expansion().is_some()
             && self.model == Model::HalfSpace
@@ -405,7 +414,8 @@ fn no_files(path: &Path, _: u64) -> Result<Vec<u8>, WrongInput> {
     Err(WrongInput(format!("{}: {problem}", path.display())))
 }
 
-/// A history or motion, whose end is given by its own points; rejects a duration, a distance and a track.
+/// A history or motion as given, which ends with its own points or cycles; rejects a duration, a distance and a track beside
+/// it.
 fn ended(scene: &Scene, motion: Motion) -> Result<Motion, SceneError> {
     let times = [
         ("solve.duration", scene.solve.duration),
@@ -434,7 +444,8 @@ const NO_PASS: &str = "a material that flows gives way further in every pass, an
 const ENDLESS: &str =
     "on a track the stationary state is answered, which has no duration and no sliding_distance";
 
-/// Sliding if the velocity is positive, else indentation.
+/// Sliding at constant speed if the velocity of the scene is positive, else indentation for its duration. Rejects a track
+/// beside a duration or distance.
 fn motion(scene: &Scene, body: &Body) -> Result<Motion, SceneError> {
     let wrong = |error: IndenterError| SceneError::at("load", error.to_string());
     let control = scene.load.control(body.period_area())?;

@@ -51,7 +51,7 @@ pub(super) fn share_memory_of<T>(
                 ControlFlow::Continue(())
             }
         };
-        if each(&tasks, at_once, one).is_break() || at_once == 1 {
+        if run_in_turn(&tasks, at_once, one).is_break() || at_once == 1 {
             return;
         }
         tasks = without_memory
@@ -62,8 +62,9 @@ pub(super) fn share_memory_of<T>(
     }
 }
 
-/// Runs the tasks from a shared queue on `at_once` threads.
-fn each(
+/// Runs the tasks in turn on `at_once` threads, each of which takes the next one. After a break of one no further task is
+/// started, and the result is a break.
+fn run_in_turn(
     tasks: &[usize],
     at_once: usize,
     one: impl Fn(usize) -> ControlFlow<()> + Sync,

@@ -11,25 +11,26 @@ use super::curve::{AREA, DEPTH, RADIUS};
 use super::half_space::Simple;
 use super::problem::{Motion, Problem};
 
-/// Mean slope in contact above which a warning is given (chosen).
-const STEEPEST: f64 = 0.5;
-/// Indentation depth relative to the radius of a sphere or the thickness of a layer above which a warning is given (chosen).
-const DEEPEST: f64 = 1.0 / 3.0;
+/// Mean slope of the body in contact above which a warning is given (chosen: linear theory needs a small one).
+const MAX_MEAN_SLOPE: f64 = 0.5;
+/// Indentation depth over the radius of a sphere, or over the thickness of a layer, above which a warning is given (chosen: a
+/// third).
+const MAX_RELATIVE_DEPTH: f64 = 1.0 / 3.0;
 
 /// Warnings about the validity of an answer, after those of its files; without any the linear theory holds.
 pub(super) fn warnings(problem: &Problem, answer: &Answer) -> Vec<String> {
     let body = problem.body();
     let mut warnings = problem.warnings().to_vec();
-    if let Some(slope) = mean_slope(body, answer).filter(|slope| *slope > STEEPEST) {
+    if let Some(slope) = mean_slope(body, answer).filter(|slope| *slope > MAX_MEAN_SLOPE) {
         warnings.push(format!(
-            "the mean slope of the surface in contact is {slope:.2}, and linear theory needs a small one: above {STEEPEST} \
+            "the mean slope of the surface in contact is {slope:.2}, and linear theory needs a small one: above {MAX_MEAN_SLOPE} \
              its answers are rough"
         ));
     }
     let last = answer.indentation_depth.map_or(0.0, |depth| depth.value);
     let depth = answer.fields.curve.largest(DEPTH).max(last);
     if let Body::Revolution(Revolution::Sphere(sphere)) = body
-        && depth > DEEPEST * sphere.radius()
+        && depth > MAX_RELATIVE_DEPTH * sphere.radius()
     {
         warnings.push(format!(
             "the indentation depth {depth:.3e} m is more than a third of the radius {} m of the sphere, where linear \
@@ -37,20 +38,20 @@ pub(super) fn warnings(problem: &Problem, answer: &Answer) -> Vec<String> {
             Rounded(sphere.radius())
         ));
     }
-    if depth > DEEPEST * problem.thickness() {
+    if depth > MAX_RELATIVE_DEPTH * problem.thickness() {
         warnings.push(format!(
             "the indentation depth {depth:.3e} m is more than a third of the thickness {} m of the layer, where linear \
              theory ends",
             Rounded(problem.thickness())
         ));
     }
-    warnings.extend(extrapolated(problem, answer).or_else(|| held_outside(problem)));
-    warnings.extend(cut_off(body, answer));
+    warnings.extend(extrapolation_warning(problem, answer).or_else(|| duration_warning(problem)));
+    warnings.extend(shortest_octave_warning(body, answer));
     warnings
 }
 
-/// Warning about friction from frequencies at which the material was not measured.
-fn extrapolated(problem: &Problem, answer: &Answer) -> Option<String> {
+/// Warning if a large part of the friction comes from frequencies at which the material was not measured; `None` otherwise.
+fn extrapolation_warning(problem: &Problem, answer: &Answer) -> Option<String> {
     let [lowest, highest] = problem.window()?.map(Rounded);
     let percent = |share: Option<f64>| format!("{:.0} %", 100.0 * share.unwrap_or_default());
     let of_window = &answer.dissipation;
@@ -65,8 +66,8 @@ fn extrapolated(problem: &Problem, answer: &Answer) -> Option<String> {
     })
 }
 
-/// Warning about times of the load at which the material was not measured.
-fn held_outside(problem: &Problem) -> Option<String> {
+/// Warning if a duration of the load is outside the times 1/ω of the measured frequencies; `None` otherwise.
+fn duration_warning(problem: &Problem) -> Option<String> {
     let [longest, shortest] = problem.window()?.map(f64::recip);
     let mut taken = problem.durations();
     taken.sort_by(f64::total_cmp);
@@ -79,8 +80,8 @@ fn held_outside(problem: &Problem) -> Option<String> {
     })
 }
 
-/// Warning about an answer that depends on the shortest waves of a rough surface.
-fn cut_off(body: &Body, answer: &Answer) -> Option<String> {
+/// Warning if the answer depends on the shortest octave of waves of a rough surface; `None` otherwise.
+fn shortest_octave_warning(body: &Body, answer: &Answer) -> Option<String> {
     let Body::Periodic(surface) = body else {
         return None;
     };
@@ -102,8 +103,9 @@ pub(super) fn not_modelled(problem: &Problem) -> Vec<&'static str> {
     words.map(|(word, _)| word).collect()
 }
 
-/// Mean slope from the lowest point to the farthest edge of the contact; for a periodic surface the rms slope. If no edge is
-/// known it is the friction coefficient, which is a mean of the slope.
+/// Mean slope h(r)/r from the lowest point to the farthest edge r of the contact; for a periodic surface the rms slope. If no
+/// edge is known it is the friction coefficient, which is a mean of the slope. `None` if that is not known, or the height at
+/// the edge is infinite.
 pub(super) fn mean_slope(body: &Body, answer: &Answer) -> Option<f64> {
     if let Body::Periodic(surface) = body {
         return Some(surface.rms_slope());

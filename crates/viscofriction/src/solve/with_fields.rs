@@ -15,11 +15,11 @@ use super::problem::{Motion, Problem};
 use super::{layer, mdr};
 use crate::scene::{Control, Method};
 
-/// Sampled pressures on each side of the middle (chosen; output only).
+/// Number of sampled pressures on each side of the middle of the contact (chosen; output only).
 const N_PLACES: usize = 100;
-/// Error of the work along a history, relative to its largest value (chosen).
+/// Error requested of the work along a history, over its largest value (chosen).
 const WORK: f64 = 1e-4;
-/// Intervals in time after first touch (chosen; output only).
+/// Number of intervals in time at which the contact since first touch is evaluated (chosen; output only).
 const N_TIMES: usize = 60;
 
 /// Adds pressure and history to a closed form of indentation, and the work to an indentation history of the one-dimensional
@@ -49,8 +49,8 @@ pub fn with_fields(problem: &Problem, mut answer: Answer) -> Answer {
         (problem.motion(), problem.body())
         && answer.method != Method::BemTransient
     {
-        let options = mdr::following(problem, WORK);
-        let profile = layer::equivalent(problem, body, points).ok();
+        let options = mdr::history_options(problem, WORK);
+        let profile = layer::equivalent_profile(problem, body, points).ok();
         let work = profile
             .and_then(|profile| work_along(&*profile, problem.material(), points, &options).ok());
         let column = work.map(|values| CurveColumn {
@@ -62,8 +62,8 @@ pub fn with_fields(problem: &Problem, mut answer: Answer) -> Answer {
     answer
 }
 
-/// The contact at times that are dense just after first touch, where it changes fastest; times at which a quantity underflows are
-/// left out.
+/// The contact at the times duration (k/60)⁴ \[s], dense just after first touch where it changes fastest. Times below those of
+/// an expanded series, and times at which a quantity underflows, are left out.
 fn since_touch(problem: &Problem, body: &Revolution, duration: f64) -> Vec<CurvePoint> {
     let point = |time: f64| {
         let answer = pressed(body, problem.material(), problem.motion().control(), time);
@@ -86,7 +86,8 @@ fn since_touch(problem: &Problem, body: &Revolution, duration: f64) -> Vec<Curve
     times.filter_map(point).collect()
 }
 
-/// Pressure along a diameter, G/(2 (1 − ν)) times that of unit modulus; `None` if it is not defined or not accurate.
+/// Position \[m] and pressure \[Pa] along a diameter: that of a dashpot of 1 Pa s times G(t)/(2 (1 − ν)). `None` under a
+/// constant force on a material that creeps, and if the slope of the body jumps inside the contact.
 fn pressure_of_revolution(
     problem: &Problem,
     body: &Revolution,
@@ -106,7 +107,7 @@ fn pressure_of_revolution(
         return None;
     }
     let pressure = |radius| Some(modulus * indentation_pressure(&**body, depth, radius).ok()?);
-    across(edge, edge < body.max_radius(), pressure)
+    symmetric_pressure(edge, edge < body.max_radius(), pressure)
 }
 
 /// Pressure under a cylinder, p = p₀ √(1 − (x/b)²) (Hertz 1881).
@@ -114,12 +115,13 @@ fn pressure_of_cylinder(answer: &Answer) -> Option<Vec<[f64; 2]>> {
     let peak = answer.peak_pressure?.value;
     let [_, edge] = answer.contact_box.as_ref()?.x;
     let pressure = |place: f64| Some(peak * (1.0 - (place / edge).powi(2)).sqrt());
-    across(edge, true, pressure)
+    symmetric_pressure(edge, true, pressure)
 }
 
-/// A symmetric pressure from edge to edge of a contact, without the places where it may be infinite: the middle, and the edges of
-/// the body. If the contact ends inside the body, the pressure vanishes there like a square root, so samples are dense.
-fn across(
+/// Position \[m] and value of a symmetric pressure from −`edge` to `edge`, in order. The middle, and an edge of the body, are
+/// left out, because the pressure may be infinite there. If the contact `ends_inside` the body, the pressure vanishes like a
+/// square root, and the samples are dense there.
+fn symmetric_pressure(
     edge: f64,
     ends_inside: bool,
     pressure: impl Fn(f64) -> Option<f64>,

@@ -18,7 +18,7 @@ use super::{analytic, elements, layer, mdr};
 use crate::scene::Method::{self, Analytic, BemSteady, BemTransient, MdrSteady, MdrTransient};
 use crate::scene::{Accuracy, Control, Model};
 
-/// The computation of one method, ready to run.
+/// The computation of one method for a problem, ready to run: a function from a progress to the answer.
 pub(crate) type Work<'a> = Box<dyn FnOnce(&dyn Progress) -> Result<Answer> + Send + 'a>;
 /// The computation of a method, or the reason why it does not answer the problem.
 pub(crate) type Offer<'a> = Result<Work<'a>, Refusal>;
@@ -68,7 +68,7 @@ const NOTHING_SLIDES: Refusal =
 
 /// The computation of `method`, also if the problem names another method or model.
 pub(super) fn work(problem: &Problem, method: Method) -> Offer<'_> {
-    let accuracy = problem.of_the_method();
+    let accuracy = problem.solver_accuracy();
     let is_history = matches!(problem.motion(), History { .. });
     let has_layers =
         matches!(method, BemSteady | BemTransient) || (is_history && method == Analytic);
@@ -88,7 +88,7 @@ pub(super) fn work(problem: &Problem, method: Method) -> Offer<'_> {
     require(rises || !matches!(problem.motion(), Sliding(_)), NO_FRONT)?;
     match (problem.body(), method) {
         (Body::Cylinder(cylinder), _) => line_contact(problem, cylinder, method, accuracy),
-        (Body::Revolution(body), Analytic) => closed(problem, body, accuracy),
+        (Body::Revolution(body), Analytic) => closed_form(problem, body, accuracy),
         (Body::Revolution(body), MdrSteady | MdrTransient) => {
             one_dimensional(problem, &**body, method, accuracy)
         }
@@ -106,13 +106,13 @@ pub(super) fn work(problem: &Problem, method: Method) -> Offer<'_> {
     }
 }
 
-/// Requires that a method answers the problem on its track.
+/// Refuses a track unless a stationary method solves it on a material without expanded series.
 fn require_track(problem: &Problem, method: Method) -> Result<(), Refusal> {
     require(matches!(method, MdrSteady | BemSteady), NO_TRACK)?;
     require(problem.expansion().is_none(), NO_BAR)
 }
 
-/// True if the profile rises to its edge; false for a flat punch.
+/// True if the body is higher at its edge than at its lowest point; false for a flat punch, whose slope in the contact is 0.
 fn has_front(body: &Body) -> bool {
     match body {
         Body::Revolution(body) => {
@@ -134,7 +134,7 @@ fn require(holds: bool, refusal: Refusal) -> Result<(), Refusal> {
     if holds { Ok(()) } else { Err(refusal) }
 }
 
-/// True if a single body sinks without limit: the material flows and is not a layer.
+/// True if a single body sinks without limit under a force: the material flows and is a half space.
 fn sinks(problem: &Problem) -> bool {
     problem.material().creep().fluidity() > 0.0 && !problem.thickness().is_finite()
 }
@@ -252,7 +252,8 @@ fn line_contact<'a>(
     }
 }
 
-/// A periodic surface with its load; a reason if the load or the material does not suit it.
+/// A periodic surface with its mean pressure, velocity and distance; a refusal at a given depth, and of sliding over a material
+/// that flows.
 pub(super) fn rough<'a>(
     problem: &Problem,
     surface: &'a PeriodicSurface,
@@ -381,7 +382,7 @@ fn one_dimensional<'a>(
 }
 
 /// A body of revolution in closed form or by quadrature.
-fn closed<'a>(problem: &'a Problem, body: &'a Revolution, accuracy: Accuracy) -> Offer<'a> {
+fn closed_form<'a>(problem: &'a Problem, body: &'a Revolution, accuracy: Accuracy) -> Offer<'a> {
     let Accuracy::RelativeError(asked) = accuracy else {
         return Err(NO_ELEMENTS);
     };
@@ -402,7 +403,8 @@ fn closed<'a>(problem: &'a Problem, body: &'a Revolution, accuracy: Accuracy) ->
     }
 }
 
-/// The closed form of stationary or transient sliding in the one-dimensional model; `window` of the material is not considered.
+/// The closed form of stationary or transient sliding in the one-dimensional model, or a refusal. It has no field from which
+/// the part of the friction outside the measured frequencies follows; the caller refuses a material with such frequencies.
 pub(crate) fn closed_line<'a>(
     material: Option<&'a Simple>,
     body: &'a Revolution,

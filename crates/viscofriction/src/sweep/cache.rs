@@ -16,8 +16,9 @@ const BODY_MEMORY_FRACTION: f64 = 0.25;
 /// What a table describes does not depend on the point, so that a row is the same with and without the cache.
 #[derive(Debug, Default)]
 pub(super) struct PartsCache {
-    /// By the table of the body and the memory limit, which may refuse it \[bytes].
+    /// Bodies by their table and the memory limit \[bytes], because a body may be refused by it.
     bodies: Cache<(Indenter, u64), BodyOfScene>,
+    /// Elastomers by their table.
     half_spaces: Cache<MaterialTable, HalfSpace>,
 }
 
@@ -40,10 +41,12 @@ impl PartsCache {
     }
 }
 
-/// Values by their keys; those used last are kept, at least one.
+/// Values by their keys, in the order of their last use. The oldest are dropped when there are too many or they are too large;
+/// one always remains.
 #[derive(Debug)]
 struct Cache<K, V>(Mutex<Vec<Entry<K, V>>>);
 
+/// A value in the cache, shared with those who use it.
 #[derive(Debug)]
 struct Entry<K, V> {
     key: K,
@@ -90,6 +93,7 @@ impl<K: PartialEq, V> Cache<K, V> {
         Ok(value)
     }
 
+    /// Locks the entries, also after a panic of another thread.
     fn entries(&self) -> MutexGuard<'_, Vec<Entry<K, V>>> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -7,8 +7,8 @@ use numerics::{SilentProgress, whole_part};
 use toml::{Table, Value};
 
 use super::cache::PartsCache;
-use super::row::{BETWEEN_WARNINGS, CHECKS, EMPTY, SweepRow, canonical, digits, hashed};
-use super::vary::{MOST_POINTS, SAMPLE, Varied, Vary};
+use super::row::{BETWEEN_WARNINGS, CHECKS, EMPTY_HASH, SweepRow, canonical, hash_text, hashed};
+use super::vary::{MAX_POINTS, SAMPLE, Varied, Vary};
 use crate::files::{Files, ReadFile};
 use crate::quantity::differentiated;
 use crate::scene::{PATH_KEYS, Scene, SceneError, Source, scene_file, split_index};
@@ -20,8 +20,11 @@ use crate::text::WrongInput;
 /// A scene with its varied keys.
 #[derive(Debug)]
 pub struct Plan {
+    /// The scene file.
     source: Source,
+    /// Keys and values of the scene, with a table `solve`.
     table: Table,
+    /// The varied keys with their values; the last varies fastest.
     vary: Vec<Vary>,
     /// Hash of the scene, of the contents of its files, and of the varied keys. It ignores comments, the order of keys in the
     /// scene, `solve.threads` and `solve.max_memory`.
@@ -31,6 +34,7 @@ pub struct Plan {
     /// Memory limit for all points computed concurrently, if the scene gives none, \[bytes]; `None` for no limit.
     pub max_memory: Option<u64>,
     read: ReadFile,
+    /// Bodies and elastomers that points share.
     parts: PartsCache,
 }
 
@@ -44,7 +48,7 @@ impl Plan {
         // The table `solve` is optional, but its keys can be varied.
         let solve = || Value::Table(Table::new());
         table.entry("solve").or_insert_with(solve);
-        check(&source, vary)?;
+        check_vary(&source, vary)?;
         let mut scene = table.clone();
         // Leave threads and memory out of the hash: they do not change a point.
         if let Some(Value::Table(solve)) = scene.get_mut("solve") {
@@ -54,9 +58,9 @@ impl Plan {
         let files = Files {
             folder: source.folder(),
             read,
-            memory: memory(&table),
+            memory: memory_limit(&table),
         };
-        let mut hash = hashed(EMPTY, format!("{scene}\n{vary:?}").as_bytes());
+        let mut hash = hashed(EMPTY_HASH, format!("{scene}\n{vary:?}").as_bytes());
         let mut names = named_files(&table);
         names.extend(varied_files(vary));
         let mut known = BTreeSet::new();
@@ -67,7 +71,7 @@ impl Plan {
             hash = hashed(hash, &contents.unwrap_or_default());
         }
         Ok(Self {
-            fingerprint: digits(hash),
+            fingerprint: hash_text(hash),
             source,
             table,
             vary: vary.to_vec(),
@@ -240,7 +244,7 @@ impl Plan {
         Answer::columns().into_iter().chain(asked).collect()
     }
 
-    /// Cells after the [`identity`](Self::identity) and the checks, without the failure.
+    /// Cells of a row from the method to the warnings; empty ones without an answer.
     fn results(&self, found: Option<&Answer>) -> Vec<String> {
         let Some(answer) = found else {
             return vec![String::new(); self.columns().len() + 4];
@@ -251,7 +255,7 @@ impl Plan {
         let uncertainties =
             differentiated().flat_map(|quantity| [&material, &total].map(|of| of.of(quantity.key)));
         let numbers = numbers.chain(uncertainties.filter(|_| self.sensitivity));
-        let numbers = numbers.map(|value| value.map_or(String::new(), written));
+        let numbers = numbers.map(|value| value.map_or(String::new(), decimal));
         let warnings = one_line(&answer.warnings.join(BETWEEN_WARNINGS));
         let after = [answer.unknowns.to_string(), warnings];
         names.into_iter().chain(numbers).chain(after).collect()
@@ -271,11 +275,11 @@ impl Plan {
         let mut table = self.table.clone();
         let build = || {
             for (key, value) in self.keys().zip(&values).filter(|(key, _)| *key != SAMPLE) {
-                set(&mut table, key, value)?;
+                set_key(&mut table, key, value)?;
             }
             let mut scene = scene_file(table)?;
             if let Some(sample) = self.sample(point) {
-                let sample = whole(SAMPLE, sample)?;
+                let sample = sample_index(SAMPLE, sample)?;
                 scene = sampled(&scene, (self.source.folder(), self.read), sample)?;
             }
             // Body and elastomer are shared, so all of the memory is available to read them.
@@ -299,7 +303,7 @@ impl Plan {
 }
 
 /// Rejects a key that is varied twice, too many points, and texts that do not fit into a cell.
-fn check(source: &Source, vary: &[Vary]) -> Result<(), WrongInput> {
+fn check_vary(source: &Source, vary: &[Vary]) -> Result<(), WrongInput> {
     let is_broken =
         |value: &Varied| matches!(value, Varied::Text(text) if text.contains(char::is_control));
     for (index, one) in vary.iter().enumerate() {
@@ -313,8 +317,8 @@ fn check(source: &Source, vary: &[Vary]) -> Result<(), WrongInput> {
     }
     let mut counts = vary.iter().map(|vary| vary.values.len());
     let points = counts.try_fold(1_usize, usize::checked_mul);
-    if points.is_none_or(|points| points > MOST_POINTS) {
-        let problem = format!("--vary gives more than {MOST_POINTS} points");
+    if points.is_none_or(|points| points > MAX_POINTS) {
+        let problem = format!("--vary gives more than {MAX_POINTS} points");
         return Err(WrongInput(problem));
     }
     Ok(())
@@ -340,14 +344,14 @@ fn one_line(text: &str) -> String {
     text.replace(['\n', '\r'], " ")
 }
 
-/// Shortest decimal representation that JSON and Rust read back exactly.
-fn written(value: f64) -> String {
+/// The shortest decimal text that JSON and Rust read back to the same `f64`.
+fn decimal(value: f64) -> String {
     format!("{value:?}")
 }
 
-/// A whole number of samples.
-fn whole(key: &str, number: f64) -> Result<usize, SceneError> {
-    if number.fract() == 0.0 && number >= 0.0 && number <= MOST_POINTS as f64 {
+/// A sample number as an integer; an error at `key` unless it is whole, not negative and at most [`MAX_POINTS`].
+fn sample_index(key: &str, number: f64) -> Result<usize, SceneError> {
+    if number.fract() == 0.0 && number >= 0.0 && number <= MAX_POINTS as f64 {
         return Ok(whole_part(number));
     }
     let problem = format!("a whole number is needed, but it is {number}");
@@ -357,8 +361,9 @@ fn whole(key: &str, number: f64) -> Result<usize, SceneError> {
 /// Message for a varied key whose table is missing.
 const NO_TABLE: &str = "the scene has no such table to vary a key of; a key is given with its tables, as load.velocity";
 
-/// Sets a key in an existing table.
-fn set(table: &mut Table, key: &str, value: &Varied) -> Result<(), SceneError> {
+/// Sets a varied key, given by its path, in the table of a scene. An error if the table of the key does not exist; the key
+/// itself need not.
+fn set_key(table: &mut Table, key: &str, value: &Varied) -> Result<(), SceneError> {
     let missing = || SceneError::at(key, NO_TABLE);
     let (path, last) = key.rsplit_once('.').ok_or_else(missing)?;
     let mut inner = table;
@@ -371,7 +376,7 @@ fn set(table: &mut Table, key: &str, value: &Varied) -> Result<(), SceneError> {
         inner = found.as_table_mut().ok_or_else(missing)?;
     }
     let value = match value {
-        Varied::Number(value) => number(*value),
+        Varied::Number(value) => toml_number(*value),
         Varied::Text(text) => match text.parse() {
             Ok(is) => Value::Boolean(is),
             Err(_) => Value::String(text.clone()),
@@ -381,8 +386,8 @@ fn set(table: &mut Table, key: &str, value: &Varied) -> Result<(), SceneError> {
     Ok(())
 }
 
-/// Writes a whole number as an integer, which every key accepts.
-fn number(value: f64) -> Value {
+/// A number as a TOML value: a whole one as an integer, which keys of integers and of floats accept.
+fn toml_number(value: f64) -> Value {
     let largest = 2.0_f64.powi(53);
     if value.fract() == 0.0 && value.abs() < largest {
         #[expect(
@@ -394,7 +399,7 @@ fn number(value: f64) -> Value {
     Value::Float(value)
 }
 
-/// File names anywhere in a scene.
+/// The file names in all tables of a scene, in the order of their keys.
 fn named_files(table: &Table) -> Vec<&str> {
     let mut files = Vec::new();
     for (key, value) in table {
@@ -407,7 +412,7 @@ fn named_files(table: &Table) -> Vec<&str> {
     files
 }
 
-/// File names among the varied values.
+/// The file names among the values of varied keys.
 fn varied_files(vary: &[Vary]) -> impl Iterator<Item = &str> {
     let names_files = |vary: &&Vary| {
         vary.key
@@ -426,7 +431,7 @@ fn varied_files(vary: &[Vary]) -> impl Iterator<Item = &str> {
 }
 
 /// Memory limit of the scene, \[bytes]; `None` if it gives none or is invalid.
-fn memory(table: &Table) -> Option<u64> {
+fn memory_limit(table: &Table) -> Option<u64> {
     let scene = scene_file(table.clone()).ok()?;
     scene.solve.checked_memory().ok()?
 }

@@ -60,7 +60,7 @@ impl SweepRow {
         let check = fields.len();
         fields.extend([String::new(), PROGRAM.to_owned()]);
         fields.extend(results);
-        fields[check] = written(sums(&super::header(plan), &fields));
+        fields[check] = checksum_text(checksum(&super::header(plan), &fields));
         Self { point, fields }
     }
 
@@ -73,8 +73,10 @@ impl SweepRow {
     pub fn check(&self, header: &[String]) -> Result<(), RowError> {
         let place = header.iter().position(|name| name == CHECK);
         let cell = place.and_then(|place| self.fields.get(place));
-        let expected = cell.and_then(|cell| read(cell)).ok_or(RowError::NoCheck)?;
-        let found = sums(header, &self.fields);
+        let expected = cell
+            .and_then(|cell| parse_checksum(cell))
+            .ok_or(RowError::NoCheck)?;
+        let found = checksum(header, &self.fields);
         if found != expected {
             return Err(self.changed(header, expected, found));
         }
@@ -87,7 +89,8 @@ impl SweepRow {
         }
     }
 
-    /// Identifies a single changed cell: its number times the change of the first sum is the change of the second.
+    /// The error for a row whose checksum is `found` instead of `expected`. A single changed cell n changes the two sums by d
+    /// and n d, so that n is the factor between their changes.
     fn changed(&self, header: &[String], expected: [u64; 2], found: [u64; 2]) -> RowError {
         let [plain, weighted] = [0, 1].map(|sum| found[sum].wrapping_sub(expected[sum]));
         let explains = |number: &usize| plain.wrapping_mul(*number as u64) == weighted;
@@ -131,12 +134,12 @@ pub(super) fn canonical(cell: &str) -> String {
 
 /// Sums of hₙ and of n hₙ over the cells n = 1, 2, … of a row, modulo 2⁶⁴, without the checksum. The hash hₙ includes the name of
 /// the column. A change of one cell changes the sums by d and n d, which determines n.
-fn sums(header: &[String], fields: &[String]) -> [u64; 2] {
+fn checksum(header: &[String], fields: &[String]) -> [u64; 2] {
     let mut sums = [0_u64; 2];
     for (index, cell) in fields.iter().enumerate() {
         let name = header.get(index).map_or("", String::as_str);
         if name != CHECK {
-            let hash = hashed(hashed(EMPTY, name.as_bytes()), b"=");
+            let hash = hashed(hashed(EMPTY_HASH, name.as_bytes()), b"=");
             let hash = hashed(hash, canonical(cell).as_bytes());
             let number = index as u64 + 1;
             sums[0] = sums[0].wrapping_add(hash);
@@ -146,21 +149,21 @@ fn sums(header: &[String], fields: &[String]) -> [u64; 2] {
     sums
 }
 
-/// Prefix of a hash. Without it some hashes are valid numbers, which spreadsheets reformat.
+/// Prefix of a hash in a cell. Without it some hashes look like numbers (as 1e5), which spreadsheets reformat.
 const NO_NUMBER: char = 'x';
 
-/// A hash as the text of a cell.
-pub(super) fn digits(hash: u64) -> String {
+/// A hash as the text of a cell: the prefix and 16 hexadecimal digits.
+pub(super) fn hash_text(hash: u64) -> String {
     format!("{NO_NUMBER}{hash:016x}")
 }
 
 /// Both sums as the text of the checksum cell.
-fn written([plain, weighted]: [u64; 2]) -> String {
-    format!("{}{weighted:016x}", digits(plain))
+fn checksum_text([plain, weighted]: [u64; 2]) -> String {
+    format!("{}{weighted:016x}", hash_text(plain))
 }
 
 /// Both sums from a checksum cell; `None` if it is malformed.
-fn read(check: &str) -> Option<[u64; 2]> {
+fn parse_checksum(check: &str) -> Option<[u64; 2]> {
     let digits = check.strip_prefix(NO_NUMBER)?;
     let (plain, weighted) = digits.split_at_checked(16)?;
     let number = |digits| u64::from_str_radix(digits, 16).ok();
@@ -168,7 +171,7 @@ fn read(check: &str) -> Option<[u64; 2]> {
 }
 
 /// FNV-1a hash of no bytes, 64 bits (offset basis of the algorithm).
-pub(super) const EMPTY: u64 = 0xcbf2_9ce4_8422_2325;
+pub(super) const EMPTY_HASH: u64 = 0xcbf2_9ce4_8422_2325;
 
 /// Continues a FNV-1a hash with more bytes.
 pub(super) fn hashed(before: u64, more: &[u8]) -> u64 {
@@ -208,7 +211,7 @@ mod tests {
             "true",
         ];
         let mut fields = cells.map(str::to_owned).to_vec();
-        fields[4] = written(sums(&header(), &fields));
+        fields[4] = checksum_text(checksum(&header(), &fields));
         SweepRow { point: 0, fields }
     }
 

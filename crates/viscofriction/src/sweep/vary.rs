@@ -22,7 +22,7 @@ impl Vary {
     /// A sentence that states the allowed numbers.
     pub fn samples(count: &str) -> Result<Self, String> {
         // The scene itself takes one of the points.
-        let count = whole("N", count, MOST_POINTS - 1)?;
+        let count = whole_number("N", count, MAX_POINTS - 1)?;
         let values = (0..=count).map(|sample| Varied::Number(sample as f64));
         Ok(Self {
             key: SAMPLE.to_owned(),
@@ -50,7 +50,7 @@ impl fmt::Display for Varied {
     }
 }
 
-/// Every `count`-th point, starting with the `number`-th.
+/// Every `count`-th point, starting with the `finite_number`-th.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Shard {
     /// Number of the shard, from 1 to `count`.
@@ -62,12 +62,14 @@ pub struct Shard {
 /// Spacing of the values of a range.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Scale {
+    /// Equal differences.
     Linear,
+    /// Equal ratios.
     Logarithmic,
 }
 
 /// Largest number of points of a sweep (chosen; more are probably a mistake).
-pub(super) const MOST_POINTS: usize = 1_000_000;
+pub(super) const MAX_POINTS: usize = 1_000_000;
 
 impl FromStr for Vary {
     type Err = String;
@@ -81,10 +83,10 @@ impl FromStr for Vary {
         }
         let parts: Vec<&str> = values.split(':').collect();
         let values = match parts[..] {
-            [start, stop, count] => range([start, stop, count], Scale::Linear)?,
-            [start, stop, count, "log"] => range([start, stop, count], Scale::Logarithmic)?,
+            [start, stop, count] => spaced_values([start, stop, count], Scale::Linear)?,
+            [start, stop, count, "log"] => spaced_values([start, stop, count], Scale::Logarithmic)?,
             [one] if !one.contains(',') => return Err(form.to_owned()),
-            _ if values.contains(',') => list(values)?,
+            _ if values.contains(',') => listed_values(values)?,
             _ => return Err(form.to_owned()),
         };
         Ok(Self {
@@ -95,11 +97,11 @@ impl FromStr for Vary {
 }
 
 /// Values separated by commas: all numbers, or all texts.
-fn list(values: &str) -> Result<Vec<Varied>, String> {
+fn listed_values(values: &str) -> Result<Vec<Varied>, String> {
     let values = values.split(',').map(str::trim);
     let is_number = |value: &str| value.parse::<f64>().is_ok();
     if values.clone().any(is_number) {
-        let numbers = values.map(|value| number("a value", value).map(Varied::Number));
+        let numbers = values.map(|value| finite_number("a value", value).map(Varied::Number));
         return numbers.collect();
     }
     let text = |value: &str| match value {
@@ -109,10 +111,11 @@ fn list(values: &str) -> Result<Vec<Varied>, String> {
     values.map(text).collect()
 }
 
-/// COUNT values from START to STOP, both exact.
-fn range([start, stop, count]: [&str; 3], scale: Scale) -> Result<Vec<Varied>, String> {
-    let [start, stop] = [number("START", start)?, number("STOP", stop)?];
-    let count = whole("COUNT", count, MOST_POINTS)?;
+/// COUNT values from START to STOP at equal differences or ratios, as the command line gives them; both ends are exact. An
+/// error names what is wrong.
+fn spaced_values([start, stop, count]: [&str; 3], scale: Scale) -> Result<Vec<Varied>, String> {
+    let [start, stop] = [finite_number("START", start)?, finite_number("STOP", stop)?];
+    let count = whole_number("COUNT", count, MAX_POINTS)?;
     if scale == Scale::Logarithmic && !(start > 0.0 && stop > 0.0) {
         return Err("START and STOP must be greater than 0 on a logarithmic scale".to_owned());
     }
@@ -128,7 +131,8 @@ fn range([start, stop, count]: [&str; 3], scale: Scale) -> Result<Vec<Varied>, S
     Ok((0..count).map(value).map(Varied::Number).collect())
 }
 
-/// Replaces a value by the nearest power of ten if they differ by rounding only.
+/// The nearest power of ten if a value differs from it by rounding only, so that it is printed as 1e-3 rather than with 17
+/// digits; else the value.
 fn or_power_of_ten(value: f64) -> f64 {
     let power = format!("1e{:.0}", value.log10()).parse().unwrap_or(value);
     // Bound of the rounding of quotient, power and product.
@@ -137,7 +141,7 @@ fn or_power_of_ten(value: f64) -> f64 {
 }
 
 /// A finite number; an error names the parameter.
-fn number(name: &str, text: &str) -> Result<f64, String> {
+fn finite_number(name: &str, text: &str) -> Result<f64, String> {
     let refused = |needed: &str| format!("{name} must be {needed}, but is {text}");
     let value: f64 = text.parse().map_err(|_| refused("a number"))?;
     let finite = Some(value).filter(|value| value.is_finite());
@@ -145,7 +149,7 @@ fn number(name: &str, text: &str) -> Result<f64, String> {
 }
 
 /// A whole number from 1 to `most`; an error names the parameter.
-fn whole(name: &str, text: &str, most: usize) -> Result<usize, String> {
+fn whole_number(name: &str, text: &str, most: usize) -> Result<usize, String> {
     match text.parse() {
         Ok(value) if (1..=most).contains(&value) => Ok(value),
         _ => Err(format!(
@@ -159,8 +163,8 @@ impl FromStr for Shard {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let (number, count) = text.split_once('/').ok_or("I/N is needed, such as 1/4")?;
-        let count = whole("N", count, MOST_POINTS)?;
-        let number = whole("I", number, count)?;
+        let count = whole_number("N", count, MAX_POINTS)?;
+        let number = whole_number("I", number, count)?;
         Ok(Self { number, count })
     }
 }

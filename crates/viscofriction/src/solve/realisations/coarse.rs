@@ -8,8 +8,9 @@ use crate::solve::elements;
 use crate::solve::problem::{Motion, Problem};
 use crate::solve::work::rough;
 
-/// Refinement factors of the coarse grid along both axes, relative to the first grid of an answer (chosen: halving the spacing).
-pub(super) const FINER: [usize; 4] = [1, 2, 4, 8];
+/// Numbers of elements of the coarse grids that are tried, over those of the first grid of an answer, along each axis (chosen:
+/// the spacing halves).
+pub(super) const REFINEMENT_FACTORS: [usize; 4] = [1, 2, 4, 8];
 
 /// Quantities of one surface on a coarse grid.
 #[derive(Debug, Clone, Copy)]
@@ -38,9 +39,10 @@ pub(super) fn has_coarse_grids(problem: &Problem) -> bool {
     }
 }
 
-/// Solves for one surface on a coarse grid; `None` if its contact is not found there.
+/// Solves for one surface, counted from 0, on the coarse grid with the refinement factor `finer`; `None` if its contact is not
+/// found there.
 pub(super) fn solve(problem: &Problem, surface: u64, finer: usize) -> Option<Coarse> {
-    let one = problem.of_surface(surface, 1).ok()?;
+    let one = problem.realisation_problem(surface, 1).ok()?;
     let Body::Periodic(surface) = one.body() else {
         return None;
     };

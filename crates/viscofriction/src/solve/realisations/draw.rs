@@ -4,10 +4,10 @@ use std::ops::Range;
 
 use numerics::{Progress, WorkProgress};
 
-use super::coarse::{self, Coarse, FINER, has_coarse_grids};
+use super::coarse::{self, Coarse, REFINEMENT_FACTORS, has_coarse_grids};
 use super::each::{at_once, on_threads, solve_each};
-use super::over;
 use super::sample::{Counts, FEWEST, Sample, first_enough};
+use super::statistic_of;
 use crate::quantity::scattered;
 use crate::solve::answer::{Answer, Fields};
 use crate::solve::error::{Result, SolveError};
@@ -17,6 +17,7 @@ use crate::solve::problem::Problem;
 pub(super) struct Drawn<'a> {
     problem: &'a Problem,
     progress: WorkProgress<'a>,
+    /// Number of surfaces solved concurrently.
     at_once: usize,
     /// Answers of the first surfaces, with error estimates.
     pub(super) answers: Vec<Answer>,
@@ -26,17 +27,20 @@ pub(super) struct Drawn<'a> {
     pub(super) missed: Option<SolveError>,
 }
 
-/// Largest number of elements of a coarse grid, as a fraction of those of an answer (chosen).
-const LARGEST_PART: f64 = 0.25;
+/// Number of elements of a coarse grid, over that of the finest grid of an answer, above which it is not tried (chosen: the
+/// spacing is then less than twice that of the answer).
+const MAX_COARSE_WORK: f64 = 0.25;
 
 /// A coarse grid with its solutions for the first surfaces.
 struct Trial {
+    /// Refinement factor of the grid, over the first grid of an answer.
     finer: usize,
+    /// Solutions of the surfaces that have an answer, in their order.
     found: Vec<Coarse>,
 }
 
 /// Largest number of surfaces.
-fn most(problem: &Problem) -> usize {
+fn max_surfaces(problem: &Problem) -> usize {
     usize::try_from(problem.realisations()).unwrap_or(usize::MAX)
 }
 
@@ -49,8 +53,8 @@ impl<'a> Drawn<'a> {
         first: impl FnOnce(&dyn Progress) -> Result<Answer>,
     ) -> Result<Self> {
         let count = match problem.standard_error() {
-            Some(_) => FEWEST.min(most(problem)),
-            None => most(problem),
+            Some(_) => FEWEST.min(max_surfaces(problem)),
+            None => max_surfaces(problem),
         };
         let mut drawn = Self {
             problem,
@@ -61,15 +65,15 @@ impl<'a> Drawn<'a> {
             missed: None,
         };
         let first = first(&drawn.progress.partial(1.0));
-        drawn.take([first])?;
+        drawn.add_answers([first])?;
         drawn.progress.add(1.0);
         drawn.at_once = at_once(problem, &drawn.answers[0]);
         drawn.solve(count)?;
         Ok(drawn)
     }
 
-    /// Adds answers; only the first keeps its fields.
-    fn take(&mut self, found: impl IntoIterator<Item = Result<Answer>>) -> Result<()> {
+    /// Appends answers, of which only the first keeps its fields. One that missed its request is used, and the reason kept.
+    fn add_answers(&mut self, found: impl IntoIterator<Item = Result<Answer>>) -> Result<()> {
         for found in found {
             let mut answer = match found {
                 Ok(answer) => answer,
@@ -87,20 +91,21 @@ impl<'a> Drawn<'a> {
         Ok(())
     }
 
-    /// Solves surfaces until `count` are known.
+    /// Solves further surfaces with error estimates until there are `count` answers.
     fn solve(&mut self, count: usize) -> Result<()> {
         let surfaces = self.answers.len()..count;
         let found = solve_each(self.problem, surfaces, self.at_once, &mut self.progress);
-        self.take(found)
+        self.add_answers(found)
     }
 
-    /// Samples more surfaces until the mean has the requested relative standard error, with the least work.
-    pub(super) fn until_known(&mut self, asked: f64) -> Result<()> {
-        let most = most(self.problem);
+    /// Draws and solves further surfaces until the mean has the relative standard error `asked`, with the least work: with or
+    /// without a coarse grid. If the largest number of surfaces does not suffice, the reason is kept in `missed`.
+    pub(super) fn draw_until(&mut self, asked: f64) -> Result<()> {
+        let most = max_surfaces(self.problem);
         if self.relative_standard_error() > asked && most > FEWEST {
-            match self.trial(asked) {
+            match self.best_coarse_grid(asked) {
                 Some(trial) => self.with_coarse_grid(trial, asked, most)?,
-                None => self.one_by_one(asked, most)?,
+                None => self.add_answers_until(asked, most)?,
             }
         }
         let reached = self.relative_standard_error();
@@ -119,8 +124,9 @@ impl<'a> Drawn<'a> {
         self.answers.len().max(self.coarse.len())
     }
 
-    /// Adds answers without a coarse grid. The result is the smallest sufficient number, which does not depend on the batch size.
-    fn one_by_one(&mut self, asked: f64, most: usize) -> Result<()> {
+    /// Adds answers, at most `most` in all, until their mean has the relative standard error `asked`. Answers beyond the
+    /// smallest sufficient number are dropped, so that the result does not depend on the number of threads.
+    fn add_answers_until(&mut self, asked: f64, most: usize) -> Result<()> {
         while self.relative_standard_error() > asked && self.answers.len() < most {
             let solved = self.answers.len();
             let wanted = self.counts(&[], asked, most, 1.0).coarse;
@@ -128,7 +134,7 @@ impl<'a> Drawn<'a> {
                 .set_remaining_work(wanted.saturating_sub(solved).max(1) as f64);
             self.solve(most.min(solved + self.at_once))?;
             let enough = |Sample { fine, .. }: Sample| first_enough(fine, solved + 1, asked);
-            let enough = self.with(&[], enough).flatten();
+            let enough = self.with_sample(&[], enough).flatten();
             self.answers.truncate(enough.unwrap_or(self.answers.len()));
         }
         Ok(())
@@ -138,7 +144,7 @@ impl<'a> Drawn<'a> {
     /// few surfaces is inaccurate.
     fn with_coarse_grid(&mut self, trial: Trial, asked: f64, most: usize) -> Result<()> {
         let Trial { finer, found } = trial;
-        let part = self.part(&found);
+        let part = self.coarse_work(&found);
         self.coarse = found;
         while self.relative_standard_error() > asked {
             // Choose the numbers of answers and coarse solutions of this round.
@@ -163,7 +169,7 @@ impl<'a> Drawn<'a> {
             // If a contact is not found on the coarse grid, continue with answers only.
             let Some(more) = self.on_coarse_grid(finer, now.coarse..coarse) else {
                 self.coarse.clear();
-                return self.one_by_one(asked, most);
+                return self.add_answers_until(asked, most);
             };
             self.progress.add(part * more.len() as f64);
             self.coarse.extend(more);
@@ -173,16 +179,16 @@ impl<'a> Drawn<'a> {
 
     /// The coarse grid that minimises the estimated work for an unlimited number of surfaces; `None` if no coarse grid saves work.
     /// A finer grid is not tried if its work would exceed the minimum even with perfect correlation.
-    fn trial(&self, asked: f64) -> Option<Trial> {
+    fn best_coarse_grid(&self, asked: f64) -> Option<Trial> {
         if !has_coarse_grids(self.problem) {
             return None;
         }
         // Start from the work without a coarse grid.
         let alone = self.counts(&[], asked, usize::MAX, 1.0).coarse as f64;
         let (mut best, mut least) = (None, alone);
-        for finer in FINER {
+        for finer in REFINEMENT_FACTORS {
             let found = self.on_coarse_grid(finer, 0..self.answers.len())?;
-            let part = self.part(&found);
+            let part = self.coarse_work(&found);
             let Counts { fine, coarse } = self.counts(&found, asked, usize::MAX, part);
             let work = fine as f64 + part * coarse as f64;
             if work < least {
@@ -190,7 +196,7 @@ impl<'a> Drawn<'a> {
             }
             // Halving the spacing takes four times the work: stop if that cannot pay.
             let next = 4.0 * part;
-            if next > LARGEST_PART || FEWEST as f64 + next * alone > least {
+            if next > MAX_COARSE_WORK || FEWEST as f64 + next * alone > least {
                 break;
             }
         }
@@ -207,8 +213,9 @@ impl<'a> Drawn<'a> {
         found.collect()
     }
 
-    /// Work on the coarse grid relative to that of an answer, from the numbers of elements.
-    fn part(&self, coarse: &[Coarse]) -> f64 {
+    /// Work for a coarse solution over that for an answer, estimated as the ratio of the numbers of elements; infinite without
+    /// one.
+    fn coarse_work(&self, coarse: &[Coarse]) -> f64 {
         let on = |elements: Option<usize>| elements.map_or(f64::INFINITY, |n| n as f64);
         let of_answer = self.answers[0]
             .period_grid
@@ -216,26 +223,28 @@ impl<'a> Drawn<'a> {
         on(coarse.first().map(|one| one.elements)) / on(of_answer)
     }
 
-    /// A statistic of the quantity that the standard error refers to: friction, or the area fraction if nothing slides.
-    fn with<T>(&self, coarse: &[Coarse], statistic: impl FnOnce(Sample) -> T) -> Option<T> {
+    /// A statistic of the quantity that the standard error refers to, friction or, if nothing slides, the area fraction. `None`
+    /// if an answer or a coarse solution lacks it.
+    fn with_sample<T>(&self, coarse: &[Coarse], statistic: impl FnOnce(Sample) -> T) -> Option<T> {
         let first = &self.answers[0];
         let asked = scattered().find(|quantity| (quantity.of)(first).is_some())?;
-        over(asked, (&self.answers, coarse), statistic)
+        statistic_of(asked, (&self.answers, coarse), statistic)
     }
 
-    /// Numbers of surfaces with the least work; the largest allowed ones if the quantity is not known.
+    /// Numbers of answers and coarse solutions that reach the relative standard error `asked` with the least work, each at most
+    /// `most`; `part` is the work for a coarse solution over that for an answer. Both are `most` if the quantity is not known.
     fn counts(&self, coarse: &[Coarse], asked: f64, most: usize, part: f64) -> Counts {
         let all = Counts {
             fine: most,
             coarse: most,
         };
-        let wanted = self.with(coarse, |sample| sample.wanted(asked, most, part));
+        let wanted = self.with_sample(coarse, |sample| sample.wanted(asked, most, part));
         wanted.unwrap_or(all)
     }
 
     /// Relative standard error so far; infinite if the quantity is not known.
     fn relative_standard_error(&self) -> f64 {
-        let error = self.with(&self.coarse, |sample| sample.relative_standard_error());
+        let error = self.with_sample(&self.coarse, |sample| sample.relative_standard_error());
         error.unwrap_or(f64::INFINITY)
     }
 }

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use crate::solve::answer::Answer;
 use crate::solve::error::Result;
-use crate::solve::memory::needed;
+use crate::solve::memory::memory_needed;
 use crate::solve::plan::plan;
 use crate::solve::problem::Problem;
 use crate::solve::shared_memory::{share_memory_of, threads};
@@ -17,7 +17,8 @@ use crate::solve::shared_memory::{share_memory_of, threads};
 /// Number of surfaces solved concurrently: limited by the threads, and by the memory if all need as much as the first.
 pub(super) fn at_once(problem: &Problem, first: &Answer) -> usize {
     let elements = first.period_grid.map(|[rows, columns]| rows.max(columns));
-    let needed = elements.and_then(|elements| needed(problem, first.method, elements).ok()?);
+    let needed =
+        elements.and_then(|elements| memory_needed(problem, first.method, elements).ok()?);
     let fits = |count: usize| match (problem.max_memory(), needed) {
         (Some(allowed), Some(needed)) => count as f64 * needed <= allowed as f64,
         _ => true,
@@ -65,7 +66,7 @@ fn solve_one(
     parts: u64,
     watch: &dyn Progress,
 ) -> Option<Result<Answer>> {
-    let one = match problem.of_surface(surface as u64, parts) {
+    let one = match problem.realisation_problem(surface as u64, parts) {
         Ok(one) => one,
         Err(_) if parts > 1 => return None,
         Err(why) => return Some(Err(why.into())),
@@ -75,7 +76,7 @@ fn solve_one(
     (parts == 1 || !one.is_short_of_memory()).then_some(answer)
 }
 
-/// Applies a function to each surface, in parallel.
+/// Applies a function to each surface, in parallel; results are in the order of the surfaces.
 #[cfg(feature = "rayon")]
 pub(super) fn on_threads<T: Send>(
     surfaces: &[u64],
@@ -85,6 +86,7 @@ pub(super) fn on_threads<T: Send>(
     surfaces.map(|surface| one(*surface)).collect()
 }
 
+/// Applies a function to each surface, on the calling thread.
 #[cfg(not(feature = "rayon"))]
 pub(super) fn on_threads<T>(surfaces: &[u64], one: impl Fn(u64) -> T) -> Vec<T> {
     surfaces.iter().map(|surface| one(*surface)).collect()

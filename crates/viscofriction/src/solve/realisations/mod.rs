@@ -34,6 +34,7 @@ pub struct Realisation {
 }
 
 impl Realisation {
+    /// Seed and scattering quantities of an answer.
     fn of((answer, seed): (&Answer, &u64)) -> Self {
         let scattered = |quantity: &Quantity| quantity.has_scatter.then(|| (quantity.of)(answer));
         Self {
@@ -98,7 +99,7 @@ pub(super) fn mean(
     // Sample and solve the surfaces.
     let mut drawn = Drawn::new(problem, watch, first)?;
     if let Some(asked) = problem.standard_error() {
-        drawn.until_known(asked)?;
+        drawn.draw_until(asked)?;
     }
     let Drawn {
         answers,
@@ -108,7 +109,7 @@ pub(super) fn mean(
     } = drawn;
     // Average the answers, and correct the means by the coarse solutions.
     let mut answer = mean_of(&answers, &problem.seeds());
-    answer.count((&answers, &coarse));
+    answer.include_coarse((&answers, &coarse));
     let Some(why) = missed else {
         return Ok(answer);
     };
@@ -117,8 +118,9 @@ pub(super) fn mean(
     Err(SolveError::NotReached { answer, why })
 }
 
-/// A statistic of a quantity over all surfaces; `None` if an answer lacks it, or coarse solutions do.
-fn over<T>(
+/// A statistic of the values of a quantity over all surfaces; `None` if an answer lacks the quantity, or coarse solutions never
+/// have it.
+fn statistic_of<T>(
     quantity: &Quantity,
     (answers, coarse): (&[Answer], &[Coarse]),
     statistic: impl FnOnce(Sample) -> T,
@@ -134,10 +136,12 @@ fn over<T>(
 }
 
 impl Answer {
-    /// Adds the surfaces solved on the coarse grid only: scatter, and shifted means. The errors remain those of the answers.
-    fn count(&mut self, all @ (answers, coarse): (&[Self], &[Coarse])) {
+    /// Adds what the coarse solutions say about a mean of answers: the scatter over all surfaces, and the correction ⟨c⟩_N −
+    /// ⟨c⟩ₙ of each mean. The errors remain those of the answers.
+    fn include_coarse(&mut self, all @ (answers, coarse): (&[Self], &[Coarse])) {
         if let Some(ensemble) = &mut self.ensemble {
-            let scatter = |of: &Quantity| over(of, all, |sample| sample.scatter()).flatten();
+            let scatter =
+                |of: &Quantity| statistic_of(of, all, |sample| sample.scatter()).flatten();
             ensemble.scatter =
                 ByQuantity::new(|quantity| scatter(quantity).filter(|_| quantity.has_scatter));
             ensemble.on_coarse_grid = coarse.len().saturating_sub(answers.len());
@@ -146,7 +150,7 @@ impl Answer {
             return;
         }
         for quantity in &QUANTITIES {
-            let shift = over(quantity, all, |sample| sample.shift());
+            let shift = statistic_of(quantity, all, |sample| sample.shift());
             if let Some((field, shift)) = quantity.field.zip(shift)
                 && let Some(mean) = field(self)
             {
@@ -159,7 +163,8 @@ impl Answer {
     }
 }
 
-/// The mean of all answers; fields and histories are those of the first.
+/// The mean of all answers, quantity by quantity; fields and histories are those of the first. A warning appears once, with the
+/// number of surfaces that have it.
 fn mean_of(answers: &[Answer], seeds: &[u64]) -> Answer {
     let share = |index: usize| {
         let shares = answers.iter().map(|one| one.dissipation.shares()[index].1);

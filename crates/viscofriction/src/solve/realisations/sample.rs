@@ -67,7 +67,7 @@ impl Sample<'_> {
         mean(self.fine) + self.shift()
     }
 
-    /// Variances s²(f − c) of the difference and s²(c) + 2 cov(c, f − c) of the rest.
+    /// The variances s²(f − c) and s²(c) + 2 cov(c, f − c), the latter at least 0, from the surfaces that have both values.
     fn variances(&self) -> [f64; 2] {
         let values = self.coarse.iter().map(|value| (*value, *value));
         let both = self.fine.iter().zip(self.coarse);
@@ -80,7 +80,7 @@ impl Sample<'_> {
         ]
     }
 
-    /// Scatter; `None` for one answer.
+    /// Standard deviation of single surfaces and standard error of the mean; `None` for one answer.
     pub(super) fn scatter(&self) -> Option<Scatter> {
         let [difference, rest] = self.variances();
         let error = self.errors_squared([difference, rest]).iter().sum::<f64>();
@@ -90,7 +90,8 @@ impl Sample<'_> {
         })
     }
 
-    /// Contributions of difference and rest to the square of the standard error.
+    /// Contributions s²(f − c)/n and (s²(c) + 2 cov(c, f − c))/N to the square of the standard error, from the
+    /// [`variances`](Self::variances).
     fn errors_squared(&self, [difference, rest]: [f64; 2]) -> [f64; 2] {
         let [fine, coarse] = [self.fine, self.coarse].map(|values| values.len() as f64);
         [difference / fine, rest / coarse]
@@ -103,22 +104,23 @@ impl Sample<'_> {
             return f64::INFINITY;
         }
         let [difference, rest] = self.errors_squared(self.variances());
-        let difference = difference * wider(self.fine.len());
-        let rest = rest * wider(self.coarse.len());
+        let difference = difference * student_factor(self.fine.len());
+        let rest = rest * student_factor(self.coarse.len());
         match (difference + rest).sqrt() {
             0.0 => 0.0,
             error => error / self.mean().abs(),
         }
     }
 
-    /// Numbers of surfaces that reach a relative standard error with the least work, at most `most`. `part` is the work of a
-    /// coarse solution relative to that of an answer; 1 without a coarse grid.
+    /// Numbers n of answers and N of coarse solutions that reach the relative standard error `asked` with the least work n +
+    /// part N, each from 10 to `most`. `part` is the work for a coarse solution over that for an answer; 1 without a coarse
+    /// grid.
     pub(super) fn wanted(&self, asked: f64, most: usize, part: f64) -> Counts {
         // Minimise n + part N for a given variance (Lagrange multiplier), then bound both by the smallest and largest sample.
         let allowed = (asked * self.mean()).powi(2);
         let [difference, rest] = self.variances();
-        let difference = difference * wider(self.fine.len());
-        let rest = rest * wider(self.coarse.len());
+        let difference = difference * student_factor(self.fine.len());
+        let rest = rest * student_factor(self.coarse.len());
         let fine = (difference + (difference * rest * part).sqrt()) / allowed;
         let fine = fine.max(FEWEST as f64).ceil();
         let coarse = rest / (allowed - difference / fine);
@@ -136,8 +138,8 @@ impl Sample<'_> {
             [enough.max(FEWEST as f64).min(most), most]
         };
         Counts {
-            fine: whole(fine),
-            coarse: whole(coarse.max(fine)),
+            fine: rounded_up(fine),
+            coarse: rounded_up(coarse.max(fine)),
         }
     }
 }
@@ -157,12 +159,12 @@ pub(super) fn first_enough(values: &[f64], from: usize, asked: f64) -> Option<us
     clippy::cast_sign_loss,
     reason = "a number of surfaces"
 )]
-fn whole(count: f64) -> usize {
+fn rounded_up(count: f64) -> usize {
     count.ceil() as usize
 }
 
 /// Square of the factor on the standard error of a sample of `count` values (Student's distribution, first order).
-fn wider(count: usize) -> f64 {
+fn student_factor(count: usize) -> f64 {
     (1.0 + 0.5 / (count as f64 - 1.0)).powi(2)
 }
 
@@ -261,7 +263,7 @@ mod tests {
         let (asked, part) = (5e-3, 0.05);
         let work = |counts: Counts| counts.fine as f64 + part * counts.coarse as f64;
         let found = sample.wanted(asked, usize::MAX, part);
-        let [difference, rest] = sample.variances().map(|one| one * wider(10));
+        let [difference, rest] = sample.variances().map(|one| one * student_factor(10));
         let allowed = (asked * sample.mean()).powi(2);
         let left = |counts: Counts| {
             difference / counts.fine as f64 + rest / counts.coarse as f64 <= allowed

@@ -17,11 +17,11 @@ use crate::solve::error::{Result, SolveError};
 use crate::solve::problem::{Motion, Problem};
 use crate::solve::work::rough;
 
-/// Relative step of the finite differences of bodies and materials (chosen; their truncation error is far below the error
-/// estimates).
-const STEP: f64 = 1e-5;
+/// Relative change of a number of the scene, to either side, between whose bodies or materials the adjoint method takes the
+/// change (chosen; the truncation error, of the order of its square, is far below the error estimates).
+const RELATIVE_STEP: f64 = 1e-5;
 /// Error for a contact without derivatives.
-const NONE: SolveError = SolveError::NoSensitivity {
+const NO_DERIVATIVES: SolveError = SolveError::NoSensitivity {
     method: Method::BemSteady,
 };
 
@@ -35,10 +35,10 @@ pub(super) fn sensitivities(
     let contact = Contact::new(problem, load, answer)?;
     let of = |number: &Number| {
         let ends = neighbours(numbers, problem, number)?;
-        let change = change(&contact, number, &ends)?;
+        let change = change_between_ends(&contact, number, &ends)?;
         let width = (ends[1].1 / ends[0].1).ln();
         progress.add(1.0);
-        Ok(relative(number.path(), answer, change, width))
+        Ok(log_derivatives(number.path(), answer, change, width))
     };
     all.iter().map(of).collect()
 }
@@ -52,13 +52,16 @@ pub(super) fn check_surfaces(problem: &Problem) -> Result<(), SceneError> {
     Ok(())
 }
 
-/// The contact of an answer with its adjoint solutions.
+/// The contact of an answer on its finest grid, with one adjoint solution per quantity.
 pub(super) enum Contact {
+    /// A finite body, or a cylinder in plane strain.
     Single(Box<SteadySensitivity>),
+    /// A periodic surface.
     Periodic(Box<PeriodicSensitivity>),
 }
 
 impl Contact {
+    /// Solves the adjoint equations on the finest grid of an answer. Refuses ensembles, and answers without such a grid.
     pub(super) fn new(problem: &Problem, load: &SlidingLoad, answer: &Answer) -> Result<Self> {
         check_surfaces(problem)?;
         let elastomer = problem.elastomer()?;
@@ -68,21 +71,22 @@ impl Contact {
                 Self::Single(Box::new(of_line?))
             }
             (body, Some(StationaryGrid::Contact(options))) => {
-                let surface = body.surface().ok_or(NONE)?;
+                let surface = body.surface().ok_or(NO_DERIVATIVES)?;
                 let near = SteadySensitivity::new(surface, &elastomer, load, &options);
                 Self::Single(Box::new(near?))
             }
             (Body::Periodic(surface), _) => {
-                let pressure = answer.fields.pressure.as_ref().ok_or(NONE)?;
-                let load = rough(problem, surface).map_err(|_| NONE)?.load;
+                let pressure = answer.fields.pressure.as_ref().ok_or(NO_DERIVATIVES)?;
+                let load = rough(problem, surface).map_err(|_| NO_DERIVATIVES)?.load;
                 let near = PeriodicSensitivity::new(surface, &elastomer, &load, pressure);
                 Self::Periodic(Box::new(near?))
             }
-            _ => return Err(NONE),
+            _ => return Err(NO_DERIVATIVES),
         })
     }
 
-    /// Change per change of the logarithm of the complex modulus, in bands between angular frequencies \[rad/s].
+    /// Changes of the quantities per change of the logarithm of storage and loss modulus, in the bands between consecutive
+    /// `frequencies` \[rad/s].
     pub(super) fn by_moduli(&self, frequencies: &[f64]) -> Result<Vec<ByModuli>> {
         Ok(match self {
             Self::Single(near) => near.by_moduli(frequencies),
@@ -90,7 +94,7 @@ impl Contact {
         }?)
     }
 
-    /// Change per change of the given load: force, mean pressure or depth.
+    /// Changes of the quantities per change of the given load: force \[N], mean pressure \[Pa] or depth \[m].
     fn by_load(&self) -> Change<Estimate> {
         match self {
             Self::Single(near) => near.by_load(),
@@ -98,7 +102,7 @@ impl Contact {
         }
     }
 
-    /// Change between two bodies.
+    /// Changes of the quantities from the first to the second of two bodies, to first order in the difference of their heights.
     fn between_bodies(&self, bodies: [&Body; 2]) -> Result<Change<Estimate>> {
         Ok(match self {
             Self::Single(near) => {
@@ -107,12 +111,13 @@ impl Contact {
             }
             Self::Periodic(near) => match bodies {
                 [Body::Periodic(from), Body::Periodic(to)] => near.between_surfaces([from, to]),
-                _ => return Err(NONE),
+                _ => return Err(NO_DERIVATIVES),
             },
         }?)
     }
 
-    /// Change between two materials, each at its velocity \[m/s].
+    /// Changes of the quantities from the first to the second of two materials, each at its velocity \[m/s], to first order in
+    /// the difference of their compliances.
     fn between_materials(
         &self,
         materials: [&dyn Material; 2],
@@ -135,14 +140,15 @@ fn neighbours(
         let value = factor * number.value;
         Ok::<_, SceneError>((numbers.problem(problem, number, value)?, value))
     };
-    match (at(1.0 - STEP), at(1.0 + STEP)) {
+    match (at(1.0 - RELATIVE_STEP), at(1.0 + RELATIVE_STEP)) {
         (Err(error), Err(_)) => Err(error),
         (low, high) => Ok([low.or_else(|_| at(1.0))?, high.or_else(|_| at(1.0))?]),
     }
 }
 
-/// Change of the quantities between both ends of a number.
-fn change(
+/// Changes of the quantities between the two `ends`, the problems with a smaller and a larger value of a number and these
+/// values. The derivative that it follows from is chosen by the table and the key of the number.
+fn change_between_ends(
     contact: &Contact,
     number: &Number,
     ends: &[(Problem, f64); 2],
@@ -166,6 +172,8 @@ fn change(
         ["load", "track"] if let Contact::Single(near) = contact => {
             scaled(near.by_track(), (ends[1].1 / ends[0].1).ln())
         }
+        // The elastomer of a layer depends on both numbers: take the end that differs from the present value, and convert the
+        // change to the distance of both ends in logarithms.
         ["layer", _] | ["material", "poisson_ratio"] if is_layer => match contact {
             Contact::Single(near) => {
                 let [low, high] = ends;
@@ -186,7 +194,7 @@ fn change(
 fn surface(body: &Body) -> Result<&dyn Surface> {
     match body {
         Body::Cylinder(cylinder) => Ok(cylinder),
-        body => body.surface().ok_or(NONE),
+        body => body.surface().ok_or(NO_DERIVATIVES),
     }
 }
 
@@ -195,8 +203,9 @@ fn scaled(change: Change<Estimate>, factor: f64) -> Change<Estimate> {
     change.map(|value| *value * factor)
 }
 
-/// Logarithmic derivatives from the changes per change `width` of the logarithm of the parameter.
-pub(super) fn relative(
+/// Logarithmic derivatives d ln q/d ln θ of the quantities q of an answer by a parameter θ, from the `change` of all quantities
+/// for a change `width` of ln θ.
+pub(super) fn log_derivatives(
     parameter: String,
     answer: &Answer,
     change: Change<Estimate>,

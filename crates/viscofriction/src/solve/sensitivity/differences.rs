@@ -12,12 +12,12 @@ use crate::solve::plan::Plan;
 use crate::solve::problem::Problem;
 use crate::solve::work::work;
 
-/// Step of the logarithm of a number (chosen: truncation of sixth order is then below the effect of rounding, 1e-11 in closed
-/// forms).
-const STEP: f64 = 2e-3;
-/// Offset in steps, with its weights in the differences of sixth and fourth order (Fornberg 1988).
+/// Step of the logarithm of a number in the differences (chosen: the truncation error of sixth order is then below the effect
+/// of rounding, 1e-11 in closed forms).
+const LOG_STEP: f64 = 2e-3;
+/// A point of a finite difference: its offset in steps, and its weights in the first derivatives of sixth and of fourth order.
 type Point = (i32, [f64; 2]);
-/// Central differences (Fornberg 1988).
+/// Points and weights of central first differences (Fornberg 1988, table 1).
 const CENTRAL: [Point; 6] = [
     (-3, [-1.0 / 60.0, 0.0]),
     (-2, [0.15, 1.0 / 12.0]),
@@ -46,8 +46,9 @@ pub(super) enum Values {
     TruncatedSeries,
 }
 
-/// Bound of the logarithmic derivative of the truncation error by a number of the scene (derived): the omitted terms scale with
-/// (v τ/a)³ at most, and a with the third root of a load, a modulus or a length at most.
+/// Bound of the logarithmic derivative of the omitted terms by a number of the scene (derived): they scale with (v τ/a)³ at
+/// most, v being the speed, τ a relaxation time and a the contact radius, and a with the third root of a load, a modulus or a
+/// length at most.
 const LARGEST_OMITTED_POWER: f64 = 4.0;
 
 /// Derivatives by each number, from differences of answers.
@@ -76,13 +77,14 @@ fn sensitivity(
 ) -> Result<Sensitivity> {
     let at = |points: &[Point], side: f64| -> Result<Vec<(Answer, [f64; 2])>> {
         let solved = |&(steps, weights): &Point| {
-            let value = number.value * (side * STEP * f64::from(steps)).exp();
+            let value = number.value * (side * LOG_STEP * f64::from(steps)).exp();
             let weights = weights.map(|weight| side * weight);
             let near = numbers.problem(problem, number, value)?;
             Ok((solved(&near, answer.method, number)?, weights))
         };
         points.iter().rev().map(solved).collect()
     };
+    // Central points first; where some are outside the allowed range of the number, those on one side of it.
     let points = at(&CENTRAL, 1.0)
         .or_else(|_| at(&FROM_BELOW, 1.0))
         .or_else(|_| at(&FROM_BELOW, -1.0))?;
@@ -91,12 +93,12 @@ fn sensitivity(
         let quantity = of.of;
         let known = quantity(answer).filter(|known| known.error > 0.0 && known.value != 0.0)?;
         match values {
-            Values::Exact => difference(&points, quantity),
+            Values::Exact => log_derivative(&points, quantity),
             Values::TruncatedSeries => {
                 let truncation = LARGEST_OMITTED_POWER * known.error / known.value.abs();
                 let without_error =
                     |answer: &Answer| Some(Estimate::exact(quantity(answer)?.value));
-                Some(difference(&points, without_error)?.widened(truncation))
+                Some(log_derivative(&points, without_error)?.widened(truncation))
             }
         }
     };
@@ -106,9 +108,9 @@ fn sensitivity(
     })
 }
 
-/// Logarithmic derivative of a quantity. Its error is the propagated error of the answers plus the difference between both
-/// orders.
-fn difference(
+/// Logarithmic derivative of a quantity from answers with their weights of sixth and fourth order. Its error is the propagated
+/// error of the answers plus the difference between both orders. `None` if an answer lacks the quantity.
+fn log_derivative(
     points: &[(Answer, [f64; 2])],
     quantity: impl Fn(&Answer) -> Option<Estimate>,
 ) -> Option<Estimate> {
@@ -116,15 +118,15 @@ fn difference(
     for (answer, weights) in points {
         let known = quantity(answer)?;
         for (slope, weight) in slopes.iter_mut().zip(weights) {
-            *slope += weight / STEP * known.value.abs().ln();
+            *slope += weight / LOG_STEP * known.value.abs().ln();
         }
-        error += (weights[0] / STEP * known.error / known.value).abs();
+        error += (weights[0] / LOG_STEP * known.error / known.value).abs();
     }
     let [sixth, fourth] = slopes;
     Some(Estimate::new(sixth, error + (sixth - fourth).abs()))
 }
 
-/// The answer of a method to a problem with another value of a number.
+/// The answer of a method to a problem in which `number` has another value; the error names the path of that number.
 fn solved(problem: &Problem, method: Method, number: &Number) -> Result<Answer> {
     let work = work(problem, method);
     let work = work.map_err(|why| SceneError::at(number.path(), why.to_owned()))?;

@@ -14,7 +14,7 @@ use serde::ser::{Serialize, SerializeMap as _, Serializer};
 
 use super::answer::Answer;
 use super::error::{Result, SolveError};
-use super::modulus_error::PER_MODULUS;
+use super::modulus_error::MODULUS_ERROR_AMPLIFICATION;
 use super::plan::Plan;
 use super::problem::{Motion, Problem};
 use super::work::work;
@@ -33,9 +33,9 @@ pub use spectral::{
     ByFrequency, SpectralSensitivity, check_spectral_sensitivity, spectral_sensitivity,
 };
 
-/// Largest relative error of an answer that may be differentiated by finite differences (chosen; closed forms and the stationary
+/// Relative error of an answer up to which finite differences differentiate it (chosen; closed forms and the stationary
 /// one-dimensional model reach it).
-pub(super) const EXACT: f64 = 1e-9;
+pub(super) const MAX_DIFFERENCED_ERROR: f64 = 1e-9;
 
 /// Derivatives of the quantities of an answer by one number of its scene: d ln(quantity)/d ln(number).
 ///
@@ -77,7 +77,7 @@ pub fn with_sensitivity(
         found => (answer, found?),
     };
     // The derivatives of a Prony series equal those of its law up to the ripple, which its error bounds.
-    let series = PER_MODULUS * problem.modulus_error();
+    let series = MODULUS_ERROR_AMPLIFICATION * problem.modulus_error();
     sensitivity.iter_mut().for_each(|one| one.widen(series));
     let material = numbers.scene()?.material;
     let budget = budget(&material, scene, &all, &sensitivity, &answer);
@@ -100,7 +100,7 @@ fn sensitivities(
     let progress = WorkProgress::new(watch, all.len() as f64);
     let method = answer.method;
     let asked = answer.requested_quantity();
-    let is_exact = asked.error <= EXACT * asked.value.abs();
+    let is_exact = asked.error <= MAX_DIFFERENCED_ERROR * asked.value.abs();
     // Slow sliding over a half space with an equilibrium modulus is the first term of a series.
     let is_series =
         answer.model == Model::HalfSpace && problem.material().creep().fluidity() <= 0.0;

@@ -11,13 +11,13 @@ use toml::{Table, Value};
 use crate::files::{Files, ReadFile};
 use crate::scene::{MaterialTable, Scene, SceneError, quoted};
 use crate::solve::body::body;
-use crate::solve::half_space::{half_space, of_file};
+use crate::solve::half_space::{half_space, material_of_file};
 use crate::solve::problem::Problem;
 
 /// Tables of the scene that contain moduli, times, loads, speeds and lengths.
 const TABLES: [&str; 5] = ["indenter", "material", "layer", "load", "solve"];
-/// Keys in these tables that are not differentiated: ranges of the material, the selection of waves, and options.
-const OTHERS: [&str; 11] = [
+/// Keys in these tables by which answers are not differentiated: ranges of the material, the selection of waves, and options.
+const EXCLUDED_KEYS: [&str; 11] = [
     "approximation",
     "covariance",
     "longest_wavelength",
@@ -39,9 +39,12 @@ pub(super) const TEMPERATURE: &str = "material.file.temperature";
 pub(crate) struct Numbers<'a> {
     /// The scene with the file of its material resolved, without uncertainties.
     scene: Table,
-    /// The scene with the reference to its material file, and the temperature \[K]; `None` without a file with a shift law.
+    /// The scene as written, with the reference to its material file, and the temperature of the material \[K]. `None` unless
+    /// the scene names a file with a shift law.
     of_file: Option<(Table, f64)>,
+    /// Stated standard uncertainties by the paths of the numbers: relative, that of the temperature in \[K].
     uncertainty: BTreeMap<String, f64>,
+    /// Folder that file names of the scene refer to.
     folder: &'a Path,
     read: ReadFile,
 }
@@ -49,19 +52,23 @@ pub(crate) struct Numbers<'a> {
 /// A number of a scene that is finite and not 0.
 #[derive(Debug, Clone)]
 pub(crate) struct Number {
+    /// Path from the root of the scene.
     steps: Vec<Step>,
     /// Its value in SI units.
     pub(crate) value: f64,
 }
 
-#[derive(Debug, Clone)]
 /// One step of the path to a number.
+#[derive(Debug, Clone)]
 enum Step {
+    /// A key of a table.
     Key(String),
+    /// An index of a list, counted from 0.
     Index(usize),
 }
 
 impl<'a> Numbers<'a> {
+    /// Reads the material file of a scene, if it names one, and separates its uncertainties.
     pub(crate) fn new(scene: &Scene, folder: &'a Path, read: ReadFile) -> Result<Self, SceneError> {
         let mut scene = scene.clone();
         // Uncertainties refer to the scene as given; changed scenes carry none.
@@ -104,7 +111,7 @@ impl<'a> Numbers<'a> {
     }
 
     /// Rejects uncertainties out of range, and those of paths that are not numbers of the scene.
-    fn check(&self) -> Result<(), SceneError> {
+    fn check_uncertainties(&self) -> Result<(), SceneError> {
         let known: Vec<String> = self.all().iter().map(Number::path).collect();
         let has_covariance = self.scene()?.material.covariance().is_some();
         for (path, value) in &self.uncertainty {
@@ -142,12 +149,12 @@ impl<'a> Numbers<'a> {
         Ok(())
     }
 
-    /// All numbers of the scene, in the order of its tables.
+    /// All numbers of the scene that are finite, not 0 and not of [`EXCLUDED_KEYS`], in the order of [`TABLES`].
     pub(crate) fn all(&self) -> Vec<Number> {
         let mut numbers = Vec::new();
         for table in TABLES {
             if let Some(value) = self.scene.get(table) {
-                collect(value, &[Step::Key(table.to_owned())], &mut numbers);
+                collect_numbers(value, &[Step::Key(table.to_owned())], &mut numbers);
             }
         }
         numbers
@@ -179,7 +186,7 @@ impl<'a> Numbers<'a> {
             }
             _ => (self.scene.clone(), value),
         };
-        set(&mut scene, number, value);
+        replace(&mut scene, number, value);
         Scene::try_from(scene)
     }
 
@@ -191,7 +198,7 @@ impl<'a> Numbers<'a> {
     ) -> Result<Scene, SceneError> {
         let mut scene = self.scene.clone();
         for (number, value) in values {
-            set(&mut scene, number, value);
+            replace(&mut scene, number, value);
         }
         Scene::try_from(scene)
     }
@@ -206,7 +213,7 @@ pub(crate) fn check_uncertainties(
     if scene.uncertainty.is_empty() {
         return Ok(());
     }
-    Numbers::new(scene, folder, read)?.check()
+    Numbers::new(scene, folder, read)?.check_uncertainties()
 }
 
 /// A scene as a table with the file of its material resolved, and the temperature \[°C] of a material with a shift law.
@@ -225,7 +232,7 @@ fn without_file(
         return Ok((as_table(&scene)?, None));
     };
     let files = Files::of(&scene, folder, read)?;
-    let material = of_file(path, *temperature, &files)?;
+    let material = material_of_file(path, *temperature, &files)?;
     scene.material = material.with_given(*poisson_ratio, *valid_frequencies)?;
     let table = as_table(&scene)?;
     let celsius = scene.material.shift().map(|shift| shift.temperature);
@@ -237,8 +244,8 @@ fn as_table(scene: &Scene) -> Result<Table, SceneError> {
     Table::try_from(scene).map_err(|error| SceneError::at("scene", error.to_string()))
 }
 
-/// Replaces a number by a value.
-fn set(scene: &mut Table, number: &Number, value: f64) {
+/// Writes another value of a number into a scene; a path that the scene does not have changes nothing.
+fn replace(scene: &mut Table, number: &Number, value: f64) {
     let mut steps = number.steps.iter();
     let first = steps.next().and_then(|step| match step {
         Step::Key(key) => scene.get_mut(key),
@@ -259,8 +266,8 @@ fn set(scene: &mut Table, number: &Number, value: f64) {
     }
 }
 
-/// Appends the numbers of a value of the scene, depth first.
-fn collect(value: &Value, steps: &[Step], numbers: &mut Vec<Number>) {
+/// Appends the numbers within `value`, which is at the path `steps`, depth first.
+fn collect_numbers(value: &Value, steps: &[Step], numbers: &mut Vec<Number>) {
     let below = |step: Step| [steps, &[step]].concat();
     match value {
         Value::Float(value) if *value != 0.0 && value.is_finite() => numbers.push(Number {
@@ -268,13 +275,16 @@ fn collect(value: &Value, steps: &[Step], numbers: &mut Vec<Number>) {
             value: *value,
         }),
         Value::Table(table) => {
-            for (key, value) in table.iter().filter(|(key, _)| !OTHERS.contains(&&key[..])) {
-                collect(value, &below(Step::Key(key.clone())), numbers);
+            for (key, value) in table
+                .iter()
+                .filter(|(key, _)| !EXCLUDED_KEYS.contains(&&key[..]))
+            {
+                collect_numbers(value, &below(Step::Key(key.clone())), numbers);
             }
         }
         Value::Array(list) => {
             for (index, value) in list.iter().enumerate() {
-                collect(value, &below(Step::Index(index)), numbers);
+                collect_numbers(value, &below(Step::Index(index)), numbers);
             }
         }
         _ => {}
@@ -300,7 +310,8 @@ impl Number {
         self.path() == TEMPERATURE
     }
 
-    /// Converts a stated standard uncertainty to a relative one; that of a temperature is stated in \[K].
+    /// The relative standard uncertainty of this number for the stated one `given`: the same, but \[K] over the temperature for
+    /// the temperature.
     pub(super) fn relative(&self, given: f64) -> f64 {
         if self.is_temperature() {
             given / self.value

@@ -36,7 +36,7 @@ pub fn sampled(
     for number in numbers.all() {
         let relative = scene.uncertainty.get(&number.path());
         if let Some(relative) = relative {
-            values.push((drawn(&number, relative * normal.next()), number));
+            values.push((perturbed(&number, relative * normal.next()), number));
         }
     }
     let mut drawn = numbers.scene()?;
@@ -47,19 +47,20 @@ pub fn sampled(
     Ok(drawn)
 }
 
-/// A number multiplied by the exponential of `exponent`; a Poisson ratio is reflected at its upper limit.
-fn drawn(number: &Number, exponent: f64) -> f64 {
+/// A number multiplied by e^`exponent`; a Poisson ratio is reflected at its upper limit.
+fn perturbed(number: &Number, exponent: f64) -> f64 {
     let value = number.value * exponent.exp();
     match number.ends() {
-        [_, "poisson_ratio"] if value > LARGEST_RATIO => 2.0 * LARGEST_RATIO - value,
+        [_, "poisson_ratio"] if value > MAX_POISSON_RATIO => 2.0 * MAX_POISSON_RATIO - value,
         _ => value,
     }
 }
 
 /// Upper limit of the Poisson ratio, that of an incompressible material.
-const LARGEST_RATIO: f64 = 0.5;
+const MAX_POISSON_RATIO: f64 = 0.5;
 
-/// Samples the moduli of a Prony series from their covariance.
+/// Multiplies the moduli of a Prony series by 1 + L z, at least by 0, with the Cholesky factor L of their relative covariance
+/// and standard normal numbers z. Other materials stay unchanged.
 fn draw_moduli(material: &mut MaterialTable, normal: &mut Normal) {
     let MaterialTable::Prony {
         equilibrium_modulus,
@@ -91,12 +92,14 @@ fn draw_moduli(material: &mut MaterialTable, normal: &mut Normal) {
 
 /// Generator of independent standard normal numbers for one sample.
 struct Normal {
+    /// State of SplitMix64.
     state: u64,
     /// Second number of the last pair; `None` if it has been used.
     left: Option<f64>,
 }
 
 impl Normal {
+    /// The generator of a sample, whose numbers depend on the index of the sample alone.
     const fn new(sample: usize) -> Self {
         let mut normal = Self {
             state: 0,
@@ -108,7 +111,7 @@ impl Normal {
         normal
     }
 
-    /// Next standard normal number.
+    /// Next standard normal number (Box & Muller 1958).
     fn next(&mut self) -> f64 {
         if let Some(left) = self.left.take() {
             return left;

@@ -13,13 +13,13 @@ use crate::solve::answer::{Answer, StationaryGrid};
 use crate::solve::error::{Result, SolveError};
 use crate::solve::problem::{Motion, Problem};
 
-/// Frequency bands per decade (chosen; output resolution only).
-const PER_DECADE: f64 = 10.0;
+/// Frequency bands per decade (chosen: it is the resolution of the output, and changes no sum over bands).
+const BANDS_PER_DECADE: f64 = 10.0;
 /// Bands computed between two reports of progress (chosen).
 const BANDS_AT_ONCE: usize = 8;
-/// Lower end of the resolved frequencies, as a fraction of v/a with the contact length a (chosen): friction comes from far
-/// shorter waves, and a depth depends on the longer ones only as a whole.
-const LOWEST: f64 = 0.01;
+/// Lower end of the resolved frequencies, over v/a for the velocity v and the contact length a (chosen). Friction comes from
+/// far shorter waves; a depth depends on longer ones too, which form the first band.
+const MIN_FREQUENCY_RATIO: f64 = 0.01;
 
 /// Derivatives of the quantities of an answer by the complex modulus, in frequency bands.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -65,17 +65,23 @@ pub fn spectral_sensitivity(
     let mut progress = WorkProgress::new(watch, 2.0);
     let contact = Contact::new(problem, load, answer)?;
     progress.add(1.0);
-    let edges = edges(ends, problem.window());
+    let edges = band_edges(ends, problem.window());
     let n_bands = edges.len() - 1;
     let mut bands = Vec::with_capacity(n_bands);
     for first in (0..n_bands).step_by(BANDS_AT_ONCE) {
         let last = n_bands.min(first + BANDS_AT_ONCE);
         let found = contact.by_moduli(&edges[first..=last])?;
-        bands.extend(found.into_iter().map(|band| of_band(answer, band)));
+        bands.extend(
+            found
+                .into_iter()
+                .map(|band| derivatives_in_band(answer, band)),
+        );
         progress.add((last - first) as f64 / n_bands as f64);
     }
     Ok(SpectralSensitivity {
-        outside_valid_frequencies: problem.window().map(|window| outside(&bands, window)),
+        outside_valid_frequencies: problem
+            .window()
+            .map(|window| fraction_outside(&bands, window)),
         bands,
     })
 }
@@ -139,7 +145,7 @@ impl SpectralSensitivity {
 fn wave_numbers(answer: &Answer) -> Option<[f64; 2]> {
     let of_contact = |spacing: f64| {
         let [rear, front] = answer.contact_box.as_ref()?.x;
-        Some([LOWEST / (front - rear), PI / spacing])
+        Some([MIN_FREQUENCY_RATIO / (front - rear), PI / spacing])
     };
     match answer.stationary {
         Some(StationaryGrid::Contact(options)) => of_contact(options.spacing[0]),
@@ -152,10 +158,11 @@ fn wave_numbers(answer: &Answer) -> Option<[f64; 2]> {
     }
 }
 
-/// Edges of the bands, \[rad/s]: 0, powers of 10^(1/10), and the ends of the measured window between them.
-fn edges([lowest, highest]: [f64; 2], window: Option<[f64; 2]>) -> Vec<f64> {
-    let [first, last] = [lowest, highest].map(|end| PER_DECADE * end.log10());
-    let number = |index: i32| 10.0_f64.powf(f64::from(index) / PER_DECADE);
+/// Edges of the bands, increasing, \[rad/s]: 0, the powers of 10^(1/10) from below `lowest` to above `highest`, and the ends of
+/// the measured window among them.
+fn band_edges([lowest, highest]: [f64; 2], window: Option<[f64; 2]>) -> Vec<f64> {
+    let [first, last] = [lowest, highest].map(|end| BANDS_PER_DECADE * end.log10());
+    let number = |index: i32| 10.0_f64.powf(f64::from(index) / BANDS_PER_DECADE);
     let mut edges = vec![0.0];
     #[expect(clippy::cast_possible_truncation, reason = "logarithms of numbers")]
     edges.extend((first.floor() as i32..=last.ceil() as i32).map(number));
@@ -168,9 +175,9 @@ fn edges([lowest, highest]: [f64; 2], window: Option<[f64; 2]>) -> Vec<f64> {
 }
 
 /// Derivatives by both moduli in one band.
-fn of_band(answer: &Answer, band: ByModuli) -> ByFrequency {
+fn derivatives_in_band(answer: &Answer, band: ByModuli) -> ByFrequency {
     let of = |name: &str, change: Change<Estimate>| {
-        adjoint::relative(name.to_owned(), answer, change, 1.0)
+        adjoint::log_derivatives(name.to_owned(), answer, change, 1.0)
     };
     ByFrequency {
         frequencies: band.frequencies,
@@ -179,8 +186,9 @@ fn of_band(answer: &Answer, band: ByModuli) -> ByFrequency {
     }
 }
 
-/// Fraction of the summed absolute derivatives of friction that lies outside the window.
-fn outside(bands: &[ByFrequency], [lowest, highest]: [f64; 2]) -> f64 {
+/// Fraction of the sum of the absolute derivatives of friction, by both moduli and over all bands, from bands outside the
+/// measured frequencies \[rad/s].
+fn fraction_outside(bands: &[ByFrequency], [lowest, highest]: [f64; 2]) -> f64 {
     let size = |band: &ByFrequency| {
         let both = [&band.storage_modulus, &band.loss_modulus];
         let sizes = both.map(|one| {
