@@ -11,11 +11,12 @@ use viscofriction::indenters::topography::length;
 use viscofriction::numerics::InvalidParameter;
 use viscofriction::scene::Source;
 
-/// Largest input file, \[bytes] (chosen).
-const LARGEST_FILE: u64 = 1 << 30;
+/// Largest size of any input file, \[bytes] (chosen: 1 GiB, so that a wrong file does not fill the memory).
+const MAX_FILE_SIZE: u64 = 1 << 30;
 
-/// Largest scene file, \[bytes] (chosen: scenes are written by hand, and large data are in files of their own).
-const LARGEST_SCENE: u64 = 1 << 24;
+/// Largest size of a scene file, \[bytes] (chosen: 16 MiB; scenes are written by hand, and large data are in files of their
+/// own).
+const MAX_SCENE_SIZE: u64 = 1 << 24;
 
 /// Identity of a file independent of names and links: device and inode.
 #[cfg(unix)]
@@ -24,7 +25,7 @@ type Identity = (u64, u64);
 #[cfg(not(unix))]
 type Identity = std::path::PathBuf;
 
-/// Identity of an existing file.
+/// Identity of an existing file; an error if there is none.
 fn identity(path: &Path) -> io::Result<Identity> {
     #[cfg(unix)]
     return {
@@ -62,8 +63,8 @@ pub(crate) fn read_table(path: &Path) -> Result<Vec<u8>, WrongInput> {
     read_rows(path)
 }
 
-/// Reads a table that the command may also write. Its size is limited so that the cells, of at least two bytes each, fit into
-/// half of the free memory as texts.
+/// Reads a table that the command may also write, and does not protect it. Its size is limited to 1/32 of half of the free
+/// memory: a cell has at least two bytes in the file, and takes up to 64 as a text in memory.
 pub(crate) fn read_rows(path: &Path) -> Result<Vec<u8>, WrongInput> {
     read_file(path, half_of_free_memory().unwrap_or(u64::MAX) / 32)
 }
@@ -71,14 +72,16 @@ pub(crate) fn read_rows(path: &Path) -> Result<Vec<u8>, WrongInput> {
 /// Protects a table that the command line names; an error if it cannot be opened.
 pub(crate) fn check_file(path: &Path) -> Result<(), WrongInput> {
     protect(path);
-    opened(path).map(drop).map_err(|error| unread(path, &error))
+    open_regular(path)
+        .map(drop)
+        .map_err(|error| read_error(path, &error))
 }
 
 /// Reads a regular file of at most `most` bytes.
 fn read_file(path: &Path, most: u64) -> Result<Vec<u8>, WrongInput> {
-    let most = most.min(LARGEST_FILE);
+    let most = most.min(MAX_FILE_SIZE);
     let read = || {
-        let file = opened(path)?;
+        let file = open_regular(path)?;
         if file.metadata()?.len() > most {
             return Err(io::Error::other(format!(
                 "the memory that is allowed is enough for a file of {most} bytes, and this one has more"
@@ -86,11 +89,11 @@ fn read_file(path: &Path, most: u64) -> Result<Vec<u8>, WrongInput> {
         }
         read_at_most(most, file)
     };
-    read().map_err(|error| unread(path, &error))
+    read().map_err(|error| read_error(path, &error))
 }
 
-/// Opens a regular file.
-fn opened(path: &Path) -> io::Result<File> {
+/// Opens a file; an error unless it is a regular one.
+fn open_regular(path: &Path) -> io::Result<File> {
     if !path.metadata()?.is_file() {
         let needed = "a regular file is needed, and not a folder, a device or a pipe";
         return Err(io::Error::other(needed));
@@ -98,8 +101,8 @@ fn opened(path: &Path) -> io::Result<File> {
     File::open(path)
 }
 
-/// Error for a file that was not read.
-fn unread(path: &Path, error: &io::Error) -> WrongInput {
+/// Invalid input for a file that was not read, with its path.
+fn read_error(path: &Path, error: &io::Error) -> WrongInput {
     WrongInput(format!("{}: {error}", path.display()))
 }
 
@@ -153,10 +156,10 @@ pub(crate) fn read_scene(path: &Path) -> Result<Source, WrongInput> {
     let contents = if path == Path::new("-") {
         // Protect a file that the shell redirects to the standard input.
         protect(Path::new("/dev/stdin"));
-        let contents = read_at_most(LARGEST_SCENE, io::stdin());
+        let contents = read_at_most(MAX_SCENE_SIZE, io::stdin());
         contents.map_err(|error| WrongInput(format!("-: {error}")))?
     } else {
-        read_input(path, LARGEST_SCENE)?
+        read_input(path, MAX_SCENE_SIZE)?
     };
     Source::new(path, contents)
 }

@@ -93,7 +93,7 @@ pub fn execute() -> ExitCode {
     };
     match result {
         Err(error) if !output::is_closed_pipe(&error) => {
-            output::say(&format!("error: {error:#}"));
+            output::eprint_line(&format!("error: {error:#}"));
             ExitCode::from(status(&error))
         }
         _ => ExitCode::SUCCESS,

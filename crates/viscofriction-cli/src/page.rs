@@ -11,7 +11,9 @@ const STYLE: &str = include_str!("page.css");
 /// A page under construction.
 #[derive(Debug)]
 pub(crate) struct Page {
+    /// Title, with HTML characters escaped.
     title: String,
+    /// HTML of the elements so far.
     body: String,
 }
 
@@ -24,7 +26,7 @@ impl Page {
         }
     }
 
-    /// Appends an element with escaped text.
+    /// Appends an HTML element `tag` whose content is an escaped text.
     fn tagged(&mut self, tag: &str, text: &dyn Display) {
         let text = escaped(&text.to_string());
         writeln!(self.body, "<{tag}>{text}</{tag}>").ok();
@@ -90,7 +92,7 @@ impl Page {
     /// Completes the page, with the command that reproduces it.
     pub(crate) fn finish(mut self) -> String {
         self.heading("The same again");
-        self.tagged("pre", &typed());
+        self.tagged("pre", &command_line_text());
         self.paragraph(&format!(
             "viscofriction {}; the numbers are the same to the last bit with any number of threads.",
             env!("CARGO_PKG_VERSION")
@@ -104,8 +106,8 @@ impl Page {
     }
 }
 
-/// The command line, with words quoted for a shell where necessary.
-fn typed() -> String {
+/// The command line of this run, with words quoted for a shell where necessary.
+fn command_line_text() -> String {
     let is_plain = |sign: char| sign.is_alphanumeric() || "-_./=,:+".contains(sign);
     let quoted = |word: String| {
         if !word.is_empty() && word.chars().all(is_plain) {

@@ -9,13 +9,13 @@ use viscofriction::Progress;
 /// A bar over `steps` steps of a task, with the remaining time.
 pub(crate) fn bar(task: &'static str, steps: usize) -> ProgressBar {
     let bar = ProgressBar::new(steps as u64).with_message(task);
-    shown(bar, "{msg} {bar:32} {pos}/{len}  {elapsed}{left}")
+    styled(bar, "{msg} {bar:32} {pos}/{len}  {elapsed}{left}")
 }
 
 /// Runs a task with a spinner, and with the remaining time if the task reports progress.
 pub(crate) fn during<T>(task: String, work: impl FnOnce(&dyn Progress) -> T) -> T {
-    let bar = ProgressBar::new(WHOLE).with_message(task);
-    let bar = Told(shown(bar, "{spinner} {msg}  {elapsed}{left}"));
+    let bar = ProgressBar::new(FRACTION_STEPS).with_message(task);
+    let bar = TerminalProgress(styled(bar, "{spinner} {msg}  {elapsed}{left}"));
     let value = work(&bar);
     bar.0.finish_and_clear();
     value
@@ -23,8 +23,8 @@ pub(crate) fn during<T>(task: String, work: impl FnOnce(&dyn Progress) -> T) -> 
 
 /// Runs a task that reports a message and the completed fraction.
 pub(crate) fn with_message<T>(work: impl FnOnce(&(dyn Fn(String, f64) + Sync)) -> T) -> T {
-    let bar = ProgressBar::new(WHOLE);
-    let told = Told(shown(bar, "{spinner} {msg}  {elapsed}{left}"));
+    let bar = ProgressBar::new(FRACTION_STEPS);
+    let told = TerminalProgress(styled(bar, "{spinner} {msg}  {elapsed}{left}"));
     let value = work(&|message, part| {
         told.0.set_message(message);
         told.report(part);
@@ -33,10 +33,10 @@ pub(crate) fn with_message<T>(work: impl FnOnce(&(dyn Fn(String, f64) + Sync)) -
     value
 }
 
-/// Configures a bar with a template and a steady tick.
-fn shown(bar: ProgressBar, template: &str) -> ProgressBar {
+/// Gives a bar its template, in which `{left}` is the remaining time, and redraws it every 200 ms.
+fn styled(bar: ProgressBar, template: &str) -> ProgressBar {
     let left = |state: &ProgressState, text: &mut dyn fmt::Write| {
-        let left = left(state.elapsed(), state.fraction().into());
+        let left = remaining(state.elapsed(), state.fraction().into());
         // An error of the terminal is ignored.
         let _ = text.write_str(&left.unwrap_or_default());
     };
@@ -47,21 +47,21 @@ fn shown(bar: ProgressBar, template: &str) -> ProgressBar {
     bar
 }
 
-/// Completed fraction and remaining time at constant pace; `None` before any progress.
-fn left(elapsed: Duration, part: f64) -> Option<String> {
+/// Text with the completed fraction `part` and the remaining time if the pace stays; `None` before any progress.
+fn remaining(elapsed: Duration, part: f64) -> Option<String> {
     let rest = elapsed.as_secs_f64() * (part.recip() - 1.0);
     let rest = HumanDuration(Duration::try_from_secs_f64(rest).ok()?);
     Some(format!(", {:.0} %, about {rest} left", 100.0 * part))
 }
 
-/// Steps of a bar for a task that reports fractions (chosen resolution).
-const WHOLE: u64 = 10_000;
+/// Number of steps of a bar for a task that reports fractions (chosen: its resolution).
+const FRACTION_STEPS: u64 = 10_000;
 
 /// A bar that shows the progress of a solution.
 #[derive(Debug)]
-struct Told(ProgressBar);
+struct TerminalProgress(ProgressBar);
 
-impl Progress for Told {
+impl Progress for TerminalProgress {
     fn may_refine(&self, _: usize) -> bool {
         true
     }
@@ -72,7 +72,7 @@ impl Progress for Told {
         reason = "a part is between 0 and 1"
     )]
     fn report(&self, part: f64) {
-        self.0.set_position((part * WHOLE as f64) as u64);
+        self.0.set_position((part * FRACTION_STEPS as f64) as u64);
     }
 }
 
@@ -88,7 +88,7 @@ mod tests {
             (90, 0.01, Some(", 1 %, about 2 hours left")),
             (10, 1.0, Some(", 100 %, about 0 seconds left")),
         ] {
-            let text = left(Duration::from_secs(seconds), part);
+            let text = remaining(Duration::from_secs(seconds), part);
             assert_eq!(text.as_deref(), expected, "{part} done in {seconds} s");
         }
     }

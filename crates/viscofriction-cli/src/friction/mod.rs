@@ -192,7 +192,7 @@ impl FitFriction {
     }
 }
 
-/// Line of the output about the prior.
+/// Line of the output that states the prior of the moduli.
 fn prior_in_words(prior: FrictionPrior) -> String {
     match prior {
         FrictionPrior::Covariance => {

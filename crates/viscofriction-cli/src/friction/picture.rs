@@ -3,10 +3,10 @@
 use viscofriction::friction_fit::FittedFriction;
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series, Shape};
 
-/// Margin above and below the values, relative to their range (chosen).
+/// Margin above and below the values, over their range (chosen).
 const MARGIN: f64 = 0.06;
 
-/// The figure of a fit.
+/// The figure of a fit: measured and fitted friction over a_T v, and the relative residuals.
 pub(super) fn figure(found: &FittedFriction) -> Figure {
     let mut order: Vec<usize> = (0..found.points.len()).collect();
     let speed = |at: usize| found.shifted_velocities[at];
@@ -51,7 +51,8 @@ pub(super) fn figure(found: &FittedFriction) -> Figure {
     Figure::new(charts, 2)
 }
 
-/// A chart over the velocity, with room for the error bars.
+/// A chart over the velocity on a logarithmic axis; `along` and `label` are the axis labels. The linear axis includes 0 and the
+/// error bars.
 fn chart([along, label]: [&str; 2], series: Vec<Series>) -> Chart {
     let points = || series.iter().flat_map(|one| &one.points);
     let speeds = points().map(|point| point[0]);

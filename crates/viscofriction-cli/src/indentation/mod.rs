@@ -157,7 +157,7 @@ pub(crate) fn fit(options: &FitIndentation) -> Result<()> {
     let open = |out: &PathBuf| OutputFolder::new(out, options.overwrite, NAMES);
     let out = options.out.as_ref().map(open).transpose()?;
     let [file] = &options.curves[..] else {
-        return map(options, &*body, out.as_ref());
+        return fit_map(options, &*body, out.as_ref());
     };
     let fit = progress::during(format!("fitting {}", file.display()), |_| {
         options.fitted(file, &*body, true)
@@ -222,8 +222,9 @@ impl FitIndentation {
     }
 }
 
-/// Fits several curves, one row each; a failed fit has a row without numbers.
-fn map(
+/// Fits several curves in parallel and writes one CSV row for each; a failed fit has its error in the row and no numbers. An
+/// error if all fail.
+fn fit_map(
     options: &FitIndentation,
     body: &dyn Axisymmetric,
     out: Option<&OutputFolder>,
@@ -300,7 +301,7 @@ fn flags(fit: &Result<IndentationFit, WrongInput>) -> String {
     }
 }
 
-/// Four cells for each name; empty if the fit lacks the finding.
+/// The [`numbers`] of the finding of each name, in this order; empty if the fit lacks the finding.
 fn cells(fit: &Result<IndentationFit, WrongInput>, names: &[&str]) -> Vec<Option<f64>> {
     let findings = fit.as_ref().map_or(&[][..], |fit| &fit.findings);
     let find = |name: &&str| findings.iter().find(|one| one.name == **name);
@@ -309,7 +310,7 @@ fn cells(fit: &Result<IndentationFit, WrongInput>, names: &[&str]) -> Vec<Option
     cells.flatten().collect()
 }
 
-/// Value, standard error and ends of the confidence interval; `None` if not determined.
+/// Value, standard error, and lower and upper end of the 95 % interval of a finding, in its unit; `None` if not determined.
 pub(crate) fn numbers(finding: &Finding) -> [Option<f64>; 4] {
     let [lower, upper] = finding.interval;
     let estimate = finding.estimate.map(|one| [one.value, one.error]);
@@ -344,10 +345,10 @@ impl FitIndentation {
     }
 }
 
-/// Heads of a table of findings, for [`row`].
+/// Heads of a printed table of findings, whose rows [`row`] makes.
 pub(crate) const FINDINGS: &str = "quantity | value ± standard error | 95 % interval | unit";
 
-/// Row of a finding, multiplied by a factor.
+/// Row of a printed table of findings, with value, error and interval multiplied by a factor: 1, or 2 (1 + ν) from G to E.
 pub(crate) fn row(name: &str, factor: f64, finding: &Finding) -> [String; 4] {
     let digits = |number: f64| Rounded(factor * number).to_string();
     let value = finding.estimate.map_or_else(

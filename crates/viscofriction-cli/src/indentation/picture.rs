@@ -3,12 +3,13 @@
 use measurements::indentation::IndentationFit;
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series, Shape};
 
-/// Largest number of points drawn (chosen).
-const POINTS: usize = 1500;
+/// Largest number of points drawn; of more every n-th (chosen).
+const MAX_POINTS: usize = 1500;
 
-/// The figure of a fit.
+/// The figure of a fit: force over time, force over the depth from the contact point, and residuals in units of their standard
+/// deviation.
 pub(super) fn figure(fit: &IndentationFit) -> Figure {
-    let step = fit.points.len().div_ceil(POINTS);
+    let step = fit.points.len().div_ceil(MAX_POINTS);
     let mut found = fit.findings.iter();
     let contact = found.find(|one| one.name == "contact_point");
     let contact = contact

@@ -22,7 +22,7 @@ use viscofriction::WrongInput;
 use viscofriction::scene::ShiftLaw;
 
 use crate::input::{read_table, wrong_option};
-use crate::output::{OutputFolder, print_line, print_text, say};
+use crate::output::{OutputFolder, eprint_line, print_line, print_text};
 use crate::progress;
 pub(crate) use output_files::prony;
 pub(crate) use picture::decades;
@@ -74,7 +74,7 @@ pub(crate) struct FitMaterial {
     vertical: Option<VerticalShift>,
 }
 
-/// Parser of the vertical shift by its names.
+/// Parser of the option for the vertical shift, by the names none, entropic and free.
 fn vertical_shift() -> impl TypedValueParser<Value = VerticalShift> {
     let names = VerticalShift::NAMED.map(|(name, _)| name);
     PossibleValuesParser::new(names).try_map(|name| {
@@ -101,7 +101,7 @@ pub(crate) fn fit(options: &FitMaterial) -> Result<()> {
     let unit = moduli
         .celsius
         .map_or("", |celsius| if celsius { "°C" } else { "K" });
-    let (points, shifted) = joined(moduli, options).map_err(wrong)?;
+    let (points, shifted) = joined_points(moduli, options).map_err(wrong)?;
     let curve = match &shifted {
         // The curve of the master keeps track of the isotherms.
         Some(shifted) => shifted.master.curve.clone(),
@@ -126,11 +126,11 @@ pub(crate) fn fit(options: &FitMaterial) -> Result<()> {
         frequencies: curve.frequencies(),
         found,
     };
-    fitted.leave(out.as_ref())
+    fitted.report(out.as_ref())
 }
 
-/// The points of one curve, and the shifts of its isotherms if the table has temperatures.
-fn joined(
+/// The measured points joined to one curve, and the shifts of its isotherms if the table has temperatures.
+fn joined_points(
     moduli: MeasuredModuli,
     options: &FitMaterial,
 ) -> Result<(Points, Option<Shifted>), RheologyError> {
@@ -166,21 +166,26 @@ pub(crate) fn wrong_table(error: MeasurementError) -> WrongInput {
     }
 }
 
-/// Result of the command.
+/// Input and result of a fit, from which all output is made.
 struct Fitted<'a> {
     options: &'a FitMaterial,
+    /// The points of the curve that was fitted, shifted to the reference temperature.
     points: Points,
+    /// The master curve with its shift law; `None` if the table has no temperatures.
     shifted: Option<Shifted>,
     /// Unit of the temperatures.
     unit: &'static str,
     /// Range of measured angular frequencies, \[rad/s].
     frequencies: [f64; 2],
+    /// The series with its errors and covariance.
     found: Identification,
 }
 
 /// The fitted points.
 enum Points {
+    /// Storage and loss modulus over angular frequency.
     Oscillation(Vec<ModulusPoint>),
+    /// Relaxation modulus over time.
     Relaxation(Vec<RelaxationPoint>),
 }
 
@@ -239,9 +244,9 @@ impl FitMaterial {
 
 impl Fitted<'_> {
     /// Writes the result into a folder, or prints the material.
-    fn leave(&self, out: Option<&OutputFolder>) -> Result<()> {
+    fn report(&self, out: Option<&OutputFolder>) -> Result<()> {
         for warning in self.warnings() {
-            say(&format!("warning: {warning}"));
+            eprint_line(&format!("warning: {warning}"));
         }
         let Some(out) = out else {
             return print_text(&output_files::material(self));
@@ -310,7 +315,8 @@ impl Fitted<'_> {
         shifted.filter(|shifted| shifted.master.shifts.len() > 1)
     }
 
-    /// Warnings about systematic errors of the series or of the superposition.
+    /// A warning for each modulus whose relative errors change their sign too rarely from one frequency to the next to be
+    /// noise, and have an rms of more than [`MIN_REPORTED_RMS`].
     fn warnings(&self) -> Vec<String> {
         let moduli = [
             (
@@ -326,7 +332,7 @@ impl Fitted<'_> {
             Option<SignChanges>,
         )| {
             let (error, changes) = (error?, changes?);
-            let matters = error.rms > PATTERN_MATTERS && changes.are_too_few();
+            let matters = error.rms > MIN_REPORTED_RMS && changes.are_too_few();
             matters.then(|| {
                 format!(
                     "the errors of {name}, {:.2} % rms, are not noise: from one frequency to the next they change their sign {} of {} times, \
@@ -343,5 +349,6 @@ impl Fitted<'_> {
     }
 }
 
-/// Rms relative error below which systematic errors are not reported (chosen: smaller than errors that matter for friction).
-const PATTERN_MATTERS: f64 = 0.01;
+/// Rms relative error of a modulus up to which systematic errors are not reported (chosen: smaller than errors that matter for
+/// friction).
+const MIN_REPORTED_RMS: f64 = 0.01;

@@ -16,7 +16,7 @@ use crate::output::{OutputFolder, to_csv};
 pub(super) const NAMES: &str = "material.toml fit.csv fit.svg fit.png shifts.csv";
 
 /// Points per decade of the drawn curve of the series (chosen; output only).
-const PER_DECADE: f64 = 30.0;
+const POINTS_PER_DECADE: f64 = 30.0;
 
 /// Writes material.toml, fit.csv, fit.svg and fit.png; with several isotherms also shifts.csv.
 pub(super) fn write(fitted: &Fitted<'_>, folder: &OutputFolder) -> Result<()> {
@@ -37,7 +37,7 @@ pub(super) fn write(fitted: &Fitted<'_>, folder: &OutputFolder) -> Result<()> {
 const SHIFTS: &str = "temperature log10_shift_factor log10_shift_factor_error vertical_shift_factor \
     vertical_shift_factor_error placed_by_law";
 
-/// One row per isotherm; an unknown error is NaN.
+/// The rows of shifts.csv, one per isotherm, with the columns of [`SHIFTS`]; an unknown error is NaN.
 fn shifts(fitted: &Fitted<'_>, shifted: &Shifted) -> Vec<Vec<f64>> {
     let errors = fitted.found.covariance.as_ref();
     let row = |(place, shift): (usize, &IsothermShift)| {
@@ -55,7 +55,8 @@ fn shifts(fitted: &Fitted<'_>, shifted: &Shifted) -> Vec<Vec<f64>> {
     shifted.master.shifts.iter().enumerate().map(row).collect()
 }
 
-/// Measured and fitted moduli, and the curve of the series.
+/// Measured and fitted moduli as rows of fit.csv, and the moduli of the series at frequencies or times that are dense over the
+/// measured range.
 fn compare(fitted: &Fitted<'_>) -> Result<Comparison> {
     let spectrum = &fitted.found.spectrum;
     let oscillation = |point: &ModulusPoint| {
@@ -82,7 +83,7 @@ fn compare(fitted: &Fitted<'_>) -> Result<Comparison> {
         Points::Relaxation(points) => (RELAXATION, points.iter().map(relaxation).collect()),
     };
     let rows = rows?;
-    let series = dense(rows.iter().map(|row| row[0])).map(|x| match &fitted.points {
+    let series = log_spaced(rows.iter().map(|row| row[0])).map(|x| match &fitted.points {
         Points::Oscillation(_) => {
             let fit = spectrum.complex_modulus(x)?;
             Ok(vec![x, fit.storage, fit.loss])
@@ -108,13 +109,14 @@ fn compare(fitted: &Fitted<'_>) -> Result<Comparison> {
     })
 }
 
-/// Geometrically spaced numbers from the smallest to the largest of the positive numbers.
-fn dense(numbers: impl Iterator<Item = f64>) -> impl Iterator<Item = f64> {
+/// Numbers at equal ratios, [`POINTS_PER_DECADE`], from the smallest to the largest of the positive ones of `numbers`, both
+/// included.
+fn log_spaced(numbers: impl Iterator<Item = f64>) -> impl Iterator<Item = f64> {
     let positive = numbers.filter(|number| *number > 0.0);
     let [first, last] = positive.fold([f64::INFINITY, 0.0], |[first, last], number| {
         [number.min(first), number.max(last)]
     });
-    let step = 10_f64.powf(PER_DECADE.recip());
+    let step = 10_f64.powf(POINTS_PER_DECADE.recip());
     let inside = std::iter::successors(Some(first), move |number| Some(number * step));
     inside
         .take_while(move |number| *number < last)

@@ -10,7 +10,9 @@ pub(super) const RELAXATION: &str = "time_s modulus_pa modulus_fit_pa relative_e
 
 /// Measured and fitted values as rows of fit.csv.
 pub(super) struct Comparison {
+    /// Names of the columns: [`OSCILLATION`] or [`RELAXATION`].
     pub(super) names: &'static str,
+    /// Values of the rows, in the order of the columns.
     pub(super) rows: Vec<Vec<f64>>,
     /// Dense frequencies or times over the range of the data, with the moduli of the series.
     pub(super) series: Vec<Vec<f64>>,
@@ -22,7 +24,9 @@ pub(super) struct Comparison {
 pub(super) struct Isotherms {
     /// Index into `temperatures`, by row.
     pub(super) of_rows: Vec<usize>,
+    /// Temperatures of the isotherms, in [`unit`](Self::unit).
     pub(super) temperatures: Vec<f64>,
+    /// Unit of the temperatures.
     pub(super) unit: &'static str,
 }
 
@@ -53,7 +57,7 @@ pub(super) fn figure(comparison: &Comparison) -> Figure {
         let column = 1 + 2 * n + index;
         let of_modulus = residuals(comparison, column);
         let name = format!("{} fitted/measured − 1 [%]", moduli[index]);
-        signed(x, &name, of_modulus)
+        signed_chart(x, &name, of_modulus)
     });
     let moduli = decades(x, "modulus [Pa]", measured.chain(fitted).collect());
     let charts: Vec<Chart> = std::iter::once(moduli).chain(errors).collect();
@@ -61,7 +65,7 @@ pub(super) fn figure(comparison: &Comparison) -> Figure {
     Figure::new(charts, columns)
 }
 
-/// Relative errors of a modulus in per cent, one series per isotherm in order of temperature.
+/// Relative errors of a modulus, in the column `column` of the rows, in \[%], one series per isotherm in order of temperature.
 fn residuals(comparison: &Comparison, column: usize) -> Vec<Series> {
     let point = |row: &Vec<f64>| [row[0], 100.0 * row[column]];
     let marker = Marker::open(Shape::Circle);
@@ -72,7 +76,7 @@ fn residuals(comparison: &Comparison, column: usize) -> Vec<Series> {
     let mut order: Vec<usize> = (0..isotherms.temperatures.len()).collect();
     order.sort_by(|a, b| isotherms.temperatures[*a].total_cmp(&isotherms.temperatures[*b]));
     let last = order.len() - 1;
-    let labelled = order.len().div_ceil(LABELLED);
+    let labelled = order.len().div_ceil(N_LABELLED);
     let of_isotherm = |(place, isotherm): (usize, &usize)| {
         let rows = comparison.rows.iter().zip(&isotherms.of_rows);
         let own = rows.filter(|(_, of_row)| *of_row == isotherm);
@@ -91,16 +95,16 @@ fn residuals(comparison: &Comparison, column: usize) -> Vec<Series> {
 }
 
 /// Approximate number of isotherms in the legend, besides the last one (chosen).
-const LABELLED: usize = 6;
+const N_LABELLED: usize = 6;
 
 /// Smallest half range of the axis of errors, \[%] (chosen).
-const SMALLEST: f64 = 0.01;
+const MIN_HALF_RANGE: f64 = 0.01;
 
-/// A chart of signed values over a logarithmic axis, with 0 in the middle.
-fn signed(x: &str, y: &str, series: Vec<Series>) -> Chart {
+/// A chart of signed values over a logarithmic axis, with 0 in the middle and a line there; `x` and `y` are the axis labels.
+fn signed_chart(x: &str, y: &str, series: Vec<Series>) -> Chart {
     let points = || series.iter().flat_map(|one| &one.points);
     let most = points().map(|point| point[1].abs()).fold(0.0, f64::max);
-    let most = 1.05 * most.max(SMALLEST);
+    let most = 1.05 * most.max(MIN_HALF_RANGE);
     let x = Axis::decades(x, points().map(|point| point[0]));
     let zero = vec![[x.range[0], 0.0], [x.range[1], 0.0]];
     let zero = Series::line(zero, Line::thin(Dash::Solid), Colour::Black);

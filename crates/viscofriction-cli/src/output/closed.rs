@@ -11,7 +11,7 @@ static CLOSED: AtomicBool = AtomicBool::new(false);
 /// Checks the file descriptor before the runtime of the standard library replaces it.
 #[cfg(unix)]
 #[ctor::ctor]
-fn look() {
+fn record_state() {
     use rustix::io::{Errno, fcntl_getfd};
     let is_closed = fcntl_getfd(rustix::stdio::stdout()) == Err(Errno::BADF);
     CLOSED.store(is_closed, Ordering::Relaxed);

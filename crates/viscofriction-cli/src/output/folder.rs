@@ -11,8 +11,8 @@ use viscofriction::WrongInput;
 use viscofriction_plot::Figure;
 
 use super::{
-    OutputFile, PART_END, folder_of, followed, lock, name_of, not_written, part_start, picture,
-    remove_parts, say,
+    OutputFile, PART_SUFFIX, eprint_line, folder_of, link_target, lock, name_of, not_written,
+    part_prefix, picture, remove_parts,
 };
 use crate::input::is_input;
 
@@ -22,9 +22,13 @@ pub(crate) struct OutputFolder {
     path: PathBuf,
     /// Path with links resolved.
     real: PathBuf,
+    /// True if a result in the folder may be replaced.
     overwrite: bool,
+    /// Names of all files that a result may have.
     names: Vec<&'static str>,
+    /// Where the files are written at first.
     place: Place,
+    /// The opened folder, whose lock ends with this value; `None` if folders cannot be opened.
     _lock: Option<File>,
 }
 
@@ -38,7 +42,7 @@ enum Place {
 }
 
 /// Suffix of a folder renamed out of the way, on systems that cannot exchange folders atomically.
-const AWAY_END: &str = ".away";
+const AWAY_SUFFIX: &str = ".away";
 
 /// Message if a result cannot be replaced together with its folder.
 const NO_EXCHANGE: &str = "the answer in it is replaced together with its folder, which must not be the one that the command runs in \
@@ -61,7 +65,7 @@ impl OutputFolder {
             _ => {}
         }
         let names: Vec<&str> = names.split(' ').collect();
-        let real = followed(path);
+        let real = link_target(path);
         restore(&real);
         check_names(path, &names, overwrite)?;
         fs::create_dir_all(&real).map_err(failed)?;
@@ -71,7 +75,7 @@ impl OutputFolder {
         if let Some(folder) = &folder {
             lock(folder, path)?;
             remove_parts(&real, &names);
-            clear_left(&real, &names);
+            clear_leftovers(&real, &names);
         }
         let place = place(&real, &names).map_err(failed)?;
         let folder = Self {
@@ -163,7 +167,7 @@ impl NewFiles<'_> {
                 written.try_for_each(|name| rename_new(&part.join(&name), &real.join(name)));
             return moved.and_then(|()| fs::remove_dir(&part)).map_err(kept);
         }
-        take_over(&part, real, names).map_err(kept)?;
+        link_other_files(&part, real, names).map_err(kept)?;
         let old = exchange(&part, real).map_err(kept)?;
         keep_links(&old, real, names)?;
         clear(&old, real, names);
@@ -179,9 +183,12 @@ fn check_names(folder: &Path, names: &[&str], overwrite: bool) -> Result<(), Wro
 
 /// Creates a temporary folder with the permissions of `folder`.
 fn new_part(folder: &Path, within: &Path) -> io::Result<TempDir> {
-    let start = part_start(&name_of(folder));
+    let start = part_prefix(&name_of(folder));
     let mut builder = tempfile::Builder::new();
-    let part = builder.prefix(&start).suffix(PART_END).tempdir_in(within)?;
+    let part = builder
+        .prefix(&start)
+        .suffix(PART_SUFFIX)
+        .tempdir_in(within)?;
     fs::set_permissions(part.path(), fs::metadata(folder)?.permissions())?;
     Ok(part)
 }
@@ -220,8 +227,9 @@ fn is_on_one_disk(_: &Path, _: &Path) -> bool {
     true
 }
 
-/// Links the other files of a folder into the new one, and copies the permissions of replaced files.
-fn take_over(part: &Path, folder: &Path, names: &[&str]) -> io::Result<()> {
+/// Hard-links the files of a folder that are not of the result into its successor `part`, and gives the new files of the result
+/// the permissions of those that they replace.
+fn link_other_files(part: &Path, folder: &Path, names: &[&str]) -> io::Result<()> {
     for entry in fs::read_dir(folder)?.flatten() {
         let [old, new] = [entry.path(), part.join(entry.file_name())];
         if !is_of_answer(&old, names) {
@@ -248,7 +256,7 @@ fn exchange(part: &Path, folder: &Path) -> io::Result<PathBuf> {
 
 /// Exchanges two folders by two renames; [`restore`] recovers from an interruption between them.
 fn exchange_by_renaming(part: &Path, folder: &Path) -> io::Result<PathBuf> {
-    let away = part.with_extension(&AWAY_END[1..]);
+    let away = part.with_extension(&AWAY_SUFFIX[1..]);
     fs::rename(folder, &away)?;
     fs::rename(part, folder).inspect_err(|_| {
         fs::rename(&away, folder).ok();
@@ -274,7 +282,8 @@ fn rename_new(from: &Path, to: &Path) -> io::Result<()> {
     fs::rename(from, to)
 }
 
-/// Keeps symbolic links among the replaced files: the new contents are written to their targets.
+/// Keeps symbolic links among the replaced files of the result: the new contents are written to the targets, and the links
+/// moved into the new folder.
 fn keep_links(old: &Path, folder: &Path, names: &[&str]) -> Result<()> {
     for name in names {
         let [link, new] = [old, folder].map(|folder| folder.join(name));
@@ -282,7 +291,7 @@ fn keep_links(old: &Path, folder: &Path, names: &[&str]) -> Result<()> {
             let failed = |error| not_written(new.display(), error);
             let contents = fs::read(&new).map_err(failed)?;
             let target = OutputFile {
-                path: followed(&link),
+                path: link_target(&link),
                 overwrite: true,
             };
             target.write(&contents)?;
@@ -297,7 +306,8 @@ fn is_of_answer(file: &Path, names: &[&str]) -> bool {
     names.contains(&&*name_of(file)) && !is_input(file)
 }
 
-/// Removes a replaced folder; its other files are moved into the new folder.
+/// Removes a replaced folder `old`. Its files that are not of the result, and are not in the new `folder` yet, are moved there
+/// first; if that fails, the old folder stays and a message says so.
 fn clear(old: &Path, folder: &Path, names: &[&str]) {
     let cleared = || -> io::Result<()> {
         let entries = fs::read_dir(old)?.flatten();
@@ -316,7 +326,7 @@ fn clear(old: &Path, folder: &Path, names: &[&str]) {
     };
     if let Err(error) = cleared() {
         let [old, folder] = [old, folder].map(|path| path.display());
-        say(&format!(
+        eprint_line(&format!(
             "{old} has files that were in {folder}, and stays: {error}"
         ));
     }
@@ -337,9 +347,10 @@ fn is_same(one: &Path, other: &Path) -> bool {
     one.is_file() && other.is_file()
 }
 
-/// Temporary folders left by interrupted runs, by location and suffix; those of running programs are locked and left out.
-fn left(folder: &Path, within: &Path, end: &str) -> Vec<PathBuf> {
-    let start = part_start(&name_of(folder));
+/// Temporary folders of interrupted runs for the result `folder`: those in `within` whose name has the suffix `end`. Those of
+/// running programs are locked and left out.
+fn leftovers(folder: &Path, within: &Path, end: &str) -> Vec<PathBuf> {
+    let start = part_prefix(&name_of(folder));
     let is_left = |path: &PathBuf| {
         let name = name_of(path);
         let is_part = name.starts_with(&start) && name.ends_with(end) && path.is_dir();
@@ -353,17 +364,17 @@ fn left(folder: &Path, within: &Path, end: &str) -> Vec<PathBuf> {
 /// Renames a folder back that an interrupted run had renamed out of the way.
 fn restore(folder: &Path) {
     if folder.symlink_metadata().is_err()
-        && let Some(away) = left(folder, folder_of(folder), AWAY_END).first()
+        && let Some(away) = leftovers(folder, folder_of(folder), AWAY_SUFFIX).first()
     {
         fs::rename(away, folder).ok();
     }
 }
 
 /// Removes the temporary folders of interrupted runs.
-fn clear_left(folder: &Path, names: &[&str]) {
+fn clear_leftovers(folder: &Path, names: &[&str]) {
     for within in [folder_of(folder), folder] {
-        for end in [PART_END, AWAY_END] {
-            for part in left(folder, within, end) {
+        for end in [PART_SUFFIX, AWAY_SUFFIX] {
+            for part in leftovers(folder, within, end) {
                 clear(&part, folder, names);
             }
         }
@@ -394,7 +405,7 @@ mod tests {
         restore(&folder);
         assert!(!away.exists(), "{} stays", away.display());
         assert_eq!(text(&folder, "result.json").as_deref(), Some("old"));
-        clear_left(&folder, &["result.json"]);
+        clear_leftovers(&folder, &["result.json"]);
         assert!(!part.exists(), "{} stays", part.display());
     }
 }

@@ -28,7 +28,7 @@ impl std::fmt::Display for NotWritten {
     }
 }
 
-/// Error for a file, or the standard output, that was not written.
+/// Error for `what` was not written, a file or the standard output; it leads to the exit status 3.
 pub(crate) fn not_written(what: impl std::fmt::Display, error: io::Error) -> anyhow::Error {
     anyhow::Error::new(error).context(NotWritten(what.to_string()))
 }
@@ -74,7 +74,7 @@ pub(crate) fn is_closed_pipe(error: &anyhow::Error) -> bool {
 pub(crate) const ABOUT_WARNINGS: &str = "about warnings: docs/numbers.md";
 
 /// Prints a line to the standard error; errors are ignored.
-pub(crate) fn say(text: &str) {
+pub(crate) fn eprint_line(text: &str) {
     writeln!(io::stderr(), "{text}").ok();
 }
 
@@ -129,7 +129,7 @@ impl OutputFile {
             Ok(_) if !overwrite => Err(wrong("the file is there already; --overwrite replaces it")),
             Err(error) if error.kind() != ErrorKind::NotFound => Err(wrong(&error.to_string())),
             _ => Ok(Self {
-                path: followed(path),
+                path: link_target(path),
                 overwrite,
             }),
         }
@@ -143,7 +143,7 @@ impl OutputFile {
     /// Writes a temporary file and renames it, so that an interruption leaves the old or the new file. Permissions of a replaced
     /// file are kept.
     pub(crate) fn write(&self, contents: &[u8]) -> Result<()> {
-        self.put(self.part(contents)?)
+        self.persist(self.part(contents)?)
     }
 
     /// Writes the contents to a temporary file in the same folder.
@@ -152,7 +152,7 @@ impl OutputFile {
             let folder = folder_of(&self.path);
             fs::create_dir_all(folder)?;
             remove_parts(folder, &[&name_of(&self.path)]);
-            let mut part = new_part(&part_start(&name_of(&self.path)), folder)?;
+            let mut part = new_part(&part_prefix(&name_of(&self.path)), folder)?;
             part.write_all(contents)?;
             if let Ok(replaced) = fs::metadata(&self.path) {
                 part.as_file().set_permissions(replaced.permissions())?;
@@ -162,8 +162,9 @@ impl OutputFile {
         write().map_err(|error| not_written(self.path.display(), error))
     }
 
-    /// Renames a temporary file to the output file.
-    pub(crate) fn put(&self, part: NamedTempFile) -> Result<()> {
+    /// Renames a temporary file, made by [`Self::part`], to the output file. An error if the file exists and may not be
+    /// replaced.
+    pub(crate) fn persist(&self, part: NamedTempFile) -> Result<()> {
         // Another program may have written the file meanwhile.
         let persisted = if self.overwrite {
             part.persist(&self.path)
@@ -188,7 +189,7 @@ impl OutputFile {
     }
 }
 
-/// Folder of a file.
+/// Folder of a file; `.` for a name alone.
 pub(crate) fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
@@ -196,25 +197,25 @@ pub(crate) fn folder_of(path: &Path) -> &Path {
     }
 }
 
-/// Name of a file in its folder.
+/// Last part of a path; invalid UTF-8 in it is replaced.
 pub(crate) fn name_of(path: &Path) -> String {
     let name = path.file_name().unwrap_or_default();
     name.to_string_lossy().into_owned()
 }
 
 /// Prefix of the name of a temporary file. It uses 50 characters of the name, at most 200 bytes, since names have at most 255.
-fn part_start(name: &str) -> String {
+fn part_prefix(name: &str) -> String {
     let name: String = name.chars().take(50).collect();
     format!(".{name}.viscofriction-")
 }
 
 /// Suffix of temporary files and folders.
-const PART_END: &str = ".part";
+const PART_SUFFIX: &str = ".part";
 
-/// A temporary file with default permissions, removed when dropped.
+/// A locked temporary file in `folder` whose name begins with `start`, with default permissions; removed when dropped.
 fn new_part(start: &str, folder: &Path) -> io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
-    builder.prefix(start).suffix(PART_END);
+    builder.prefix(start).suffix(PART_SUFFIX);
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt as _;
@@ -231,19 +232,19 @@ fn new_part(start: &str, folder: &Path) -> io::Result<NamedTempFile> {
 pub(crate) fn remove_parts(folder: &Path, names: &[&str]) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let part = entry.file_name().to_string_lossy().into_owned();
-        let of = |name: &&str| part.starts_with(&part_start(name));
+        let of = |name: &&str| part.starts_with(&part_prefix(name));
         let is_left = || File::open(entry.path()).is_ok_and(|part| part.try_lock().is_ok());
-        let is_part = part.ends_with(PART_END) && names.iter().any(of);
+        let is_part = part.ends_with(PART_SUFFIX) && names.iter().any(of);
         if is_part && is_left() && !is_input(&entry.path()) {
             fs::remove_file(entry.path()).ok();
         }
     }
 }
 
-/// Target of a chain of symbolic links, whether or not it exists.
-fn followed(path: &Path) -> PathBuf {
+/// The last target of a chain of symbolic links, whether or not it exists; the path itself if it is no link.
+fn link_target(path: &Path) -> PathBuf {
     match fs::read_link(path) {
-        Ok(target) => followed(&path.with_file_name(target)),
+        Ok(target) => link_target(&path.with_file_name(target)),
         Err(_) => path.to_owned(),
     }
 }

@@ -14,7 +14,7 @@ use viscofriction::{Estimate, WrongInput};
 
 use crate::input::{half_of_free_memory, read_input, read_scene};
 use crate::output::{
-    ABOUT_WARNINGS, OutputFile, markdown, picture as drawn, print_line, say, to_csv,
+    ABOUT_WARNINGS, OutputFile, eprint_line, markdown, picture as drawn, print_line, to_csv,
 };
 use crate::progress;
 use crate::sweep::beside;
@@ -56,12 +56,17 @@ const NUMBERS: [&str; 8] = [
 
 /// One row of the CSV file.
 struct Row {
+    /// Wavelength \[m] below which waves are left out.
     shortest_wavelength: f64,
+    /// Rms slope of the remaining waves.
     rms_slope: f64,
     /// The [`NUMBERS`]; `None` if a number is not known.
     numbers: [Option<f64>; 8],
+    /// Estimated friction of the waves that are left out; `None` without theory.
     persson_friction_of_shorter_waves: Option<f64>,
+    /// Warnings of the answer, separated by bars.
     warnings: String,
+    /// Reason why the request was not met; empty if it was.
     failure: String,
 }
 
@@ -107,10 +112,10 @@ pub(crate) fn road(options: &Road) -> Result<()> {
     let warnings = warnings.map(|one| one.warnings.iter().map(String::as_str).collect());
     let warnings = each_once(warnings);
     for warning in &warnings {
-        say(&format!("warning: {warning}"));
+        eprint_line(&format!("warning: {warning}"));
     }
     if !warnings.is_empty() {
-        say(ABOUT_WARNINGS);
+        eprint_line(ABOUT_WARNINGS);
     }
     let failures = rows.iter().map(|row| &row.failure);
     let mut failures = failures.filter(|failure| !failure.is_empty());
@@ -240,8 +245,8 @@ impl Files {
         let [svg_part, png_part] = [self.svg.part(svg.as_bytes())?, self.png.part(&png)?];
         self.svg.remove()?;
         self.png.remove()?;
-        self.csv.put(csv)?;
-        self.svg.put(svg_part)?;
-        self.png.put(png_part)
+        self.csv.persist(csv)?;
+        self.svg.persist(svg_part)?;
+        self.png.persist(png_part)
     }
 }

@@ -5,7 +5,7 @@ use viscofriction::Quantity;
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series, Shape};
 
 use super::Row;
-use crate::run::around;
+use crate::run::range_with_zero;
 
 /// The figure of a cut-off series.
 pub(super) fn figure(rows: &[Row]) -> Figure {
@@ -42,5 +42,9 @@ fn chart(key: &str, (theory, name): (&str, &str), rows: &[Row]) -> Chart {
     series.retain(|one| one.points.len() > usize::from(one.marker.is_none()));
     let lengths = rows.iter().map(|row| row.shortest_wavelength);
     let x = Axis::decades("shortest wavelength λ [m]", lengths);
-    Chart::new(x, Axis::linear(label, around(all.into_iter())), series)
+    Chart::new(
+        x,
+        Axis::linear(label, range_with_zero(all.into_iter())),
+        series,
+    )
 }

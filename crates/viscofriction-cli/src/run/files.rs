@@ -22,7 +22,7 @@ pub(super) const NAMES: &str = "result.json report.html realisations.csv history
     spectral_sensitivity.csv spectral_sensitivity.svg spectral_sensitivity.png \
     line_pressure.csv line_pressure.npy line_pressure.svg line_pressure.png";
 
-/// Pictures with the names of their files.
+/// Pictures with the names of their files, without extension, in the order of the report.
 pub(super) type Pictures = Vec<(&'static str, Figure)>;
 
 /// Writes all files of the answer and the report; result.json is the last, so that its presence implies the others.
@@ -67,7 +67,8 @@ pub(super) fn write(
     out.finish()
 }
 
-/// Writes the pressure on the half space.
+/// Writes the pressure on the half space as pressure.csv and pressure.npy, row-major with the shape (n_y, n_x), and its
+/// coordinates; and adds its picture.
 fn write_pressure(answer: &Answer, (out, pictures): (&NewFiles<'_>, &mut Pictures)) -> Result<()> {
     let Some(field) = &answer.fields.pressure else {
         return Ok(());
@@ -92,7 +93,7 @@ fn write_pressure(answer: &Answer, (out, pictures): (&NewFiles<'_>, &mut Picture
     Ok(())
 }
 
-/// Writes the line load and the line pressure.
+/// Writes the line load and the line pressure over the position, as CSV and NPY with the shape (n, 2), and adds their pictures.
 fn write_line(answer: &Answer, (out, pictures): (&NewFiles<'_>, &mut Pictures)) -> Result<()> {
     let (load, pressure) = (&answer.fields.line_load, &answer.fields.line_pressure);
     let load = ("line_load", "load_n_per_m", "load per length [N/m]", load);
@@ -111,7 +112,7 @@ fn write_line(answer: &Answer, (out, pictures): (&NewFiles<'_>, &mut Pictures)) 
     Ok(())
 }
 
-/// Writes the columns of a curve with their errors.
+/// Writes the columns of a history or motion with their errors, as history.csv or motion.csv.
 fn write_columns(curve: &Curve, out: &NewFiles<'_>) -> Result<()> {
     let Curve { times, columns } = curve;
     let rows = times.iter().enumerate().map(|(index, time)| {

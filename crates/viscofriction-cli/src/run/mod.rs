@@ -20,9 +20,9 @@ use viscofriction::solve::{
 use viscofriction::{Progress, WrongInput};
 
 use crate::input::{half_of_free_memory, read_input, read_scene};
-use crate::output::{ABOUT_WARNINGS, Format, OutputFolder, print_line, say};
+use crate::output::{ABOUT_WARNINGS, Format, OutputFolder, eprint_line, print_line};
 use crate::progress;
-pub(crate) use pictures::{around, arrow};
+pub(crate) use pictures::{arrow, range_with_zero};
 
 /// Arguments of the command.
 #[derive(Debug, Args)]
@@ -234,7 +234,7 @@ fn print(problem: &Problem, timed: &Timed<'_>, format: Format) -> Result<()> {
 fn explain(problem: &Problem, answer: &Answer, format: Format) -> Result<()> {
     let omissions = table::omissions(problem, answer);
     match format {
-        Format::Json => say(&omissions.to_string()),
+        Format::Json => eprint_line(&omissions.to_string()),
         Format::Table => print_line(&format!("\nnot needed, and left out:\n{omissions}"))?,
     }
     Ok(())

@@ -4,9 +4,9 @@ use anyhow::{Context, Result};
 use viscofriction::{Answer, PressureField};
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Field, Figure, Line, Marker, Series, Shape};
 
-/// Fraction of the load on elements of the darkest colour of a logarithmic scale (chosen): single elements at the edge of the
-/// contact lie many decades below.
-const DARKEST: f64 = 0.01;
+/// Fraction of the load on the elements that have the darkest colour of a logarithmic scale (chosen). Without it single
+/// elements at the edge of the contact, many decades below the others, would determine the scale.
+const DARKEST_LOAD_FRACTION: f64 = 0.01;
 
 /// Map of the pressure, on a logarithmic scale if the peak is unbounded; with an arrow along the motion if the body slides.
 pub(super) fn pressure(answer: &Answer, field: &PressureField) -> Result<Figure> {
@@ -23,7 +23,7 @@ pub(super) fn pressure(answer: &Answer, field: &PressureField) -> Result<Figure>
     let (colours, lowest) = if answer.peak_pressure.is_some() {
         (Axis::linear("pressure P [Pa]", [0.0, highest]), 0.0)
     } else {
-        let of_darkest = DARKEST * loaded.iter().sum::<f64>();
+        let of_darkest = DARKEST_LOAD_FRACTION * loaded.iter().sum::<f64>();
         let mut load = 0.0;
         let mut above = loaded.iter().skip_while(|pressure| {
             load += **pressure;
@@ -52,7 +52,8 @@ pub(super) fn pressure(answer: &Answer, field: &PressureField) -> Result<Figure>
     }))
 }
 
-/// Arrow along the motion in the lower left corner; `is_true` if both axes have the same scale.
+/// Arrow along +x, the motion, in the lower left corner of a chart with the ranges `x` and `y`; `is_true` if both axes have the
+/// same scale.
 pub(crate) fn arrow(x: [f64; 2], y: [f64; 2], is_true: bool) -> Series {
     let spans = [x, y].map(|[from, to]| 0.03 * (to - from));
     let shorter = spans[0].min(spans[1]);
@@ -68,27 +69,27 @@ pub(crate) fn arrow(x: [f64; 2], y: [f64; 2], is_true: bool) -> Series {
     Series::line(points, Line::thick(Dash::Solid), Colour::Black)
 }
 
-/// A quantity over another as a line.
+/// A figure of a quantity over another as a line; `x` and `y` are the axis labels.
 pub(super) fn curve(x: &str, y: &str, points: Vec<[f64; 2]>) -> Figure {
     let line = Line::thick(Dash::Solid);
-    over(x, y, Series::line(points, line, Colour::Blue))
+    single_series(x, y, Series::line(points, line, Colour::Blue))
 }
 
-/// A quantity over another as separate points.
+/// A figure of a quantity over another as separate points; `x` and `y` are the axis labels.
 pub(super) fn points(x: &str, y: &str, points: Vec<[f64; 2]>) -> Figure {
     let marker = Marker::filled(Shape::Circle);
-    over(x, y, Series::markers(points, marker, Colour::Blue))
+    single_series(x, y, Series::markers(points, marker, Colour::Blue))
 }
 
 /// A figure of one series.
-fn over(x: &str, y: &str, series: Series) -> Figure {
-    let range = |axis: usize| around(series.points.iter().map(|point| point[axis]));
+fn single_series(x: &str, y: &str, series: Series) -> Figure {
+    let range = |axis: usize| range_with_zero(series.points.iter().map(|point| point[axis]));
     let [x, y] = [Axis::linear(x, range(0)), Axis::linear(y, range(1))];
     Figure::single(Chart::new(x, y, vec![series]))
 }
 
-/// A range that includes zero and all values, with a margin.
-pub(crate) fn around(values: impl Iterator<Item = f64>) -> [f64; 2] {
+/// A range that includes 0 and all values, with a margin of 5 % of its length; [−1, 1] if all are 0.
+pub(crate) fn range_with_zero(values: impl Iterator<Item = f64>) -> [f64; 2] {
     let [low, high] = values.fold([0.0_f64; 2], |[low, high], value| {
         [low.min(value), high.max(value)]
     });

@@ -21,7 +21,7 @@ pub(super) fn page(
     let answer = timed.answer;
     let scene = source.table()?;
     let mut page = Page::new(&title(&scene, problem));
-    page.paragraph(&how(problem, timed));
+    page.paragraph(&method_sentence(problem, timed));
     page.table(&numbers(&scene));
     page.hidden("the scene file", source.text());
     page.heading("The answer");
@@ -42,7 +42,7 @@ pub(super) fn page(
     } else {
         page.list(&answer.warnings);
     }
-    page.paragraph(&modelled(problem, answer));
+    page.paragraph(&model_sentence(problem, answer));
     if !answer.not_modelled.is_empty() {
         let words = answer.not_modelled.join(", ");
         page.paragraph(&format!(
@@ -50,7 +50,7 @@ pub(super) fn page(
         ));
     }
     add_pictures(&mut page, (problem, answer), pictures)?;
-    derivatives(&mut page, answer);
+    add_derivatives(&mut page, answer);
     page.heading("What was left out");
     page.table(&table::omissions(problem, answer));
     Ok(page.finish())
@@ -88,7 +88,7 @@ fn title(scene: &Table, problem: &Problem) -> String {
 }
 
 /// Sentence about method, model and time.
-fn how(problem: &Problem, timed: &Timed<'_>) -> String {
+fn method_sentence(problem: &Problem, timed: &Timed<'_>) -> String {
     let Timed { answer, seconds } = timed;
     let model = table::model(problem, answer);
     let is_chosen = problem.method().is_none();
@@ -107,7 +107,7 @@ fn how(problem: &Problem, timed: &Timed<'_>) -> String {
     )
 }
 
-/// The numbers of a scene with their quantities.
+/// Table of the numbers of a scene: path, quantity with unit, and value.
 fn numbers(scene: &Table) -> comfy_table::Table {
     let mut rows = markdown("key | quantity | value");
     let keys = [
@@ -126,7 +126,7 @@ fn numbers(scene: &Table) -> comfy_table::Table {
     rows
 }
 
-/// Appends the numbers below a path.
+/// Appends a row for each number below the path `path` of the scene; a list of tables or lists is one row with its length.
 fn add_numbers(path: &str, value: &Value, rows: &mut comfy_table::Table) {
     match value {
         Value::Table(table) => {
@@ -146,7 +146,7 @@ fn add_numbers(path: &str, value: &Value, rows: &mut comfy_table::Table) {
 }
 
 /// Appends the derivatives and the uncertainty budget, if requested.
-fn derivatives(page: &mut Page, answer: &Answer) {
+fn add_derivatives(page: &mut Page, answer: &Answer) {
     if !answer.budget.entries.is_empty() {
         page.heading("What makes it uncertain");
         page.table(&table::budget(answer));
@@ -168,7 +168,7 @@ fn derivatives(page: &mut Page, answer: &Answer) {
 }
 
 /// Sentence about the model.
-fn modelled(problem: &Problem, answer: &Answer) -> String {
+fn model_sentence(problem: &Problem, answer: &Answer) -> String {
     let body = match answer.model {
         Model::Line => {
             "elements of a line, which stand for a half space by the method of dimensionality reduction"
@@ -196,7 +196,7 @@ fn add_pictures(
     let has_spectrum = pictures
         .iter()
         .any(|(name, _)| *name == "spectral_sensitivity");
-    if let Some(figure) = material(problem, answer).filter(|_| !has_spectrum) {
+    if let Some(figure) = moduli_figure(problem, answer).filter(|_| !has_spectrum) {
         page.picture(
             &figure,
             "Storage and loss modulus of the material, over angular frequencies around v/L with the length L of the contact.",
@@ -206,7 +206,7 @@ fn add_pictures(
 }
 
 /// The moduli around the frequency v/L with the contact length L; `None` if nothing slides or dissipates.
-fn material(problem: &Problem, answer: &Answer) -> Option<Figure> {
+fn moduli_figure(problem: &Problem, answer: &Answer) -> Option<Figure> {
     let Motion::Sliding(load) = problem.motion() else {
         return None;
     };
@@ -215,14 +215,15 @@ fn material(problem: &Problem, answer: &Answer) -> Option<Figure> {
     let dissipates = answer.friction_coefficient?.value > 0.0;
     let is_drawn = dissipates && middle > 0.0 && middle.is_finite();
     is_drawn.then(|| {
-        let ends = [AROUND.recip(), AROUND].map(|factor| factor * middle);
+        let ends =
+            [FREQUENCY_HALF_RANGE.recip(), FREQUENCY_HALF_RANGE].map(|factor| factor * middle);
         let x = Axis::decades("angular frequency ω [rad/s]", ends.into_iter());
         Figure::single(spectrum::master_curve(problem, x))
     })
 }
 
-/// Half width of the frequency range around v/L, as a factor (chosen).
-const AROUND: f64 = 1e3;
+/// Ratio of the highest drawn frequency to v/L, and of v/L to the lowest, with the contact length L (chosen).
+const FREQUENCY_HALF_RANGE: f64 = 1e3;
 
 /// Caption of a picture by the name of its file.
 fn caption(name: &str) -> &'static str {

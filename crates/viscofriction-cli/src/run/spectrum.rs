@@ -7,44 +7,49 @@ use viscofriction::Estimate;
 use viscofriction::solve::{ByFrequency, Problem, SpectralSensitivity};
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series, Shape};
 
-use super::pictures::around;
+use super::pictures::range_with_zero;
 use crate::output::markdown;
 
-/// Smallest fraction of the summed absolute derivatives for a row in the table (chosen).
-const IN_TABLE: f64 = 0.01;
-/// Smallest fraction of the summed absolute derivatives for a point in the picture (chosen).
-const IN_PICTURE: f64 = 1e-4;
+/// Fraction of the sum of the absolute derivatives of friction, over all bands, above which a band has a row in the table
+/// (chosen).
+const MIN_FRACTION_IN_TABLE: f64 = 0.01;
+/// Fraction of the sum of the absolute derivatives of friction, over all bands, above which a band has a point in the picture
+/// (chosen).
+const MIN_FRACTION_IN_PICTURE: f64 = 1e-4;
 /// Points per decade of a master curve (chosen; output only).
 const POINTS_PER_DECADE: f64 = 20.0;
 
 /// Colours of storage and loss modulus.
 const COLOURS: [Colour; 2] = [Colour::Blue, Colour::Red];
 
-/// Derivatives of a quantity in a band, by G' and by G''; `None` if they are not known.
+/// Derivatives d ln q/d ln G' and d ln q/d ln G'' of the quantity `key` in a band; `None` if they are not known.
 fn derivatives(band: &ByFrequency, key: &str) -> [Option<Estimate>; 2] {
     [&band.storage_modulus, &band.loss_modulus].map(|one| one.derivatives.of(key))
 }
 
 /// Derivatives of the friction by G' and by G''; 0 if they are not known.
-fn of_friction(band: &ByFrequency) -> [Estimate; 2] {
+fn friction_derivatives(band: &ByFrequency) -> [Estimate; 2] {
     derivatives(band, "friction_coefficient").map(|known| known.unwrap_or(Estimate::exact(0.0)))
 }
 
-/// Sum of the absolute derivatives of the friction in a band.
-fn size(band: &ByFrequency) -> f64 {
-    of_friction(band)
+/// Sum of the absolute derivatives of friction by G' and by G'' in a band.
+fn derivative_size(band: &ByFrequency) -> f64 {
+    friction_derivatives(band)
         .iter()
         .map(|known| known.value.abs())
         .sum()
 }
 
 /// Bands with at least the fraction `part` of the sum over all bands.
-fn with_part(spectral: &SpectralSensitivity, part: f64) -> impl Iterator<Item = &ByFrequency> {
-    let least = part * spectral.bands.iter().map(size).sum::<f64>();
+fn significant_bands(
+    spectral: &SpectralSensitivity,
+    part: f64,
+) -> impl Iterator<Item = &ByFrequency> {
+    let least = part * spectral.bands.iter().map(derivative_size).sum::<f64>();
     spectral
         .bands
         .iter()
-        .filter(move |band| size(band) >= least)
+        .filter(move |band| derivative_size(band) >= least)
 }
 
 /// Table of the significant bands, and a sentence about the fraction of all others.
@@ -56,14 +61,16 @@ pub(super) fn table(spectral: &SpectralSensitivity) -> (Table, String) {
         ["G′", "G″"].map(|modulus| format!(" | d ln {} by {modulus}", key.replace('_', " ")))
     });
     let mut table = markdown(&format!("ω [rad/s]{}", heads.collect::<String>()));
-    for band in with_part(spectral, IN_TABLE) {
+    for band in significant_bands(spectral, MIN_FRACTION_IN_TABLE) {
         let [from, to] = band.frequencies;
         let cells = keys.iter().flat_map(|key| derivatives(band, key));
         let cells = cells.map(|known| known.map_or_else(String::new, |known| known.to_string()));
         table.add_row(iter::once(format!("{from:.3e} to {to:.3e}")).chain(cells));
     }
-    let all: f64 = spectral.bands.iter().map(size).sum();
-    let shown: f64 = with_part(spectral, IN_TABLE).map(size).sum();
+    let all: f64 = spectral.bands.iter().map(derivative_size).sum();
+    let shown: f64 = significant_bands(spectral, MIN_FRACTION_IN_TABLE)
+        .map(derivative_size)
+        .sum();
     let percent = |part: f64| format!("{:.1} %", 100.0 * part);
     let rest = percent((all - shown) / all);
     let mut words =
@@ -77,7 +84,7 @@ pub(super) fn table(spectral: &SpectralSensitivity) -> (Table, String) {
 
 /// The master curve, and below it the derivatives of friction by both moduli per decade of frequency.
 pub(super) fn figure(problem: &Problem, spectral: &SpectralSensitivity) -> Figure {
-    let bands: Vec<&ByFrequency> = with_part(spectral, IN_PICTURE)
+    let bands: Vec<&ByFrequency> = significant_bands(spectral, MIN_FRACTION_IN_PICTURE)
         .filter(|band| band.frequencies[0] > 0.0)
         .collect();
     let ends = bands.iter().flat_map(|band| band.frequencies);
@@ -88,7 +95,7 @@ pub(super) fn figure(problem: &Problem, spectral: &SpectralSensitivity) -> Figur
         let pairs = series.points.iter().zip(&series.errors);
         pairs.flat_map(|(point, error)| [point[1] - error, point[1] + error])
     });
-    let range = around(ends);
+    let range = range_with_zero(ends);
     let y = Axis::linear("d ln μ per decade of ω", range);
     let window = problem.window().into_iter().flatten();
     let within = window.filter(|end| x.range[0] < *end && *end < x.range[1]);
@@ -104,7 +111,7 @@ pub(super) fn figure(problem: &Problem, spectral: &SpectralSensitivity) -> Figur
 fn per_decade(bands: &[&ByFrequency], part: usize) -> Series {
     let at = bands.iter().map(|band| {
         let [from, to] = band.frequencies;
-        let known = of_friction(band)[part];
+        let known = friction_derivatives(band)[part];
         let decades = (to / from).log10();
         (
             [(from * to).sqrt(), known.value / decades],

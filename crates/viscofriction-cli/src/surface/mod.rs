@@ -192,10 +192,10 @@ impl Surface {
     }
 }
 
-/// Quantity, symbol, value and unit.
+/// A row of roughness.csv: quantity, symbol, value and unit.
 type Statistic = (&'static str, &'static str, f64, &'static str);
 
-/// Quantity, symbol and unit of each row.
+/// Quantity, symbol (ISO 25178 for S…) and unit of each row, separated by bars, in the order of the values of [`rows`].
 const QUANTITIES: &str = "root mean square of the heights|Sq|m\n\
                           mean deviation of the heights|Sa|m\n\
                           highest peak above the mean|Sp|m\n\
@@ -242,7 +242,7 @@ fn table(rows: &[Statistic]) -> comfy_table::Table {
     table
 }
 
-/// The surface as lines of x, y and z, \[m].
+/// The surface as a text with one line of x, y and height \[m] for each point, x fastest.
 fn xyz(surface: &Topography) -> Result<String, std::fmt::Error> {
     let mut text = String::new();
     let columns = surface.shape[1];

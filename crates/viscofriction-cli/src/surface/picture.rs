@@ -7,8 +7,8 @@ use viscofriction_plot::{Axis, Chart, Colour, Dash, Field, Figure, Line, Marker,
 use crate::material::decades;
 use crate::run::arrow;
 
-/// Largest aspect ratio of a map drawn to scale (chosen).
-const LONGEST: f64 = 2.0;
+/// Ratio of the longer to the shorter side of a map up to which it is drawn to scale (chosen); longer maps are stretched.
+const MAX_ASPECT_RATIO: f64 = 2.0;
 
 /// The figure of a map.
 pub(super) fn figure(map: &HeightMap, spectrum: &PowerSpectrum) -> Figure {
@@ -40,17 +40,17 @@ fn heights(map: &HeightMap) -> Chart {
     let [x, y] = [[0.0, along_x as f64 * dx], [0.0, along_y as f64 * dy]];
     // A long map drawn to scale is too narrow for its labels.
     let sides = [x[1], y[1]];
-    let is_long = sides[0].max(sides[1]) > LONGEST * sides[0].min(sides[1]);
+    let is_long = sides[0].max(sides[1]) > MAX_ASPECT_RATIO * sides[0].min(sides[1]);
     let field = if is_long { field.stretched() } else { field };
     Chart {
         title: Some("yellow touches first".into()),
-        series: vec![motion(x, y, !is_long)],
+        series: vec![motion_arrow(x, y, !is_long)],
         ..Chart::map(Axis::linear("x [m]", x), Axis::linear("y [m]", y), field)
     }
 }
 
-/// The arrow along the motion.
-fn motion(x: [f64; 2], y: [f64; 2], is_true: bool) -> Series {
+/// A red arrow along the motion; `is_true` if both axes have the same scale.
+fn motion_arrow(x: [f64; 2], y: [f64; 2], is_true: bool) -> Series {
     Series {
         colour: Colour::Red,
         ..arrow(x, y, is_true)
@@ -76,7 +76,7 @@ fn section(map: &HeightMap) -> Chart {
     let series = vec![
         Series::line(points, Line::thick(Dash::Solid), Colour::Blue).labelled("rigid body, above"),
         Series::line(flat, dashed, Colour::Green).labelled("elastomer, below"),
-        motion(x, [1.1 * highest, 1.1 * highest + y[1] - y[0]], false)
+        motion_arrow(x, [1.1 * highest, 1.1 * highest + y[1] - y[0]], false)
             .labelled("motion of the body"),
     ];
     Chart {

@@ -28,8 +28,11 @@ pub(super) enum Existing {
 
 /// An open file with its rows, locked while it is open.
 pub(super) struct SweepFile {
+    /// Path with links resolved.
     path: PathBuf,
+    /// Names of the columns; empty for a new file.
     header: Vec<String>,
+    /// One row per point, by its index.
     rows: BTreeMap<usize, SweepRow>,
     file: File,
     /// Length of the kept part of the file, \[bytes].
@@ -54,7 +57,7 @@ impl SweepFile {
         if !table.header.is_empty() {
             check(&path, plan, &table)?;
         }
-        let kept = whole(&contents).len() as u64;
+        let kept = complete_lines(&contents).len() as u64;
         let mut rows = BTreeMap::new();
         for (_, row) in table.rows {
             insert(&mut rows, row);
@@ -119,7 +122,7 @@ impl SweepFile {
     }
 }
 
-/// Adds a row. Of two rows of one point, one with an answer is kept; if both failed, the later one.
+/// Adds a row to those by point. Of two rows of one point the first that has an answer is kept; if both failed, the later one.
 pub(super) fn insert(rows: &mut BTreeMap<usize, SweepRow>, row: SweepRow) {
     match rows.entry(row.point) {
         Entry::Occupied(known) if !known.get().failed() => {}
@@ -145,7 +148,7 @@ pub(super) fn checked(path: &Path, existing: Existing) -> Result<PathBuf, WrongI
 }
 
 /// Contents up to the last complete line.
-fn whole(contents: &[u8]) -> &[u8] {
+fn complete_lines(contents: &[u8]) -> &[u8] {
     let end = contents.iter().rposition(|byte| *byte == b'\n');
     &contents[..end.map_or(0, |end| end + 1)]
 }
@@ -192,7 +195,7 @@ pub(crate) struct TableFile {
 impl TableFile {
     /// Parses the contents of a file up to the last complete line.
     pub(crate) fn new(path: &Path, contents: &[u8]) -> Result<Self, WrongInput> {
-        let mut reader = csv::Reader::from_reader(whole(contents));
+        let mut reader = csv::Reader::from_reader(complete_lines(contents));
         let wrong = |line: usize, problem: &dyn std::fmt::Display| {
             wrong_row(path, line, &format!("no row of a sweep: {problem}"))
         };

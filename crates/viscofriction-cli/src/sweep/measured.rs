@@ -10,17 +10,18 @@ use viscofriction::numerics::Estimate;
 use super::file::{RowTable, line};
 use super::picture::{FRICTION, Key, abscissa, keys};
 use crate::friction::read_points;
-use crate::output::say;
+use crate::output::eprint_line;
 
 /// Key over which measured and computed friction are compared.
 pub(super) const SPEED: &str = "load.velocity";
-/// Largest relative difference of two speeds that count as one (chosen, above rounding of the table).
+/// Largest difference of the logarithms of two speeds that count as one (chosen, above the rounding of the table).
 const SAME_SPEED: f64 = 1e-9;
 /// Largest relative difference between a measured normal force and that of its curve (chosen).
 const SAME_FORCE: f64 = 0.02;
 /// Largest difference between a measured temperature and that of its curve, \[K] (chosen).
 const SAME_TEMPERATURE: f64 = 1.0;
-/// Fewest computed speeds for an interpolation whose error can be estimated.
+/// Smallest number of computed speeds for an interpolation: three define a parabola, whose difference from linear interpolation
+/// is the error estimate.
 const MIN_NODES: usize = 3;
 
 /// A quantity of the table on which friction depends beside the speed.
@@ -29,10 +30,13 @@ struct Condition {
     unit: &'static str,
     /// Key of the sweep that varies it.
     key: &'static str,
+    /// Value of a point, in the unit of the condition; `None` if the table has none.
     value: fn(&FrictionPoint) -> Option<f64>,
+    /// True if a measured and a computed value count as the same.
     is_same: fn(f64, f64) -> bool,
 }
 
+/// The quantities of the table that must equal those of a curve.
 const CONDITIONS: [Condition; 2] = [
     Condition {
         name: "normal forces",
@@ -79,7 +83,7 @@ impl Measured {
         let FrictionTable { points, notes } = read_points(path, options)?;
         let wrong = |error| WrongInput(format!("{}: {error}", path.display()));
         FrictionPoint::check_all(&points).map_err(wrong)?;
-        notes.iter().for_each(|note| say(note));
+        notes.iter().for_each(|note| eprint_line(note));
         Ok(Self {
             path: path.to_owned(),
             points,
@@ -164,6 +168,7 @@ impl Measured {
 
     /// The residuals of the points on each curve.
     pub(super) fn residuals(&self, table: &RowTable) -> Result<Residuals> {
+        // A curve is a combination of the other varied keys; along it friction is interpolated over the speed.
         let mut others = keys(table)?;
         let over = others.iter().position(|key| key.name == SPEED);
         let speeds = over.map(|over| others.remove(over).numbers());
@@ -273,9 +278,9 @@ struct Node {
     friction: Estimate,
 }
 
-/// Mean of the two parabolas over the logarithm of the speed that pass through both neighbours and one node more; at the ends there
-/// is one parabola. The error is that of the nodes plus the largest difference of a parabola from linear interpolation. `None`
-/// outside of the nodes, and for fewer than [`MIN_NODES`].
+/// Friction at the logarithm `at` of a speed, from nodes in increasing order. It is the mean of the two parabolas in ln v that
+/// pass through both neighbours and one node more; at the ends there is one parabola. The error is that of the nodes plus the
+/// largest difference of a parabola from linear interpolation. `None` outside of the nodes, and for fewer than [`MIN_NODES`].
 fn interpolated(nodes: &[Node], at: f64) -> Option<Estimate> {
     let is_same = |node: &&Node| (node.log_speed - at).abs() <= SAME_SPEED;
     if let Some(node) = nodes.iter().find(is_same) {
@@ -285,12 +290,14 @@ fn interpolated(nodes: &[Node], at: f64) -> Option<Estimate> {
     if above == 0 || above == nodes.len() || nodes.len() < MIN_NODES {
         return None;
     }
-    let linear = lagrange(&nodes[above - 1..=above], at).value;
+    let linear = lagrange_polynomial(&nodes[above - 1..=above], at).value;
     let first_nodes = [above.checked_sub(2), Some(above - 1)]
         .into_iter()
         .flatten();
     let parabolas = first_nodes.filter_map(|first| nodes.get(first..first + 3));
-    let parabolas: Vec<Estimate> = parabolas.map(|nodes| lagrange(nodes, at)).collect();
+    let parabolas: Vec<Estimate> = parabolas
+        .map(|nodes| lagrange_polynomial(nodes, at))
+        .collect();
     let n = parabolas.len() as f64;
     let value = parabolas.iter().map(|found| found.value).sum::<f64>() / n;
     let of_nodes = parabolas.iter().map(|found| found.error).sum::<f64>() / n;
@@ -298,8 +305,8 @@ fn interpolated(nodes: &[Node], at: f64) -> Option<Estimate> {
     Some(Estimate::new(value, of_nodes + bends.fold(0.0, f64::max)))
 }
 
-/// The polynomial through the nodes, with the errors of the nodes.
-fn lagrange(nodes: &[Node], at: f64) -> Estimate {
+/// Lagrange's polynomial in ln v through the nodes, at the logarithm `at` of a speed, with the errors of the nodes propagated.
+fn lagrange_polynomial(nodes: &[Node], at: f64) -> Estimate {
     let weight = |one: &Node| -> f64 {
         let others = nodes.iter().map(|node| node.log_speed);
         let others = others.filter(|other| other.total_cmp(&one.log_speed).is_ne());

@@ -10,9 +10,9 @@ use viscofriction::sweep::SweepRow;
 use super::file::{RowTable, TableFile, insert};
 use super::measured::Measured;
 use super::picture::PictureFiles;
-use super::{say_samples, say_warnings, wrong_row};
+use super::{eprint_samples, eprint_warnings, wrong_row};
 use crate::input::read_table;
-use crate::output::{OutputFile, print_text, say};
+use crate::output::{OutputFile, eprint_line, print_text};
 
 /// Merges the files of one sweep in the order of the points; an error names missing points.
 pub(super) fn merge(
@@ -21,7 +21,7 @@ pub(super) fn merge(
     overwrite: bool,
     measured: Option<&Measured>,
 ) -> Result<()> {
-    let table = joined(paths)?;
+    let table = merged_rows(paths)?;
     measured.map_or(Ok(()), |measured| measured.check(&table))?;
     let files = out.map(|out| {
         let pictures = PictureFiles::new(out, measured, overwrite)?;
@@ -32,12 +32,12 @@ pub(super) fn merge(
         out.write(table.text()?.as_bytes())?;
         pictures.draw(&table, measured, None)?;
         let n_rows = table.rows.len();
-        say(&format!("{n_rows} points in {}", out.path().display()));
+        eprint_line(&format!("{n_rows} points in {}", out.path().display()));
     } else {
         print_text(&table.text()?)?;
     }
-    say_warnings(&table.rows);
-    say_samples(&table.header, &table.rows);
+    eprint_warnings(&table.rows);
+    eprint_samples(&table.header, &table.rows);
     let points = table.rows.first();
     let points = points.and_then(|row| row.fields.get(2)?.parse::<usize>().ok());
     let has = |point: usize| table.rows.binary_search_by_key(&point, |row| row.point);
@@ -50,7 +50,7 @@ pub(super) fn merge(
 }
 
 /// The rows of all files in the order of the points; an error if two files have different answers to a point.
-fn joined(paths: &[PathBuf]) -> Result<RowTable, WrongInput> {
+fn merged_rows(paths: &[PathBuf]) -> Result<RowTable, WrongInput> {
     let mut rows: BTreeMap<usize, SweepRow> = BTreeMap::new();
     let mut header = Vec::new();
     for path in paths {

@@ -21,7 +21,7 @@ use viscofriction::WrongInput;
 use viscofriction::sweep::{Plan, Shard, SweepRow, Vary, each_once, header};
 
 use crate::input::{half_of_free_memory, metres, read_input, read_scene};
-use crate::output::{ABOUT_WARNINGS, print_text, say};
+use crate::output::{ABOUT_WARNINGS, eprint_line, print_text};
 use crate::progress;
 pub(crate) use file::TableFile;
 use file::{Existing, RowTable, SweepFile, checked, line};
@@ -114,14 +114,16 @@ pub(crate) fn sweep(options: &Sweep) -> Result<()> {
     plan.max_memory = half_of_free_memory();
     let mine = |point: &usize| options.shard.is_none_or(|shard| shard.holds(*point));
     let points: Vec<usize> = (0..plan.n_points()).filter(mine).collect();
-    measured.map_or(Ok(()), |measured| measured.check(&points_of(&plan)))?;
+    measured.map_or(Ok(()), |measured| {
+        measured.check(&rows_without_results(&plan))
+    })?;
     let threads = plan.validate(&points)?.unwrap_or(0);
     // Compute them.
     let Computed {
         rows,
         n_failed_before,
     } = match &options.out {
-        Some(out) => into_file(
+        Some(out) => compute_into_file(
             &plan,
             points,
             threads,
@@ -131,11 +133,11 @@ pub(crate) fn sweep(options: &Sweep) -> Result<()> {
                 measured,
             },
         )?,
-        None => printed(&plan, &points, threads)?,
+        None => compute_and_print(&plan, &points, threads)?,
     };
     // Report warnings, the distribution of samples, and failures.
-    say_warnings(&rows);
-    say_samples(&header(&plan), &rows);
+    eprint_warnings(&rows);
+    eprint_samples(&header(&plan), &rows);
     let n_failed = rows.iter().filter(|row| row.failed()).count();
     if n_failed > 0 {
         let before = match n_failed_before {
@@ -160,7 +162,7 @@ struct Output<'a> {
 }
 
 /// The points of a plan as rows without results.
-fn points_of(plan: &Plan) -> RowTable {
+fn rows_without_results(plan: &Plan) -> RowTable {
     let row = |point| SweepRow {
         point,
         fields: plan.identity(point),
@@ -172,24 +174,24 @@ fn points_of(plan: &Plan) -> RowTable {
 }
 
 /// Reports the distribution of the answers of samples.
-fn say_samples(header: &[String], rows: &[SweepRow]) {
+fn eprint_samples(header: &[String], rows: &[SweepRow]) {
     let table = RowTable {
         header: header.to_vec(),
         rows: rows.to_vec(),
     };
     if let Some(samples) = Samples::of(&table) {
-        say(&samples.table().to_string());
+        eprint_line(&samples.table().to_string());
     }
 }
 
 /// Reports each warning once; the column `warnings` has all of them.
-fn say_warnings(rows: &[SweepRow]) {
+fn eprint_warnings(rows: &[SweepRow]) {
     let warnings = each_once(rows.iter().map(SweepRow::warnings));
     for warning in &warnings {
-        say(&format!("warning: {warning}"));
+        eprint_line(&format!("warning: {warning}"));
     }
     if !warnings.is_empty() {
-        say(ABOUT_WARNINGS);
+        eprint_line(ABOUT_WARNINGS);
     }
 }
 
@@ -213,7 +215,7 @@ struct Computed {
 }
 
 /// Prints the rows in the order of the points, each as soon as all preceding ones are done.
-fn printed(plan: &Plan, points: &[usize], threads: usize) -> Result<Computed> {
+fn compute_and_print(plan: &Plan, points: &[usize], threads: usize) -> Result<Computed> {
     print_text(&line(&header(plan))?)?;
     let mut finished = BTreeMap::new();
     let mut rows: Vec<SweepRow> = Vec::new();
@@ -233,8 +235,8 @@ fn printed(plan: &Plan, points: &[usize], threads: usize) -> Result<Computed> {
     })
 }
 
-/// Computes the points missing from a file, and draws all of it.
-fn into_file(
+/// Computes the points that are missing from the output file, sorts the file, and draws all of its rows.
+fn compute_into_file(
     plan: &Plan,
     mut points: Vec<usize>,
     threads: usize,
@@ -273,7 +275,7 @@ fn into_file(
     pictures.draw(&table, measured, Some(plan.scene_text()))?;
     let n_rows = table.rows.len();
     let (n_computed, path) = (points.len(), path.display());
-    say(&format!("{n_computed} points computed, {n_rows} in {path}"));
+    eprint_line(&format!("{n_computed} points computed, {n_rows} in {path}"));
     Ok(Computed {
         rows: table.rows,
         n_failed_before: there.values().filter(|has_answer| !**has_answer).count(),

@@ -14,17 +14,18 @@ use super::measured::{Measured, Residuals};
 use super::report::page;
 use super::samples::Samples;
 use crate::input::read_rows;
-use crate::output::{OutputFile, folder_of, name_of, picture, remove_parts, say};
-use crate::run::around;
+use crate::output::{OutputFile, eprint_line, folder_of, name_of, picture, remove_parts};
+use crate::run::range_with_zero;
 
 /// Keys of the quantities that may be drawn, in order of preference.
 const DRAWN: [&str; 3] = [FRICTION, "indentation_depth", "normal_force"];
 /// Column of the friction coefficient.
 pub(super) const FRICTION: &str = "friction_coefficient";
-/// Largest relative deviation of equal steps or factors (chosen, above rounding).
-const EQUAL: f64 = 1e-6;
-/// Smallest ratio of the last to the first value of an irregular list for a logarithmic axis (chosen).
-const WIDE: f64 = 100.0;
+/// Range of the steps between values, over the largest step, up to which they count as equal (chosen, above rounding); for
+/// factors, of the logarithms.
+const EQUAL_STEP_TOLERANCE: f64 = 1e-6;
+/// Ratio of the last to the first of irregularly spaced values from which the axis is logarithmic (chosen).
+const MIN_LOGARITHMIC_RATIO: f64 = 100.0;
 
 /// The output files beside the rows: picture as SVG and PNG, and report.
 pub(super) struct PictureFiles {
@@ -68,7 +69,7 @@ impl PictureFiles {
         if !self.all().any(|file| file.path().exists()) {
             return Ok(());
         }
-        let empty = format!("{EMPTY}{}", signature(fingerprint));
+        let empty = format!("{EMPTY_SVG}{}", signature(fingerprint));
         self.svg.write(empty.as_bytes())?;
         self.png.remove()?;
         self.html.remove()
@@ -104,14 +105,14 @@ impl PictureFiles {
                 Some(figure)
             }
             Err(problem) => {
-                say(&format!("no picture: {problem:#}"));
+                eprint_line(&format!("no picture: {problem:#}"));
                 None
             }
         };
         if let (Some(measured), Some(file)) = (measured, &self.residuals) {
             let Residuals { csv, summary } = measured.residuals(table)?;
             file.write(csv.as_bytes())?;
-            say(&format!("{summary}, in {}", file.path().display()));
+            eprint_line(&format!("{summary}, in {}", file.path().display()));
         }
         let page = page(table, figure.as_ref(), scene)?;
         self.html.write(page.as_bytes())
@@ -131,7 +132,7 @@ pub(crate) fn beside(rows: &Path, extension: &str) -> PathBuf {
 /// Extension of the file of residuals.
 const RESIDUALS: &str = "measured.csv";
 /// An empty SVG picture.
-const EMPTY: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\"/>\n";
+const EMPTY_SVG: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\"/>\n";
 
 /// Comment at the end of an SVG file that identifies its sweep.
 fn signature(fingerprint: &str) -> String {
@@ -171,18 +172,18 @@ fn figure(table: &RowTable, measured: Option<&Measured>) -> Result<Figure> {
     let over = keys.remove(abscissa(&keys).context("no key that varies has numbers")?);
     let curves = Curves::new(&keys, table.rows.len());
     match &keys[..] {
-        _ if curves.labels.len() <= MOST_CURVES => {
+        _ if curves.labels.len() <= MAX_CURVES => {
             let points = measured.map_or(Vec::new(), |measured| {
                 measured_series(measured, &keys, &curves)
             });
             Ok(chart(&over, &curves, &drawn, points))
         }
         _ if measured.is_some() => {
-            bail!("measured points are drawn over at most {MOST_CURVES} curves")
+            bail!("measured points are drawn over at most {MAX_CURVES} curves")
         }
-        [other] if other.n_numbers() > 0 => map([&over, other], &drawn),
+        [other] if other.n_numbers() > 0 => colour_map([&over, other], &drawn),
         _ => bail!(
-            "the keys beside {} have more than {MOST_CURVES} combinations",
+            "the keys beside {} have more than {MAX_CURVES} combinations",
             over.name
         ),
     }
@@ -212,12 +213,12 @@ pub(super) fn drawable() -> impl Iterator<Item = &'static Quantity> {
 }
 
 /// Smallest number of decimals of a number in a legend, in scientific notation (chosen).
-const FEWEST_DECIMALS: usize = 2;
+const MIN_DECIMALS: usize = 2;
 /// Largest number of decimals of a number in a legend: 17 digits are exact for f64.
-const MOST_DECIMALS: usize = 16;
+const MAX_DECIMALS: usize = 16;
 
 /// Largest number of curves in a chart (chosen).
-const MOST_CURVES: usize = 6;
+const MAX_CURVES: usize = 6;
 
 /// A varied key with its cell in each row.
 pub(super) struct Key<'a> {
@@ -249,8 +250,8 @@ impl Key<'_> {
         };
         let n_values = self.n_numbers();
         let are_apart = |decimals: &usize| sorted(rounded(*decimals).into_iter()).len() == n_values;
-        let decimals = (FEWEST_DECIMALS..MOST_DECIMALS).find(are_apart);
-        let shown = rounded(decimals.unwrap_or(MOST_DECIMALS));
+        let decimals = (MIN_DECIMALS..MAX_DECIMALS).find(are_apart);
+        let shown = rounded(decimals.unwrap_or(MAX_DECIMALS));
         shown
             .into_iter()
             .map(|number| MessageNumber(number).to_string())
@@ -267,7 +268,7 @@ struct Curves {
 }
 
 impl Curves {
-    /// Groups the rows; labels beyond one more than [`MOST_CURVES`] are not stored.
+    /// Groups the rows; labels beyond one more than [`MAX_CURVES`] are not stored.
     fn new(keys: &[Key<'_>], rows: usize) -> Self {
         let (mut labels, mut of) = (Vec::new(), Vec::new());
         let keys: Vec<(&str, Vec<String>)> =
@@ -287,7 +288,7 @@ impl Curves {
             let label = keys.iter().map(value).collect::<Vec<_>>().join(", ");
             let known = labels.iter().position(|known| *known == label);
             of.push(known.unwrap_or(labels.len()));
-            if known.is_none() && labels.len() <= MOST_CURVES {
+            if known.is_none() && labels.len() <= MAX_CURVES {
                 labels.push(label);
             }
         }
@@ -297,8 +298,11 @@ impl Curves {
 
 /// The drawn quantity, by row.
 struct Drawn {
+    /// Axis label.
     label: String,
+    /// Values by row; `None` for a row without the quantity.
     values: Vec<Option<f64>>,
+    /// Absolute errors by row.
     errors: Vec<Option<f64>>,
     /// Standard error due to the covariance of the material.
     of_material: Vec<Option<f64>>,
@@ -327,7 +331,7 @@ impl Drawn {
             marker: Some(Marker::filled(Shape::Circle)),
             errors: lengths(&self.errors, 1.0),
             band: if has_band {
-                lengths(&self.of_material, OF_95_PERCENT)
+                lengths(&self.of_material, HALF_WIDTH_95_PERCENT)
             } else {
                 Vec::new()
             },
@@ -405,7 +409,7 @@ fn chart(over: &Key, curves: &Curves, drawn: &Drawn, measured: Vec<Series>) -> F
     let x = axis(
         over.name,
         &sorted(of_axis.iter().copied()),
-        ends_of(&sorted(all)),
+        range_of(&sorted(all)),
     );
     series.extend(measured);
     let ends = series.iter().flat_map(|one| {
@@ -415,7 +419,7 @@ fn chart(over: &Key, curves: &Curves, drawn: &Drawn, measured: Vec<Series>) -> F
         points.map(move |(place, point)| (point, length(place)))
     });
     let ends = ends.flat_map(|(point, error)| [point[1] - error, point[1] + error]);
-    let y = Axis::linear(&*drawn.label, around(ends));
+    let y = Axis::linear(&*drawn.label, range_with_zero(ends));
     let has_band = series.iter().any(|one| !one.band.is_empty());
     Figure::single(Chart {
         title: has_band.then(|| "bars: computation; band: 95 % by the moduli".to_owned()),
@@ -424,7 +428,7 @@ fn chart(over: &Key, curves: &Curves, drawn: &Drawn, measured: Vec<Series>) -> F
 }
 
 /// Half width of the central 95 % interval of a normal distribution, in standard deviations.
-pub(super) const OF_95_PERCENT: f64 = 1.96;
+pub(super) const HALF_WIDTH_95_PERCENT: f64 = 1.96;
 
 /// Abscissae of a series.
 fn abscissae(series: &Series) -> impl Iterator<Item = f64> {
@@ -434,18 +438,18 @@ fn abscissae(series: &Series) -> impl Iterator<Item = f64> {
 /// An axis between two ends with a margin, so that no marker is cut; logarithmic for computed places with equal factors or in a
 /// wide range.
 fn axis(key: &str, places: &[f64], [low, high]: [f64; 2]) -> Axis {
-    let [first, last] = ends_of(places);
-    let is_wide = first > 0.0 && last / first >= WIDE;
+    let [first, last] = range_of(places);
+    let is_wide = first > 0.0 && last / first >= MIN_LOGARITHMIC_RATIO;
     if last >= 2.0 * first && !is_arithmetic(places) && (is_geometric(places) || is_wide) {
-        let room = (high / low).powf(ROOM);
+        let room = (high / low).powf(AXIS_MARGIN);
         return Axis::log10(labelled(key), [low / room, high * room]);
     }
-    let room = ROOM * (high - low);
+    let room = AXIS_MARGIN * (high - low);
     Axis::linear(labelled(key), [low - room, high + room])
 }
 
 /// Margin at each end of an axis, as a fraction of its length (chosen).
-const ROOM: f64 = 0.03;
+const AXIS_MARGIN: f64 = 0.03;
 
 /// Colours of successive curves.
 const COLOURS: [Colour; 5] = [
@@ -495,8 +499,8 @@ pub(crate) fn labelled(key: &str) -> String {
     }
 }
 
-/// A colour map over two keys.
-fn map([one, other]: [&Key<'_>; 2], drawn: &Drawn) -> Result<Figure> {
+/// A colour map of a quantity over two keys. An error if the values of a key are not equally spaced.
+fn colour_map([one, other]: [&Key<'_>; 2], drawn: &Drawn) -> Result<Figure> {
     let over = [one, other].map(Key::numbers);
     let places = [0, 1].map(|axis: usize| sorted(over[axis].iter().copied().flatten()));
     let place = |x: f64, y: f64| [x, y].map(f64::to_bits);
@@ -506,7 +510,7 @@ fn map([one, other]: [&Key<'_>; 2], drawn: &Drawn) -> Result<Figure> {
             found.insert(place(*x, *y), *value);
         }
     }
-    let colours = Axis::linear(&*drawn.label, ends_of(&sorted(found.values().copied())));
+    let colours = Axis::linear(&*drawn.label, range_of(&sorted(found.values().copied())));
     let shape = [places[0].len(), places[1].len()];
     let field = Field::new(shape, colours, |column, row| {
         let place = place(places[0][column], places[1][row]);
@@ -516,7 +520,8 @@ fn map([one, other]: [&Key<'_>; 2], drawn: &Drawn) -> Result<Figure> {
     Ok(Figure::single(Chart::map(x, y, field.stretched())))
 }
 
-/// An axis of cells centred at equally spaced values.
+/// An axis whose cells are centred at the values `places` of a key, linear or logarithmic. An error for a single value, and for
+/// values neither at equal steps nor at equal factors.
 fn cells(key: &str, places: &[f64]) -> Result<Axis> {
     let (Some(first), Some(last), true) = (places.first(), places.last(), places.len() > 1) else {
         bail!("{key} has only one value");
@@ -535,22 +540,22 @@ fn cells(key: &str, places: &[f64]) -> Result<Axis> {
 
 /// True if the values have equal steps.
 fn is_arithmetic(places: &[f64]) -> bool {
-    is_equal(places.windows(2).map(|pair| pair[1] - pair[0]))
+    are_equal(places.windows(2).map(|pair| pair[1] - pair[0]))
 }
 
 /// True if the values are positive and have equal factors.
 fn is_geometric(places: &[f64]) -> bool {
     let factors = places.windows(2).map(|pair| (pair[1] / pair[0]).ln());
-    places.first().is_some_and(|first| *first > 0.0) && is_equal(factors)
+    places.first().is_some_and(|first| *first > 0.0) && are_equal(factors)
 }
 
-/// True if all steps agree within [`EQUAL`].
-fn is_equal(steps: impl Iterator<Item = f64>) -> bool {
+/// True if all steps agree within [`EQUAL_STEP_TOLERANCE`].
+fn are_equal(steps: impl Iterator<Item = f64>) -> bool {
     let steps = sorted(steps);
     let (Some(least), Some(most)) = (steps.first(), steps.last()) else {
         return true;
     };
-    most - least <= EQUAL * most
+    most - least <= EQUAL_STEP_TOLERANCE * most
 }
 
 /// Distinct values in increasing order.
@@ -561,8 +566,8 @@ fn sorted(values: impl Iterator<Item = f64>) -> Vec<f64> {
     values
 }
 
-/// Range of sorted values; widened around a single one.
-fn ends_of(values: &[f64]) -> [f64; 2] {
+/// Smallest and largest of sorted values; around a single value c the range from c/2 to 3c/2, around 0 [−1, 1].
+fn range_of(values: &[f64]) -> [f64; 2] {
     let [low, high] = [values.first(), values.last()].map(|value| value.copied().unwrap_or(0.0));
     if high > low {
         return [low, high];

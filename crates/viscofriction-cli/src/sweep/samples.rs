@@ -9,12 +9,13 @@ use viscofriction::sweep::SAMPLE;
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Series};
 
 use super::file::RowTable;
-use super::picture::{OF_95_PERCENT, drawable};
+use super::picture::{HALF_WIDTH_95_PERCENT, drawable};
 use crate::output::markdown;
-use crate::run::around;
+use crate::run::range_with_zero;
 
 /// The answers of a sweep over samples only.
 pub(super) struct Samples {
+    /// Axis label of the quantity.
     label: String,
     /// Value for the scene itself, and its standard uncertainty to first order.
     nominal: [f64; 2],
@@ -54,7 +55,7 @@ impl Samples {
         let mean = self.sorted.iter().sum::<f64>() / n;
         let squares: f64 = self.sorted.iter().map(|value| (value - mean).powi(2)).sum();
         let [nominal, uncertainty] = self.nominal;
-        let half = OF_95_PERCENT * uncertainty;
+        let half = HALF_WIDTH_95_PERCENT * uncertainty;
         let [low, middle, high] = [0.025, 0.5, 0.975].map(|part| self.quantile(part));
         let rows = [
             (
@@ -80,7 +81,7 @@ impl Samples {
         table
     }
 
-    /// Quantile by linear interpolation between neighbouring samples.
+    /// Value below which a fraction `part` of the samples lies, by linear interpolation between neighbouring samples.
     fn quantile(&self, part: f64) -> f64 {
         let last = self.sorted.len() - 1;
         let place = part * last as f64;
@@ -97,11 +98,11 @@ impl Samples {
         let drawn = values.map(|(place, value)| [*value, (place as f64 + 0.5) / n]);
         let drawn = Series::line(drawn.collect(), Line::thick(Dash::Solid), Colour::Blue);
         let [nominal, uncertainty] = self.nominal;
-        let steps = f64::from(STEPS);
+        let steps = f64::from(STEPS_PER_SIDE);
         let mut below = 0.0;
-        let normal = (-STEPS..=STEPS).map(|step| {
-            let z = FARTHEST * f64::from(step) / steps;
-            let height = (-0.5 * z * z).exp() / TAU.sqrt() * FARTHEST / steps;
+        let normal = (-STEPS_PER_SIDE..=STEPS_PER_SIDE).map(|step| {
+            let z = HALF_RANGE * f64::from(step) / steps;
+            let height = (-0.5 * z * z).exp() / TAU.sqrt() * HALF_RANGE / steps;
             below += height;
             [nominal + z * uncertainty, below - 0.5 * height]
         });
@@ -111,13 +112,13 @@ impl Samples {
             .iter()
             .flat_map(|one| &one.points)
             .map(|point| point[0]);
-        let x = Axis::linear(&*self.label, around(ends));
+        let x = Axis::linear(&*self.label, range_with_zero(ends));
         let y = Axis::linear("part of the samples below", [0.0, 1.0]);
         Figure::single(Chart::new(x, y, series.into()))
     }
 }
 
-/// Half range of the drawn normal distribution, in standard deviations (chosen).
-const FARTHEST: f64 = 4.0;
-/// Steps of the drawn normal distribution on each side (chosen).
-const STEPS: i32 = 200;
+/// Distance from the mean up to which the normal distribution is drawn, in standard deviations (chosen).
+const HALF_RANGE: f64 = 4.0;
+/// Steps of the drawn normal distribution on each side of the mean, over which its density is summed (chosen).
+const STEPS_PER_SIDE: i32 = 200;
