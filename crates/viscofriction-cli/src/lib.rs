@@ -100,7 +100,7 @@ pub fn execute() -> ExitCode {
     }
 }
 
-/// The exit status of an error.
+/// Exit status of an error: 2 for wrong input, 3 for a result that could not be written, 1 for a computation that failed.
 fn status(error: &anyhow::Error) -> u8 {
     if error.is::<WrongInput>() {
         2
@@ -112,7 +112,7 @@ fn status(error: &anyhow::Error) -> u8 {
 }
 
 impl Command {
-    /// Runs the command.
+    /// Runs the chosen command to its end, including its output.
     fn execute(self) -> anyhow::Result<()> {
         match self {
             Self::Run(options) => run::run(&options),

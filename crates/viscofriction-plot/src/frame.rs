@@ -99,7 +99,7 @@ impl<'a> Frame<'a> {
         Ok(Self { title, area, axes })
     }
 
-    /// Pixels of data points.
+    /// Positions on the canvas of data points (x, y).
     pub(crate) fn pixels(&self, points: &[[f64; 2]]) -> Vec<Pixel> {
         let [across, up] = &self.axes;
         let pixel = |&[x, y]: &[f64; 2]| [across.pixel(x)[0], up.pixel(y)[1]];

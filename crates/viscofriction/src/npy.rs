@@ -1,6 +1,6 @@
 //! The NumPy array format: a header in Python notation, then the numbers.
 
-/// First bytes of every such file.
+/// First bytes of every NPY file, by which readers recognise it.
 const MAGIC: &[u8] = b"\x93NUMPY";
 /// Version of the format, 1.0.
 const VERSION: [u8; 2] = [1, 0];

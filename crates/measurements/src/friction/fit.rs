@@ -98,7 +98,7 @@ impl<'a> FrictionFitting<'a> {
         Ok(fitting)
     }
 
-    /// The problem with other points.
+    /// The same parameters, prior and noise with other points.
     #[must_use]
     pub const fn of(&self, points: &'a [FrictionPoint]) -> Self {
         Self { points, ..*self }

@@ -58,7 +58,7 @@ impl Likelihood {
         self.deviance_at(self.variance())
     }
 
-    /// Deviance at another s².
+    /// Deviance at another variance s², \[N²].
     pub(super) fn deviance_at(self, variance: f64) -> f64 {
         self.logarithm + self.degrees_of_freedom * variance.ln() + self.squares / variance
     }
@@ -66,7 +66,7 @@ impl Likelihood {
 
 /// Ratio of neighbouring candidates of T (chosen).
 const TIME_RATIO: f64 = 2.5;
-/// Candidates of λ (chosen).
+/// Candidates of the fraction λ of the variance that is correlated (chosen).
 const CORRELATED_FRACTIONS: [f64; 7] = [0.01, 0.05, 0.2, 0.5, 0.8, 0.95, 1.0];
 /// Prior probability of white noise (chosen); all other candidates share the rest equally.
 const WHITE: f64 = 0.5;

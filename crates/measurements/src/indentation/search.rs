@@ -287,7 +287,8 @@ pub(super) struct Squares<'a> {
 }
 
 impl<'a> Squares<'a> {
-    /// Scaling without outliers.
+    /// Weights by the number of measured points `counts` behind each point, standard deviation `scale` \[N], and no outliers
+    /// yet.
     fn new(counts: &'a [f64], scale: f64) -> Self {
         Self {
             counts,

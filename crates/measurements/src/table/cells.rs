@@ -32,7 +32,7 @@ impl Table<'_> {
         }
     }
 
-    /// Error for a whole line.
+    /// Error that names the file and a line, counted from 1, but no column.
     pub(crate) fn wrong_row(&self, line: usize, problem: &dyn Display) -> MeasurementError {
         self.source.wrong_line(line, problem)
     }

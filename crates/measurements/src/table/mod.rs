@@ -190,7 +190,7 @@ impl<'a> Source<'a> {
         columns.collect()
     }
 
-    /// Error for a whole line.
+    /// Error that names the file and a line, counted from 1, but no column.
     pub(crate) fn wrong_line(&self, line: usize, problem: &dyn Display) -> MeasurementError {
         MeasurementError::Table(format!("{}, line {line}: {problem}", self.file.display()))
     }
@@ -477,7 +477,7 @@ impl<'a> Table<'a> {
             .map(|temperature| temperature - zero))
     }
 
-    /// Error for a frequency or time.
+    /// Error in the cell of the frequency or the time of a line.
     pub(crate) fn wrong_first(&self, line: &Line, expected: &str) -> MeasurementError {
         let first = self.find(self.needed[0]).unwrap_or(&self.columns[0]);
         self.wrong(line, first, expected)

@@ -5,7 +5,7 @@ use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series
 /// Columns of fit.csv for oscillation: measured moduli, fitted moduli, and their relative errors.
 pub(super) const OSCILLATION: &str = "angular_frequency_rad_per_s storage_pa loss_pa storage_fit_pa loss_fit_pa \
     storage_relative_error loss_relative_error";
-/// Columns of fit.csv for relaxation.
+/// Columns of fit.csv for relaxation: measured modulus, fitted modulus, and its relative error.
 pub(super) const RELAXATION: &str = "time_s modulus_pa modulus_fit_pa relative_error";
 
 /// Measured and fitted values as rows of fit.csv.
@@ -30,7 +30,7 @@ pub(super) struct Isotherms {
     pub(super) unit: &'static str,
 }
 
-/// The figure of a fit.
+/// The figure of a fit: measured and fitted moduli, and beside them the relative errors of the fit.
 pub(super) fn figure(comparison: &Comparison) -> Figure {
     let (x, moduli) = match comparison.names {
         OSCILLATION => ("angular frequency ω [rad/s]", &["G′", "G″"][..]),

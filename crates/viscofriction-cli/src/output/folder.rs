@@ -96,7 +96,7 @@ impl OutputFolder {
         &self.path
     }
 
-    /// Starts writing the files.
+    /// Creates a temporary folder for the files; it replaces the result only when all are written.
     pub(crate) fn begin(&self) -> Result<NewFiles<'_>> {
         let part = self.new_part();
         let part = part.map_err(|error| not_written(self.path.display(), error))?;
@@ -107,7 +107,7 @@ impl OutputFolder {
         })
     }
 
-    /// Creates the temporary folder.
+    /// Creates the temporary folder beside the result, or inside it, as [`Place`] says.
     fn new_part(&self) -> io::Result<TempDir> {
         let within = match self.place {
             Place::Beside => self.real.parent().unwrap_or(&self.real),

@@ -40,7 +40,7 @@ pub(crate) enum Format {
     Json,
 }
 
-/// Prints a line.
+/// Prints a line to the standard output; a closed pipe is an error, on which the program ends silently.
 pub(crate) fn print_line(text: &dyn std::fmt::Display) -> Result<()> {
     print_text(&format!("{text}\n"))
 }

@@ -7,7 +7,7 @@ use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series
 use super::Row;
 use crate::run::range_with_zero;
 
-/// The figure of a cut-off series.
+/// Friction and area over the shortest wavelength of the surface, each beside a theory.
 pub(super) fn figure(rows: &[Row]) -> Figure {
     let friction = ("persson_friction_coefficient_2006", "Persson (2006)");
     let area = ("persson_area_fraction_xu", "Xu (2024)");

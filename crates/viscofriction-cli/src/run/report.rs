@@ -56,7 +56,7 @@ pub(super) fn page(
     Ok(page.finish())
 }
 
-/// Explanation of the errors.
+/// Explanation of the column of errors for readers of the report.
 const BARS: &str = "The true value of what is modelled lies within the error of the value; without an error it is given, or exact.";
 
 /// Title: the body, its motion and the material.
@@ -87,7 +87,7 @@ fn title(scene: &Table, problem: &Problem) -> String {
     format!("{article} {body} {does} {material}")
 }
 
-/// Sentence about method, model and time.
+/// Sentence of the report about the method, whether it was chosen automatically, the model, and the run time.
 fn method_sentence(problem: &Problem, timed: &Timed<'_>) -> String {
     let Timed { answer, seconds } = timed;
     let model = table::model(problem, answer);
@@ -167,7 +167,7 @@ fn add_derivatives(page: &mut Page, answer: &Answer) {
     }
 }
 
-/// Sentence about the model.
+/// Sentence of the report about the assumptions of the model: elastomer, body and linear theory.
 fn model_sentence(problem: &Problem, answer: &Answer) -> String {
     let body = match answer.model {
         Model::Line => {

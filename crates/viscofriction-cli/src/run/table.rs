@@ -45,7 +45,7 @@ fn lines(answer: &Answer) -> Vec<Line> {
     QUANTITIES.iter().filter_map(line).chain(theories).collect()
 }
 
-/// Quantities as aligned lines.
+/// The quantities of an answer with errors and units as aligned lines for a terminal.
 pub(super) fn listed(answer: &Answer) -> String {
     let lines = lines(answer);
     let width = |text: fn(&Line) -> &str| {
@@ -170,7 +170,7 @@ pub(super) fn duration(seconds: f64) -> String {
     format!("{seconds:.digits$} s")
 }
 
-/// The model in words.
+/// The model of an answer in words: layer with its thickness, half space, or one-dimensional model.
 pub(super) fn model(problem: &Problem, answer: &Answer) -> String {
     match answer.model {
         Model::HalfSpace if problem.thickness().is_finite() => {

@@ -101,7 +101,7 @@ fn curve(points: Vec<[f64; 2]>, colour: Colour) -> Series {
     Series::line(shown, Line::thick(Dash::Solid), colour)
 }
 
-/// A chart of spectra.
+/// A chart of spectral densities over the wave number, both logarithmic; empty spectra are left out.
 fn chart(label: &str, mut series: Vec<Series>) -> Chart {
     // With waves along one axis only, the other spectrum is empty.
     series.retain(|one| !one.points.is_empty());

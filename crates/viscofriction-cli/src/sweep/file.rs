@@ -177,7 +177,7 @@ impl RowTable {
         self.place(name).map(number).into_iter().flatten().collect()
     }
 
-    /// Contents of the CSV file.
+    /// Contents of the CSV file: header and rows in their present order.
     pub(super) fn text(&self) -> Result<String> {
         let rows = self.rows.iter().map(|row| &row.fields);
         let lines = std::iter::once(&self.header).chain(rows);
@@ -226,7 +226,7 @@ impl TableFile {
         Ok(Self { header, rows })
     }
 
-    /// Rejects rows with changed cells.
+    /// Rejects rows whose cells do not match their checksum, with the line and advice.
     pub(crate) fn check(&self, path: &Path) -> Result<(), WrongInput> {
         self.rows.iter().try_for_each(|(line, row)| {
             let checked = row.check(&self.header);

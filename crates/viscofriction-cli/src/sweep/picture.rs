@@ -75,7 +75,7 @@ impl PictureFiles {
         self.html.remove()
     }
 
-    /// All files.
+    /// All files of pictures and, with measured points, of residuals.
     fn all(&self) -> impl Iterator<Item = &OutputFile> {
         let pictures = [&self.svg, &self.png, &self.html];
         pictures.into_iter().chain(&self.residuals)
@@ -129,9 +129,9 @@ pub(crate) fn beside(rows: &Path, extension: &str) -> PathBuf {
     PathBuf::from(name)
 }
 
-/// Extension of the file of residuals.
+/// Replaces the extension of the CSV file of a sweep in the name of the file of residuals.
 const RESIDUALS: &str = "measured.csv";
-/// An empty SVG picture.
+/// An SVG picture without content. With the signature of a sweep behind it, existing pictures count as those of this sweep.
 const EMPTY_SVG: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\"/>\n";
 
 /// Comment at the end of an SVG file that identifies its sweep.
@@ -189,7 +189,7 @@ fn figure(table: &RowTable, measured: Option<&Measured>) -> Result<Figure> {
     }
 }
 
-/// The varied keys of a sweep.
+/// The varied keys of the CSV file of a sweep with their cells, in the order of the columns. An error if it is no such file.
 pub(super) fn keys(table: &RowTable) -> Result<Vec<Key<'_>>> {
     let keys = table.keys();
     let keys = keys.context("the columns are not those of a sweep")?;

@@ -176,7 +176,7 @@ fn check_scene(scene: &Scene) -> Result<(), SceneError> {
     }
 }
 
-/// Message for a periodic surface.
+/// Message if the body of the scene is a periodic surface, to which moduli are not fitted.
 const ENDLESS_SURFACE: &str = "moduli are not fitted to the friction of a rough surface without end, of which every point is a computation \
      of minutes; take the moduli from fit-material, or fit them to the friction of a ball or a cylinder on the same material, and \
      compare the friction of this scene with the measured one by `viscofriction sweep` over load.velocity";

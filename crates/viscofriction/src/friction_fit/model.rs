@@ -379,11 +379,11 @@ fn forward(problem: &Problem) -> std::result::Result<Forward<'_>, FrictionFitErr
     }
 }
 
-/// Message for an unsuitable body.
+/// Message if a fit has no forward model for the body of the scene.
 const ONE_BODY: &str = "moduli are fitted to the friction of a single body or a cylinder on the half space, and of a body of revolution \
      in the one-dimensional model; give one of these";
 
-/// Error for a method without derivatives.
+/// Error if `method` gives no friction, or no derivatives of it.
 const fn no_derivatives(method: Method) -> SolveError {
     SolveError::NoSensitivity { method }
 }

@@ -9,7 +9,7 @@ use super::load::{Load, MotionPoint, StrokeShape};
 use crate::files::Files;
 use crate::text::WrongInput;
 
-/// Message for several motions or histories.
+/// Message if a scene has more than one of `motion`, `motion_file`, `stroke` and a history.
 const ONE_OF: &str = "a body moves through the points of motion or motion_file, or over a stroke, or follows a history: give one of them";
 /// Message for a velocity or a track beside a motion.
 const MOVES: &str = "a motion says how the body moves; leave this out";

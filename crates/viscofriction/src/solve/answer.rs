@@ -372,7 +372,7 @@ impl ContactBox {
         Self { x, y: None, error }
     }
 
-    /// A contact rectangle.
+    /// The contact rectangle with the ends `x` along and `y` across the motion, all with the same error, \[m].
     pub(crate) const fn around(x: [f64; 2], y: [f64; 2], error: f64) -> Self {
         let y = Some(y);
         Self { x, y, error }

@@ -51,7 +51,9 @@ impl Serialize for Dissipation {
     }
 }
 
-/// The known fractions of an answer.
+/// Fractions of the friction of an answer outside the measured frequencies and in the shortest octave of waves; `None` where
+/// they
+/// are not known.
 pub(super) fn dissipation(problem: &Problem, answer: &Answer) -> Dissipation {
     let outside = outside_window(problem, answer);
     let without = answer.without_shortest_octave;

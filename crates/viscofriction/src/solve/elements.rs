@@ -41,7 +41,7 @@ fn common_answer<S, O>(
     }
 }
 
-/// Stationary sliding of a finite body.
+/// Stationary sliding of a finite body under a force or at a depth, by boundary elements, to the accuracy of `request`.
 pub(crate) fn stationary(
     problem: &Problem,
     surface: &dyn Surface,
@@ -51,7 +51,7 @@ pub(crate) fn stationary(
     answer_from_steady(steady(surface, &problem.elastomer()?, load, request)?)
 }
 
-/// The answer of a stationary estimate.
+/// Converts a stationary estimate: quantities extrapolated over the grids; pressure, work and grid of the finest one.
 fn answer_from_steady(estimate: SteadyEstimate) -> Result<Answer> {
     let (finest, options) = (&estimate.finest, &estimate.options);
     let ends = [finest.contact_x, finest.contact_y];
@@ -324,7 +324,7 @@ pub(crate) fn transient(
     answer_from_slide(slide(surface, &problem.elastomer()?, load, request)?)
 }
 
-/// The answer of a time march.
+/// Converts a time march: quantities extrapolated over the grids; the last step, work and grid of the finest one.
 fn answer_from_slide(estimate: SlideEstimate) -> Result<Answer> {
     let last = estimate.finest.last();
     let ends = [last.contact_x, last.contact_y];
@@ -376,7 +376,7 @@ fn answer_from_moved(problem: &Problem, found: Moved) -> Answer {
     answer
 }
 
-/// Indentation without sliding.
+/// Indentation without sliding by boundary elements, under a force or to a depth, to the accuracy of `request`.
 pub(crate) fn pressed(
     problem: &Problem,
     surface: &dyn Surface,
@@ -386,7 +386,7 @@ pub(crate) fn pressed(
     answer_from_press(indent(surface, &problem.elastomer()?, load, request)?)
 }
 
-/// The answer of an indentation.
+/// Converts an indentation: quantities extrapolated over the grids; pressure, work and grid of the finest one. No friction.
 fn answer_from_press(estimate: PressEstimate) -> Result<Answer> {
     let finest = &estimate.finest;
     let ends = [finest.contact_x, finest.contact_y];
@@ -416,7 +416,7 @@ pub(crate) fn followed(
     )?)
 }
 
-/// The answer of an indentation history.
+/// Converts a history: quantities of its last point, and force, depth and area at all points over time. No friction.
 fn answer_from_curve(found: &IndentCurve) -> Result<Answer> {
     let last = found.points[found.points.len() - 1];
     let columns: [OfPoint<IndentPoint>; 3] = [

@@ -176,7 +176,7 @@ fn exact(material: impl Material + 'static) -> HalfSpace {
     }
 }
 
-/// The Prony series of another law.
+/// A half space of a Prony series that stands for another law, within the error of `expansion`.
 fn approximate((material, expansion): (Prony, Expansion)) -> HalfSpace {
     HalfSpace {
         expansion: Some(expansion),

@@ -17,7 +17,7 @@ use super::error::Result;
 use super::problem::Problem;
 use crate::scene::{Method, Model};
 
-/// Stationary sliding.
+/// Stationary sliding in the one-dimensional model, to a relative error of the friction.
 pub(crate) fn stationary(
     body: &dyn Axisymmetric,
     material: &dyn Material,
@@ -33,7 +33,7 @@ pub(crate) fn stationary(
     )?))
 }
 
-/// The answer of a stationary solution.
+/// Converts a stationary solution, with its load per length as a field. The error is that of the discretisation only.
 pub(crate) fn answer_from_steady(state: SteadySliding) -> Answer {
     let mut answer = Answer {
         friction_coefficient: Some(state.friction_coefficient),
@@ -62,7 +62,7 @@ pub(crate) fn transient(
     )?))
 }
 
-/// The answer of a time march.
+/// Converts a time march: quantities of its end, and its steps as a history.
 pub(crate) fn answer_from_march(state: Sliding) -> Answer {
     let mut answer = Answer {
         friction_coefficient: Some(state.friction_coefficient),
@@ -123,7 +123,7 @@ pub(crate) fn answer_from_motion(method: Method, model: Model, found: Moved) -> 
     answer
 }
 
-/// Indentation without sliding.
+/// Indentation without sliding in the one-dimensional model, to a relative error of what is not given, force or depth.
 pub(crate) fn pressed(
     body: &dyn Axisymmetric,
     material: &dyn Material,

@@ -38,7 +38,7 @@ impl Omission {
         name.replace('-', " ")
     }
 
-    /// Reason why it was not needed.
+    /// Reason why the work was not needed, as a clause after "because".
     pub const fn because(self) -> &'static str {
         match self {
             Self::NumericalSolution => "there is a closed form or a quadrature",

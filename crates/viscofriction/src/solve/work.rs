@@ -23,9 +23,9 @@ pub(crate) type Work<'a> = Box<dyn FnOnce(&dyn Progress) -> Result<Answer> + Sen
 /// The computation of a method, or the reason why it does not answer the problem.
 pub(crate) type Offer<'a> = Result<Work<'a>, Refusal>;
 
-/// Refusal of a number of elements.
+/// Refusal of a closed form for which the scene gives a number of elements.
 const NO_ELEMENTS: Refusal = "closed forms have no elements; give relative_error instead";
-/// Refusal of a layer.
+/// Refusal of a method for the half space if the scene has a layer.
 const NO_LAYER: Refusal = "it knows no layer; boundary elements do";
 /// Refusal of a history on a layer.
 const ONCE: Refusal = "on a layer it follows a contact that grows once and shrinks once, up to a hundred thicknesses wide and not to the \
@@ -59,7 +59,7 @@ const NO_CYCLE: Refusal = "a material that flows gives way further in every cycl
 /// Refusal of an ensemble in a motion.
 const ONE_SURFACE: Refusal =
     "realisations are for sliding and pressing; a motion has one surface, with a seed of its own";
-/// Refusal of a track.
+/// Refusal of a method whose body never comes back to the same place, if the scene has a track.
 const NO_TRACK: Refusal =
     "it knows no track on which the body comes back; mdr-steady and bem-steady do";
 /// Refusal of a load without sliding at constant speed.
@@ -123,7 +123,7 @@ fn has_front(body: &Body) -> bool {
     }
 }
 
-/// An accepted computation.
+/// The offer of a method that answers the problem by the computation `answer`.
 #[expect(clippy::unnecessary_wraps, reason = "the other results are refusals")]
 fn ready<'a>(answer: impl FnOnce(&dyn Progress) -> Result<Answer> + Send + 'a) -> Offer<'a> {
     Ok(Box::new(answer))
@@ -284,7 +284,7 @@ pub(super) fn rough<'a>(
     })
 }
 
-/// A periodic surface, by boundary elements.
+/// The computation for a periodic surface by boundary elements, stationary or in time, or a refusal of other methods.
 fn periodic<'a>(
     problem: &'a Problem,
     surface: &'a PeriodicSurface,

@@ -92,7 +92,7 @@ impl Plan {
         self.vary.iter().map(|vary| vary.values.len()).product()
     }
 
-    /// The varied keys.
+    /// The varied keys, such as `load.velocity`, in the order given.
     pub fn keys(&self) -> impl Iterator<Item = &str> {
         self.vary.iter().map(|vary| vary.key.as_str())
     }
@@ -231,7 +231,7 @@ impl Plan {
         }
     }
 
-    /// Names of the columns of results.
+    /// Names of the columns of results: the numbers of an answer, and with derivatives the uncertainties of each quantity.
     fn columns(&self) -> Vec<String> {
         let uncertainties = differentiated().flat_map(|quantity| {
             let key = quantity.key;
@@ -324,7 +324,7 @@ fn check_vary(source: &Source, vary: &[Vary]) -> Result<(), WrongInput> {
     Ok(())
 }
 
-/// Names of all columns.
+/// Header of the CSV file of a sweep: identification of the point, varied keys, checksums, method, results, and messages.
 pub fn header(plan: &Plan) -> Vec<String> {
     let before = ["sweep", "point", "points"].into_iter().chain(plan.keys());
     let before = before

@@ -39,7 +39,7 @@ struct Trial {
     found: Vec<Coarse>,
 }
 
-/// Largest number of surfaces.
+/// Largest number of random surfaces that the problem allows: those of the scene, all of them without a standard error.
 fn max_surfaces(problem: &Problem) -> usize {
     usize::try_from(problem.realisations()).unwrap_or(usize::MAX)
 }

@@ -62,7 +62,7 @@ impl Sample<'_> {
         }
     }
 
-    /// Mean over all surfaces.
+    /// Mean of the answers f, corrected by [`Self::shift`] with the coarse solutions c of more surfaces (control variate).
     pub(super) fn mean(&self) -> f64 {
         mean(self.fine) + self.shift()
     }

@@ -20,7 +20,7 @@ use crate::solve::work::rough;
 /// Relative change of a number of the scene, to either side, between whose bodies or materials the adjoint method takes the
 /// change (chosen; the truncation error, of the order of its square, is far below the error estimates).
 const RELATIVE_STEP: f64 = 1e-5;
-/// Error for a contact without derivatives.
+/// Error if a body or an answer has no adjoint solution.
 const NO_DERIVATIVES: SolveError = SolveError::NoSensitivity {
     method: Method::BemSteady,
 };
@@ -198,7 +198,7 @@ fn surface(body: &Body) -> Result<&dyn Surface> {
     }
 }
 
-/// All changes multiplied by a factor.
+/// The changes of all quantities, with their errors, times `factor`.
 fn scaled(change: Change<Estimate>, factor: f64) -> Change<Estimate> {
     change.map(|value| *value * factor)
 }
