@@ -24,9 +24,10 @@ pub use free::{March, Motion, MotionRow};
 
 /// Number of steps above which a march, or one cycle of it, is refused: a limit of the time.
 pub(crate) const MAX_STEPS: f64 = 1e5;
-/// Memory per followed element without its history variables, \[bytes].
+/// Upper bound of the memory per followed element without its history variables, \[bytes]. Tests compare the bound of a march with the
+/// memory it takes (tests/it/memory.rs).
 const BYTES_PER_FOLLOWED_ELEMENT: f64 = 150.0;
-/// Memory per step of a march, \[bytes].
+/// Upper bound of the memory per step of a march, for its schedule and its row of results, \[bytes].
 const BYTES_PER_STEP: f64 = 600.0;
 
 /// Extent of a march along the surface, for an estimate of its memory.
@@ -35,6 +36,7 @@ pub(crate) struct MarchExtent {
     pub(crate) passed_length: f64,
     /// Numbers stored for each element: history variables, and copies of them.
     pub(crate) numbers_per_element: usize,
+    /// Number of steps in time.
     pub(crate) n_steps: f64,
 }
 
@@ -44,6 +46,7 @@ impl MarchExtent {
         let ([dx, dy], footprint) = (options.spacing, &options.footprint);
         let across = (footprint.y[1] - footprint.y[0]) / dy;
         let n_elements = footprint.n_elements([dx, dy]) + self.passed_length / dx * across;
+        // Only the half in front of a mirror is followed.
         let followed = if surface.mirrors()[1] { 0.5 } else { 1.0 };
         let history = (self.numbers_per_element * size_of::<f64>()) as f64;
         (BYTES_PER_FOLLOWED_ELEMENT + history) * (followed * n_elements)
@@ -57,7 +60,7 @@ pub(crate) fn n_history_variables(creep: &CreepSpectrum) -> usize {
     creep.elements().len() + usize::from(creep.fluidity() > 0.0)
 }
 
-/// Largest retardation time, \[s]; 0 without any.
+/// Largest retardation time λ of a creep spectrum, \[s]; 0 for a spectrum without retardation elements.
 pub(crate) fn largest_retardation_time(creep: &CreepSpectrum) -> f64 {
     let slowest = creep.elements().last();
     slowest.map_or(0.0, |element| element.retardation_time)

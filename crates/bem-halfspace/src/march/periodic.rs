@@ -7,10 +7,10 @@
 //! u = 2 (1 − ν) α w + H,        w = K p / (4π)        at the end of the step
 //! ```
 //!
-//! A wave with the frequency ω = q_x v therefore has the compliance J_Δ of piecewise constant inputs instead of J. The march takes
-//! a surface whose waves are multiplied by J_Δ/J, a shift by about half a step if the material flows much; in full contact the
-//! pressure of the stationary state is then exact. The first step is shorter, so that the last one ends at the distance. Between
-//! whole elements the waves of the surface are shifted.
+//! A wave with the frequency ω = q_x v therefore has the complex compliance J_Δ of piecewise constant inputs instead of J. The
+//! march takes a surface whose waves are multiplied by J_Δ/J, a shift by about half a step if the material flows much; in full
+//! contact the pressure of the stationary state is then exact. The first step is shorter, so that the last one ends at the
+//! distance. Between whole elements the waves of the surface are shifted.
 //!
 //! Theory: docs/theory/transient-half-space.md.
 
@@ -41,7 +41,7 @@ pub struct PeriodicRow {
     pub time: f64,
     /// Friction coefficient.
     pub friction_coefficient: f64,
-    /// Part of the period in contact, as in [`PeriodicSliding`](crate::PeriodicSliding).
+    /// Fraction of the period in contact, as in [`PeriodicSliding`](crate::PeriodicSliding).
     pub area_fraction: f64,
     /// Depth of the mean plane, as in [`PeriodicSliding`](crate::PeriodicSliding), \[m].
     pub mean_depth: f64,
@@ -55,7 +55,7 @@ pub struct PeriodicRow {
 pub struct PeriodicTransient {
     /// One entry for each step; the last is at the end of the distance.
     pub rows: Vec<PeriodicRow>,
-    /// Pressure at the end; the first height is at the origin.
+    /// Pressure at the end, on the grid of the heights: its first element is at the origin.
     pub pressure: PressureField,
 }
 
@@ -84,7 +84,7 @@ pub fn slide_on_grid(
     slide_with(grid, heights, elastomer, load, &steps)
 }
 
-/// Options of a march.
+/// Steps in time of a march, and the accuracy of their contacts.
 pub(crate) struct Steps<'a> {
     /// Number of steps per element of the distance, an integer.
     pub(crate) per_element: f64,
@@ -94,7 +94,7 @@ pub(crate) struct Steps<'a> {
     pub(crate) report: &'a dyn Fn(f64),
 }
 
-/// [`slide_on_grid`] with options of the march.
+/// Like [`slide_on_grid`], with a number of steps per element, and with reports of the progress.
 pub(crate) fn slide_with(
     grid: &Grid,
     heights: &[f64],
@@ -106,6 +106,7 @@ pub(crate) fn slide_with(
     let ((mean_pressure, distance), velocity) = (load.require_march()?, load.velocity());
     let (steps_per_element, edge) = (steps.per_element, grid.spacing()[0]);
     let whole_step = edge / steps_per_element;
+    // The march over the whole distance.
     let n_steps = elements_along(distance, whole_step)?;
     let sliding = Sliding::new(elastomer, velocity)?;
     let mut march = PeriodicMarch::new(grid, heights, elastomer, edge / velocity)?;
@@ -145,15 +146,15 @@ pub(crate) fn slide_with(
 pub(crate) struct PeriodicMarch<'a> {
     /// Heights of the surface at the centres of the elements, as given, \[m].
     given: &'a [f64],
-    /// Creep spectrum of the material.
+    /// Creep spectrum of the material in shear.
     creep: CreepSpectrum,
     /// Transforms that multiply the waves of heights and slopes.
     waves: FourierMultiplier,
-    /// Heights with the symbols of [`set_step`](Self::set_step), \[m].
+    /// Heights at the end of the step, filtered with the symbols of [`set_step`](Self::set_step), row-major, \[m].
     heights: Vec<f64>,
     /// Mean of the given heights, \[m].
     mean_height: f64,
-    /// Slopes ∂h/∂x at the end of the step.
+    /// Slopes ∂h/∂x of the surface at the end of the step, row-major.
     slopes: Vec<f64>,
     /// Operator K on the period.
     convolution: Convolution,
@@ -163,18 +164,18 @@ pub(crate) struct PeriodicMarch<'a> {
     pub(crate) state: ContactState,
     /// Coefficients of the creep law over the present step.
     step: ExponentialStep,
-    /// 2 (1 − ν), the factor from α w to the displacement.
+    /// Factor 2 (1 − ν) from α w to the displacement.
     half_space_factor: f64,
-    /// History variables, field after field.
+    /// History variables of all elements, `[field][row][column]`.
     pub(crate) history: Vec<f64>,
-    /// h + H, the gap at zero depth and without load, \[m].
+    /// Initial gap h + H, at zero depth and without load, row-major, \[m].
     initial_gap: Vec<f64>,
     /// Input 2 (1 − ν) w of the history variables, \[Pa m].
     input: Vec<f64>,
 }
 
 impl<'a> PeriodicMarch<'a> {
-    /// A march that begins on a material at rest.
+    /// A march over an undeformed material with steps of `time_step` \[s]; `heights` \[m] are row-major.
     pub(crate) fn new(
         grid: &Grid,
         heights: &'a [f64],
@@ -211,8 +212,10 @@ impl<'a> PeriodicMarch<'a> {
         self.convolution.grid().shape()[0]
     }
 
-    /// Sets the duration \[s] of the next steps, and the surface at their end: by row of the transform, the waves of the heights
-    /// are multiplied by the first symbol, and those of the slopes by the second.
+    /// Sets the duration \[s] of the next steps, and heights and slopes of the surface at their end.
+    ///
+    /// For each row of the transform, `symbols(row)` = [a, b]: the waves of the given heights with its wave number q_x become those of
+    /// the heights, multiplied by a, and those of the slopes, multiplied by b \[1/m].
     pub(crate) fn set_step(
         &mut self,
         time_step: f64,
@@ -225,8 +228,9 @@ impl<'a> PeriodicMarch<'a> {
         Ok(())
     }
 
-    /// Sets steps of a `length` \[m] at constant speed, at whose end the material lags by `lag` \[m] behind a whole number of
-    /// elements.
+    /// Sets steps of a `length` \[m] at constant speed. At their end the surface is `lag` \[m] short of a whole number of elements.
+    ///
+    /// The waves of the heights are multiplied by J_Δ/J and by the phase factor of the lag (head of this file).
     fn set_sliding_step(
         &mut self,
         sliding: &Sliding,
@@ -235,6 +239,7 @@ impl<'a> PeriodicMarch<'a> {
     ) -> Result<(), BemError> {
         let time_step = length / sliding.velocity();
         let step = ExponentialStep::creep(&self.creep, time_step)?;
+        // The symbols of each row: J_Δ/J and the phase of the lag.
         let (along_x, factor) = (&self.waves.along_x, sliding.factor);
         let rows = along_x.len();
         let compliances = sliding.compliances(along_x)?.into_iter();
@@ -255,7 +260,7 @@ impl<'a> PeriodicMarch<'a> {
         self.set_step(time_step, |row| symbols[row])
     }
 
-    /// Shifts the history variables by one element.
+    /// Shifts the history variables by one element along −x: the material passes the surface.
     fn shift_history(&mut self) {
         let (n, columns) = (self.heights.len(), self.convolution.grid().shape()[1]);
         for field in self.history.chunks_exact_mut(n) {
@@ -263,7 +268,8 @@ impl<'a> PeriodicMarch<'a> {
         }
     }
 
-    /// Solves the contact at the end of a step; distance and time are not filled in.
+    /// Solves the contact at the end of a step under a mean pressure \[Pa], and advances the history variables; distance and time of
+    /// the row are 0.
     pub(crate) fn step(
         &mut self,
         mean_pressure: f64,

@@ -17,12 +17,12 @@ use crate::BemError;
 use crate::estimate::bars::reached_or_error;
 use crate::march::largest_retardation_time;
 
-/// Duration of the first touch, during which the body rests, over that of the first step. Chosen; from 1e-6 to 1 no
-/// answer changes by more than 2e-4 of its bar.
+/// Duration of the first touch, a step in which the body is pressed without moving, over that of the first step of the motion.
+/// Chosen; from 1e-6 to 1 no answer changes by more than 2e-4 of its bar.
 pub(super) const TOUCH_DURATION_RATIO: f64 = 1e-3;
 /// Number of cycles after which the search for the limit cycle is given up: a limit of the time.
 const MAX_CYCLES: usize = 100;
-/// Relative change per cycle below which rounding hides it: some ten units in the last place, from hundreds of steps.
+/// Relative change per cycle below which rounding hides it: some tens of units in the last place, the rounding of hundreds of steps.
 const CYCLE_ROUNDING: f64 = 1e-14;
 /// Remaining relative change of the limit cycle if a number of elements is asked for instead of an error. Chosen;
 /// from 1e-5 to 1e-2 bars change by at most 4 %, with 0.1 the remaining change prevails.
@@ -30,7 +30,8 @@ const CYCLE_TOLERANCE_ON_ONE_GRID: f64 = 1e-3;
 
 /// Refines a motion until the error asked for is reached.
 ///
-/// `solve` gives the record on a number of elements; `other_errors` those that finer elements do not reduce.
+/// `solve(elements, report)` follows the motion on a number of elements along the contact. `other_errors` returns the errors that finer
+/// elements do not reduce, one per quantity of the `view`.
 ///
 /// # Errors
 /// [`BemError::NotReached`] with the result on the finest grid if a quantity misses the error asked for; those of `solve`.
@@ -56,9 +57,9 @@ pub(super) fn refine_motion(
 pub(super) struct LimitCycle {
     /// Duration of a cycle, \[s].
     period: f64,
-    /// Largest retardation time, \[s].
+    /// Largest retardation time λ, \[s].
     slowest: f64,
-    /// Remaining relative change at which the search stops.
+    /// Estimated remaining relative change at which the search stops.
     tolerance: f64,
 }
 
@@ -108,7 +109,7 @@ impl LimitCycle {
             let (period, slowest) = (self.period, self.slowest);
             return Err(BemError::CycleTooShort { period, slowest });
         }
-        // Progress is the larger of the fractions of the cycles allowed and of the convergence, in logarithms.
+        // Progress is the larger of two fractions: that of the cycles allowed, and ln(change)/ln(tolerance).
         let (mut n_cycles, convergence) = (0, Cell::new(0.0_f64));
         let next_cycle = |from: &[f64]| {
             let begun = f64::from(n_cycles);
@@ -119,6 +120,7 @@ impl LimitCycle {
             record.history_change = relative_change(from, &to);
             Ok::<_, BemError>((record, to))
         };
+        // The remaining change decides when the search ends.
         let remaining_change = |now: &mut MotionRecord, before: &MotionRecord| {
             let change = now.update_remaining_changes(before, slowness);
             let part = (change.ln() / self.tolerance.ln()).clamp(0.0, 1.0);
@@ -150,7 +152,7 @@ impl LimitCycle {
     }
 }
 
-/// Largest change from one vector to the other, relative to the largest element; 0 if both vanish.
+/// Maximum norm of the difference of two vectors over that of the larger one; 0 if both vanish.
 fn relative_change(from: &[f64], to: &[f64]) -> f64 {
     let largest = |values: &mut dyn Iterator<Item = f64>| {
         values.fold(0.0, |largest: f64, value| largest.max(value.abs()))

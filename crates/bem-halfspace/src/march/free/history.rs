@@ -3,7 +3,7 @@
 //! ```text
 //! u = H + 2 (1 − ν) α w,   w = K P / (4π)        at the end of a step
 //! ```
-//! H is the displacement that the end of the step would have without load, and α the compliance of the step.
+//! H is the displacement at the end of the step if the pressure P of the step were zero, and α the compliance of the step.
 //!
 //! Every element has one history variable per retardation element of the material, one for free flow, and the last load
 //! if loads are linear over a step. An elastic material has none, and needs no more elements than the footprint.
@@ -17,17 +17,17 @@ use rheology::ExponentialStep;
 use crate::elements::resolution::Layout;
 use crate::{Base, BemError, Convolution, ConvolutionWorkspace, Grid, Rows};
 
-/// Fields over all elements of a path in front of the mirrors, row-major; displacements in units of the height scale, lengths
-/// in Δx.
+/// Fields over all elements that the footprint passes, the *path*, in front of the mirrors; row-major. Displacements are in units of
+/// the height scale of the march, lengths along the surface in Δx, loads in the ratio of the two.
 pub(super) struct MaterialHistory {
     /// Operator K on the path.
     pub(super) convolution: Convolution,
     /// Buffers for applying K.
     workspace: ConvolutionWorkspace,
-    /// Scaled load of the present step; valid only in the rows that were last loaded.
+    /// Load x = 2 (1 − ν) α P/(4π) of the present step; valid only in the rows that were last loaded.
     load: Vec<f64>,
-    /// Displacement 2 (1 − ν) α w by the load of the present step; [`advance`](Self::advance) with history variables leaves
-    /// 2 (1 − ν) w.
+    /// Displacement 2 (1 − ν) α w by the load of the present step. [`advance`](Self::advance) divides it by α if there are history
+    /// variables.
     increment: Vec<f64>,
     /// History variables, `[row][field][column]`: rows that a step needs are contiguous.
     pub(super) variables: Vec<f64>,
@@ -36,7 +36,7 @@ pub(super) struct MaterialHistory {
 }
 
 impl MaterialHistory {
-    /// A path of `n_rows` rows at rest; `aspect` is Δy/Δx, and the base has lengths in Δx.
+    /// A path of `n_rows` rows over an undeformed surface; `aspect` is Δy/Δx, and the base has lengths in Δx.
     pub(super) fn new(
         n_rows: usize,
         layout: &Layout,
@@ -58,23 +58,24 @@ impl MaterialHistory {
         })
     }
 
-    /// Number of columns of the path.
+    /// Number of columns of the path, those of the footprint in front of the mirrors.
     fn columns(&self) -> usize {
         self.convolution.grid().shape()[1]
     }
 
-    /// Displacement by the load of the present step in a range of rows.
+    /// Displacement by the load of the present step in a range of rows of the path, in units of the height scale.
     pub(super) fn increment(&self, rows: Range<usize>) -> &[f64] {
         &self.increment[rows.start * self.columns()..rows.end * self.columns()]
     }
 
-    /// History variables of a range of rows.
+    /// History variables of a range of rows of the path, `[row][field][column]`.
     fn row_variables(&self, rows: Range<usize>) -> &[f64] {
         let per_row = self.n_fields * self.columns();
         &self.variables[rows.start * per_row..rows.end * per_row]
     }
 
-    /// Writes H, the displacement at the end of a step without load, for the rows from `first_row` on.
+    /// Writes H, the displacement at the end of a step without load, for the rows of the path from `first_row` on; `history` has whole
+    /// rows and determines their number.
     pub(super) fn displacement_without_load(
         &self,
         step: &ExponentialStep,
@@ -87,8 +88,10 @@ impl MaterialHistory {
         }
     }
 
-    /// Computes the displacement of the rows `wanted` by the `loaded` elements of a footprint that begins at row `first_row` of the
-    /// path; `footprint_rows` are the rows of the footprint that may be loaded.
+    /// Computes the displacement by the load of a step in the rows `wanted` of the path.
+    ///
+    /// `loaded` gives the loaded elements, [row, column] of the footprint, with their loads. The footprint begins at row `first_row` of
+    /// the path, and only its rows `footprint_rows` may be loaded.
     pub(super) fn apply_load(
         &mut self,
         loaded: impl Iterator<Item = ([usize; 2], f64)>,
@@ -96,6 +99,7 @@ impl MaterialHistory {
         footprint_rows: Range<usize>,
         wanted: Range<usize>,
     ) {
+        // Place the loads on the path; other rows of the buffer are not read.
         let columns = self.columns();
         let path_rows = footprint_rows.start + first_row..footprint_rows.end + first_row;
         self.load[path_rows.start * columns..path_rows.end * columns].fill(0.0);
@@ -111,13 +115,13 @@ impl MaterialHistory {
             .apply_in(&rows, &mut self.workspace, load, increment);
     }
 
-    /// Sets the displacement of the present step to zero in the rows `wanted`: a step without load.
+    /// Sets the displacement by the load of the present step to zero in the rows `wanted`: a step without load.
     pub(super) fn clear_increment(&mut self, wanted: Range<usize>) {
         let columns = self.columns();
         self.increment[wanted.start * columns..wanted.end * columns].fill(0.0);
     }
 
-    /// Advances the history variables of the rows `wanted` to the end of the step.
+    /// Advances the history variables of the rows `wanted` to the end of the step, from the displacement by its load.
     pub(super) fn advance(&mut self, step: &ExponentialStep, wanted: Range<usize>) {
         if self.n_fields == 0 {
             return;
@@ -125,6 +129,7 @@ impl MaterialHistory {
         let columns = self.columns();
         let per_row = self.n_fields * columns;
         let compliance = step.response();
+        // Row by row, because the fields of a row are contiguous.
         let increments = self.increment[wanted.start * columns..wanted.end * columns]
             .chunks_exact_mut(columns)
             .zip(self.variables[wanted.start * per_row..].chunks_exact_mut(per_row));

@@ -39,25 +39,25 @@ pub struct March<'a> {
     options: GridOptions,
     /// Elements of the footprint, and the mirrors.
     layout: Layout,
-    /// Creep spectrum of the material.
+    /// Creep spectrum of the material in shear.
     creep: CreepSpectrum,
     /// True on a half space that flows: the depth grows without limit. On a layer that flows it does not.
     pub(crate) sinks_without_limit: bool,
-    /// 2 (1 − ν), the factor from α w to the displacement.
+    /// Factor 2 (1 − ν) from α w to the displacement.
     half_space_factor: f64,
     /// All steps, done and to come.
     schedule: Schedule,
-    /// Number of steps that are solved.
+    /// Number of steps that are solved already.
     steps_done: usize,
     /// Coefficients of the creep law over a step of the duration `time_step`.
     creep_step: ExponentialStep,
     /// Δt of the present step, \[s].
     time_step: f64,
-    /// Heights of the indenter over the followed elements of the footprint, in units of `height_scale`, row-major.
+    /// Heights h of the indenter over the elements of the footprint in front of the mirrors, in units of `height_scale`, row-major.
     heights: Vec<f64>,
     /// Offset of the lowest point for which `heights` were sampled, in elements; NaN before the first sampling.
     sampled_offset: f64,
-    /// h + H, the gap at zero depth and without load, in units of `height_scale`; shape of `heights`.
+    /// Initial gap h + H, at zero depth and without load, in units of `height_scale`; shape of `heights`.
     initial_gap: Vec<f64>,
     /// Displacement and history variables of the material along the path.
     history: MaterialHistory,
@@ -65,11 +65,12 @@ pub struct March<'a> {
     contact_box: ContactBox,
     /// Unit of heights, \[m].
     height_scale: f64,
-    /// Slopes under the pressure of the last step.
+    /// Mean slopes of the body, weighted with the pressure of the last step.
     slopes: MeanSlopes,
 }
 
 impl fmt::Debug for March<'_> {
+    /// Writes the name only, because the state is too large to read.
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.debug_struct("March").finish_non_exhaustive()
     }
@@ -109,7 +110,7 @@ impl<'a> March<'a> {
         Self::sliding_in_steps(surface, elastomer, load, options, options.spacing[0])
     }
 
-    /// Like [`sliding`](Self::sliding) in steps of a given length \[m].
+    /// The march of [`sliding`](Self::sliding), with steps of a given `length` \[m] instead of one element.
     pub(crate) fn sliding_in_steps(
         surface: &'a dyn Surface,
         elastomer: &dyn Elastomer,
@@ -185,15 +186,16 @@ impl<'a> March<'a> {
         self.history.convolution.grid().n_elements()
     }
 
-    /// Elements of the footprint in front of the mirrors that are loaded in the last step, with their scaled loads; only ratios
-    /// of the loads have a meaning.
+    /// Loaded elements of the last step in front of the mirrors, as [row, column] of the whole footprint, with their loads
+    /// x = 2 (1 − ν) α P/(4π) in units of the height scale over Δx.
     fn loaded_elements(&self) -> impl Iterator<Item = ([usize; 2], f64)> {
         let [first_row, first_column] = self.layout.first();
         let loaded = self.contact_box.loaded_elements();
         loaded.map(move |([row, column], load)| ([first_row + row, first_column + column], load))
     }
 
-    /// Bounding box of all loaded elements within the footprint; the element under the lowest point if none is loaded.
+    /// Bounding box of all loaded elements and their images in the whole footprint; the element under the lowest point if none is
+    /// loaded.
     fn contact_bounds(&self) -> Bounds {
         let lowest = Bounds::single(self.layout.apex);
         let loaded = self.loaded_bounds();
@@ -228,7 +230,7 @@ impl<'a> March<'a> {
         PressureField::from_elements(&bounds, spacing, origin, loaded)
     }
 
-    /// Edges [x, y] of the bounding box of the contact relative to the lowest point, \[m].
+    /// Ends [rear, front] and [right, left] of the bounding box of the contact relative to the lowest point, \[m].
     pub(crate) fn contact_edges(&self) -> [[f64; 2]; 2] {
         let bounds = self.contact_bounds();
         let [dx, dy] = self.options.spacing;
@@ -263,13 +265,13 @@ impl<'a> March<'a> {
         self.slopes.mean_slope_modulus
     }
 
-    /// Singularity of the pressure at the contact boundary: of the order 1/a² if it vanishes there, for a radius of a elements; 1 under a
-    /// flat punch.
+    /// Measure of the singularity of the pressure at the contact boundary, from 0 to 1: 1 under a flat punch, of the order 1/a² where
+    /// the pressure vanishes like a root, for a contact radius of a elements.
     pub(crate) fn edge_singularity(&self) -> f64 {
         self.contact_box.edge_singularity(self.layout.mirrors)
     }
 
-    /// 2 (1 − ν) α of the last step, \[1/Pa].
+    /// Compliance 2 (1 − ν) α of the last step, \[1/Pa].
     fn compliance(&self) -> f64 {
         self.half_space_factor * self.creep_step.response()
     }
@@ -293,7 +295,7 @@ impl<'a> March<'a> {
         }))
     }
 
-    /// Solves all steps that are left, and reports the fraction of all steps that is done.
+    /// Solves all remaining steps and returns their rows; `report` receives the fraction of all steps that is done.
     pub(crate) fn run(&mut self, report: &dyn Fn(f64)) -> Result<Vec<MotionRow>, BemError> {
         let mut rows = Vec::new();
         while let Some(row) = self.step()? {
@@ -308,30 +310,31 @@ impl<'a> March<'a> {
         self.steps_done as f64 / self.schedule.steps.len() as f64
     }
 
-    /// Returns to the end of the first step with given history variables, to follow all later steps again.
+    /// Returns to the end of the first step, with given history variables of all elements, so that the later steps are solved again.
     pub(crate) fn restart_with(&mut self, history_variables: &[f64]) {
         self.steps_done = 1;
         self.history.variables.copy_from_slice(history_variables);
     }
 
-    /// History variables of all elements.
+    /// Copy of the history variables of all elements, `[row][field][column]`.
     pub(crate) fn history_variables(&self) -> Vec<f64> {
         self.history.variables.clone()
     }
 
-    /// Solves the next step but leaves time level and tangential forces 0; `None` after the last step.
+    /// Solves the next step without its friction: time level and tangential forces of the row are 0. `None` after the last step.
     pub(crate) fn advance(&mut self) -> Result<Option<MotionRow>, BemError> {
         let step = self.schedule.steps.get(self.steps_done).copied();
         step.map(|step| self.solve_step(&step)).transpose()
     }
 
-    /// Solves the first step, which every schedule has, but leaves time level and tangential forces 0.
+    /// Solves the first step, which every schedule has, without its friction: time level and tangential forces of the row are 0.
     pub(crate) fn first(&mut self) -> Result<MotionRow, BemError> {
         let step = self.schedule.steps[0];
         self.solve_step(&step)
     }
 
-    /// One step in time: contact at its end, then history variables of the rows that later steps need.
+    /// Solves one step in time: the contact at its end, then the history variables of the rows that later steps need. Time level and
+    /// tangential forces of the row are 0.
     fn solve_step(&mut self, step: &ScheduledStep) -> Result<MotionRow, BemError> {
         // Height and displacement without load at the end of the step.
         self.set_time_step(step.time_step)?;
@@ -349,7 +352,7 @@ impl<'a> March<'a> {
         Ok(row)
     }
 
-    /// State at the end of a step from the contact box; depth, forces and iterations are left 0.
+    /// Row of a step with the extent of the contact, from the contact box; depth, forces and iterations are 0.
     fn motion_row(&self, step: &ScheduledStep) -> MotionRow {
         let [dx, dy] = self.options.spacing;
         // Count the elements in contact with their images.
@@ -377,12 +380,12 @@ impl<'a> March<'a> {
         }
     }
 
-    /// Rows of the path that the footprint covers from step number `step` on.
+    /// Rows of the path that the footprint covers in step number `step` and all later ones.
     fn rows_needed(&self, step: usize) -> Range<usize> {
         self.schedule.rows_from(step, self.layout.folded_shape()[0])
     }
 
-    /// Coefficients for a step of another length, and the same starting pressure in its units.
+    /// Sets the coefficients of the creep law for a step of the duration `time_step` \[s]; the first guess keeps its pressure.
     fn set_time_step(&mut self, time_step: f64) -> Result<(), BemError> {
         if time_step.total_cmp(&self.time_step).is_eq() {
             return Ok(());
@@ -398,17 +401,22 @@ impl<'a> March<'a> {
         Ok(())
     }
 
-    /// x of a row of the footprint relative to the lowest point, in elements.
+    /// Position x of the centre of a row of the footprint relative to the lowest point, in elements; the lowest point is `offset`
+    /// elements ahead of the centre of its row.
     fn x_in_elements(&self, row: usize, offset: f64) -> f64 {
         row as f64 - self.layout.apex[0] as f64 - offset
     }
 
-    /// y of a column of the footprint relative to the lowest point, \[m].
+    /// Position y of the centre of a column of the footprint relative to the lowest point, \[m].
     fn y_of_column(&self, column: usize) -> f64 {
         (column as f64 - self.layout.apex[1] as f64) * self.options.spacing[1]
     }
 
-    /// Samples the heights with the lowest point `offset` elements ahead of the centre of its element, unless they are there.
+    /// Samples `heights` with the lowest point `offset` elements ahead of the centre of its element, unless they are sampled so
+    /// already.
+    ///
+    /// # Errors
+    /// [`BemError::InvalidHeight`]; [`BemError::InvalidParameter`] if the body covers no element.
     fn sample_heights(&mut self, offset: f64) -> Result<(), BemError> {
         if offset.total_cmp(&self.sampled_offset).is_eq() {
             return Ok(());
@@ -436,7 +444,7 @@ impl<'a> March<'a> {
         Ok(())
     }
 
-    /// A contact box around the minimum of `heights`, with the usual margin.
+    /// An unloaded contact box around the minimum of `heights`, a field over the footprint in front of the mirrors.
     fn box_at_lowest_point(&self, heights: &[f64]) -> Result<ContactBox, BemError> {
         let [_, columns] = self.layout.folded_shape();
         let lowest = (0..heights.len()).min_by(|a, b| heights[*a].total_cmp(&heights[*b]));
@@ -445,12 +453,12 @@ impl<'a> March<'a> {
         ContactBox::cut_from(&self.history.convolution, self.with_margin(&element))
     }
 
-    /// `bounds` with a margin into which the contact may grow, within the followed elements.
+    /// The box `bounds` with a margin into which the contact may grow, within the footprint in front of the mirrors.
     fn with_margin(&self, bounds: &Bounds) -> Bounds {
         bounds.with_margin(self.layout.folded_shape(), self.layout.mirrors)
     }
 
-    /// Sets h + H for a footprint that begins at row `first_row` of the path.
+    /// Sets the initial gap h + H of a footprint that begins at row `first_row` of the path.
     fn update_initial_gap(&mut self, first_row: usize) {
         self.history
             .displacement_without_load(&self.creep_step, first_row, &mut self.initial_gap);
@@ -462,6 +470,7 @@ impl<'a> March<'a> {
     /// Depth \[m] if the step has no contact: that of the first touch under zero force, or a given depth that does not reach
     /// the surface; `None` if there is contact.
     fn depth_without_contact(&self, control: Control) -> Option<f64> {
+        // Without force the body rests at first touch; a depth above the surface does not reach it.
         let gaps = self.initial_gap.iter().copied();
         let lowest = gaps.fold(f64::INFINITY, f64::min);
         match control {
@@ -472,12 +481,14 @@ impl<'a> March<'a> {
         }
     }
 
-    /// A step without load: the box returns to the lowest gap if there was contact before.
+    /// A step without load at the depth `indentation_depth` \[m]. If there was contact before, the contact box returns to the lowest
+    /// gap.
     fn step_without_contact(
         &mut self,
         step: &ScheduledStep,
         indentation_depth: f64,
     ) -> Result<MotionRow, BemError> {
+        // The next contact begins at the lowest gap, not where the last one ended.
         if self.loaded_bounds().is_some() {
             self.contact_box = self.box_at_lowest_point(&self.initial_gap)?;
         }
@@ -489,9 +500,10 @@ impl<'a> March<'a> {
         })
     }
 
-    /// Unit of heights \[m], the largest over all steps: 2 (1 − ν) α F_N/(4 Δx) under a force, which is F_N/(4ηv) on an
-    /// incompressible dashpot that moves by Δx per step; the modulus of a given depth; Δx if all of these are 0.
+    /// Unit of heights \[m], the largest over all steps of these: 2 (1 − ν) α F_N/(4 Δx) under a force, which is F_N/(4ηv) on an
+    /// incompressible dashpot that moves by Δx per step; the modulus of a given depth. It is Δx if all of these are 0.
     fn find_height_scale(&self) -> Result<f64, BemError> {
+        // The largest scale of all steps, so that no height of the march is large in this unit.
         let spacing = self.options.spacing[0];
         let mut scale = 0.0_f64;
         for step in &self.schedule.steps {

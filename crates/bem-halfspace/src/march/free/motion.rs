@@ -33,7 +33,7 @@ pub struct MotionRow {
     pub(crate) tangential_force_end_of_step: f64,
     /// [Area](crate::PressureField::contact_area) of the contact, \[m²].
     pub contact_area: f64,
-    /// Discretization error of the contact area, \[m²]: the contact boundary lies anywhere within the elements at the edge.
+    /// Discretisation error of the contact area, \[m²]: the contact boundary lies anywhere within the elements at the edge.
     pub(crate) contact_area_uncertainty: f64,
     /// Rear and front of the contact relative to the lowest point, \[m]; `None` without contact.
     pub contact_x: Option<[f64; 2]>,

@@ -38,7 +38,7 @@ pub(super) struct ScheduledStep {
     pub(super) end: Motion,
     /// Duration Δt, \[s].
     pub(super) time_step: f64,
-    /// Row under the lowest point at the end, counted from the rearmost such row of all steps.
+    /// Row of elements under the lowest point at the end of the step, counted from the rearmost such row of all steps.
     pub(super) row: usize,
     /// Position of the lowest point relative to the centre of that row, in elements, from −½ to ½.
     pub(super) offset: f64,
@@ -50,14 +50,14 @@ pub(super) struct ScheduledStep {
 pub(crate) struct Schedule {
     /// Steps in the order of time.
     pub(super) steps: Vec<ScheduledStep>,
-    /// Course of the load within a step, as the coefficients of the creep law.
+    /// Course of the load within a step, held or linear, as the constructor of the coefficients of the creep law.
     pub(super) step_rule: StepRule,
-    /// Lowest and highest row under the lowest point, over each step and all later ones.
+    /// For each step, the rearmost and the foremost row under the lowest point in it and all later ones.
     spans: Vec<[usize; 2]>,
 }
 
 impl Schedule {
-    /// The steps through `motions`, with loads that are held over each.
+    /// The steps through `motions`, with loads that are held over each; `spacing` is Δx \[m].
     pub(super) fn from_motions(motions: &[Motion], spacing: f64) -> Result<Self, BemError> {
         // Durations are differences of the times.
         let mut previous_time = 0.0;
@@ -74,7 +74,7 @@ impl Schedule {
     pub(super) fn sliding(load: &SlidingLoad, length: f64, spacing: f64) -> Result<Self, BemError> {
         load.require_fresh_ground()?;
         positive("spacing along x", spacing)?;
-        // Divide the distance into steps; the last one may be shorter.
+        // Divide the distance into steps; the last one takes up the remainder.
         let distance = load
             .sliding_distance()
             .ok_or(BemError::SlidingDistanceMissing {
@@ -99,8 +99,8 @@ impl Schedule {
         Self::new(motions, ExponentialStep::creep, spacing)
     }
 
-    /// The steps through `motions`, with loads that are linear over each. All after the first one may be repeated, so that every row is
-    /// needed after every step.
+    /// The steps through `motions`, with loads that are linear over each. The steps after the first one may be repeated, as cycles of a
+    /// motion, so that the history of every row is needed after every step.
     pub(crate) fn repeated(
         motions: impl Iterator<Item = TimedMotion>,
         spacing: f64,
@@ -112,7 +112,7 @@ impl Schedule {
         Ok(schedule)
     }
 
-    /// The steps through `motions`, from the centre of an element at time and position 0.
+    /// The steps through `motions`, from the centre of an element at time and position 0; `spacing` is Δx \[m].
     ///
     /// # Errors
     /// [`BemError::InvalidParameter`] for no motions, for durations that are not positive, and for positions and controls out of
@@ -141,7 +141,7 @@ impl Schedule {
             (cell_before, offset_before) = (cell, offset);
         }
         positive("number of steps", steps.len() as f64)?;
-        // Count rows from the rearmost one.
+        // Count the rows from the rearmost one.
         let lowest = cells.iter().copied().fold(f64::INFINITY, f64::min);
         for (step, cell) in steps.iter_mut().zip(cells) {
             step.row = whole_elements(cell - lowest)?;
@@ -169,14 +169,15 @@ impl Schedule {
         self
     }
 
-    /// Rows of the path that footprints of `n_rows` rows cover from step number `first` on; empty after the last step.
+    /// Rows of the path that footprints of `n_rows` rows cover in step number `first` and all later ones; empty after the last step.
     pub(super) fn rows_from(&self, first: usize, n_rows: usize) -> Range<usize> {
         let span = self.spans.get(first);
         span.map_or(0..0, |[low, high]| *low..high + n_rows)
     }
 }
 
-/// Number of steps of a `length` over a `distance`, and the length of the last one: 0.5 to 1.5 of the others.
+/// Number of steps of a `length` over a `distance`, and the length of the last one, 0.5 to 1.5 times that of the others; all lengths
+/// in \[m]. Fails with [`BemError::TooManySteps`].
 fn divide_into_steps(distance: f64, length: f64) -> Result<(usize, f64), BemError> {
     let steps = distance / length;
     if steps > MAX_STEPS {
@@ -194,7 +195,7 @@ fn divide_into_steps(distance: f64, length: f64) -> Result<(usize, f64), BemErro
     Ok((whole_elements(before)? + 1, last))
 }
 
-/// Lowest and highest row under the lowest point over each step and all later ones: running extrema from the end.
+/// For each step, the rearmost and the foremost row under the lowest point in it and all later ones: running extrema from the end.
 fn later_spans(steps: &[ScheduledStep]) -> Vec<[usize; 2]> {
     let mut spans: Vec<[usize; 2]> = steps.iter().map(|step| [step.row; 2]).collect();
     for step in (1..spans.len()).rev() {
@@ -205,7 +206,8 @@ fn later_spans(steps: &[ScheduledStep]) -> Vec<[usize; 2]> {
     spans
 }
 
-/// Index of the element nearest to a position \[m], and the position relative to its centre, both in elements.
+/// [index of the nearest element, position relative to its centre], both in elements of the edge `spacing` \[m], for a `position` \[m];
+/// the index is an integer and may be negative.
 fn nearest_element(position: f64, spacing: f64) -> Result<[f64; 2], BemError> {
     let elements = finite("position", position)? / spacing;
     let cell = elements.round();

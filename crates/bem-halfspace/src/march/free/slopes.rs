@@ -19,7 +19,7 @@ use numerics::in_range;
 use crate::BemError;
 use crate::march::free::{March, ScheduledStep};
 
-/// Slopes of the body over the loaded elements, weighted with their pressure; all zero without contact.
+/// Mean slopes ∂h/∂x of the body over the loaded elements, weighted with their pressure; all zero without contact.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct MeanSlopes {
     /// Time level θ: pressure and forces belong to the time θ Δt before the end of the step, from 0 to ½.
@@ -30,12 +30,12 @@ pub(super) struct MeanSlopes {
     pub(super) end_of_step: f64,
     /// Mean modulus of the slope at the time level θ.
     pub(super) mean_slope_modulus: f64,
-    /// Largest slope at the time level θ; of its modulus if the body is its own mirror image about x = 0.
+    /// Largest slope at the time level θ; largest modulus of the slope if only the half in front of x = 0 is computed.
     pub(super) largest: f64,
 }
 
 impl MeanSlopes {
-    /// Slopes under the pressure of the step that was solved last.
+    /// Mean slopes under the pressure of the step that was solved last, which is `step`. Fails at a vertical wall in contact.
     pub(super) fn over(march: &March<'_>, step: &ScheduledStep) -> Result<Self, BemError> {
         let time_level = time_level(march, step)?;
         let mut sum = Self {
@@ -68,7 +68,10 @@ impl MeanSlopes {
     }
 }
 
-/// Slopes of the body over an element: at the time level θ, and at the end of the step.
+/// Slopes [∂h/∂x at the time level θ, ∂h/∂x at the end of the step] of the body over an element [row, column] of the footprint.
+///
+/// # Errors
+/// [`BemError::VerticalWall`] for a chord that leaves the body; [`BemError::InvalidParameter`] for a slope that is not a number.
 fn slopes_at(
     march: &March<'_>,
     time_level: f64,
@@ -88,12 +91,14 @@ fn slopes_at(
     if !slope.is_finite() {
         return Err(BemError::VerticalWall { x, y });
     }
+    // At the end of the step the slope is that of the surface itself.
     let end = march.surface.gradient([x, y])[0];
     in_range("slope of the surface", end, !end.is_nan(), "a number")?;
     Ok([slope, end])
 }
 
-/// Time level θ = ½ (1 − E G'), from 0 at the end of the step to ½ in its middle, times the part of the step in which the load is held_share.
+/// Time level θ = ½ (1 − E G'), from 0 at the end of the step to ½ in its middle, times the part of the step over which the load is
+/// held.
 fn time_level(march: &March<'_>, step: &ScheduledStep) -> Result<f64, BemError> {
     let held_share = 1.0 - march.creep_step.linear_share();
     if held_share == 0.0 {
@@ -102,7 +107,8 @@ fn time_level(march: &March<'_>, step: &ScheduledStep) -> Result<f64, BemError> 
     Ok(0.5 * held_share * (1.0 - elastic_share(march, step)?))
 }
 
-/// Elastic share E G' at the frequency ω = 2πv/L with which the contact passes: 1 on an elastic half space, 0 on a dashpot.
+/// Elastic share E G' of the response, at the frequency ω = 2πv/L \[rad/s] with which a contact of the length L passes: 1 on an elastic
+/// half space, 0 on a dashpot. E is defined at the head of this file.
 fn elastic_share(march: &March<'_>, step: &ScheduledStep) -> Result<f64, BemError> {
     let (creep, advance, time_step) = (&march.creep, step.advance, step.time_step);
     let mut elastic = creep.instantaneous_compliance();

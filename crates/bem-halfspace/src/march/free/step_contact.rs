@@ -11,8 +11,8 @@ use crate::BemError;
 use crate::elements::bounds::Bounds;
 use crate::elements::mirror::n_images;
 
-/// Area of the needed box over that of the present one below which the box shrinks, above the ratio at which the
-/// contact solver would take a smaller box of its own. Chosen; from 0 to 0.99 no answer changes by more than 1e-8 of
+/// Area of the needed contact box over that of the present one below which the box shrinks. It exceeds the ratio 0.6 at which the
+/// contact solver would iterate on a smaller box of its own. Chosen; from 0 to 0.99 no answer changes by more than 1e-8 of
 /// its bar.
 const SHRINKING_AREA_RATIO: f64 = 0.75;
 /// Penetration outside the box that is allowed, over the tolerance of the contact on the box: once for the contact,
@@ -24,7 +24,7 @@ impl March<'_> {
     pub(super) fn solve_contact(&mut self, step: &ScheduledStep) -> Result<MotionRow, BemError> {
         let mut enlarged = false;
         loop {
-            // Solve on the box.
+            // Solve the elastic contact on the box, from the pressure of the last step.
             let columns = self.layout.folded_shape()[1];
             let bounds = self.contact_box.bounds;
             bounds.extract(&self.initial_gap, columns, &mut self.contact_box.separation);
@@ -64,15 +64,16 @@ impl March<'_> {
         }
     }
 
-    /// Sum of the scaled loads in front of the mirrors per newton of normal force.
+    /// Sum of the loads in front of the mirrors per newton of normal force, \[1/N].
     ///
-    /// The scaled load is x = 2 (1 − ν) α P / (4π), so that the displacement is K x; its unit is the height scale over Δx.
+    /// The load of an element is x = 2 (1 − ν) α P / (4π), so that the displacement is K x; its unit is the height scale over Δx.
     fn load_per_force(&self) -> f64 {
         let compliance = self.compliance() / self.height_scale;
         compliance / (4.0 * PI * self.options.spacing[1]) / n_images(self.layout.mirrors)
     }
 
-    /// A control in the units of the contact box: scaled load, or depth over the height scale.
+    /// A control in the units of the contact box: a force as the sum of the loads in front of the mirrors, a depth over the height
+    /// scale.
     fn scaled_control(&self, control: Control) -> Control {
         match control {
             Control::NormalForce(force) => Control::NormalForce(force * self.load_per_force()),
@@ -82,8 +83,10 @@ impl March<'_> {
         }
     }
 
-    /// Computes the displacement increment by the load of the box, in the rows from `first_row` on, which this and later steps read.
+    /// Computes the displacement by the load of the contact box in all rows of the path that this and later steps read. The footprint
+    /// begins at row `first_row` of the path.
     fn update_increment(&mut self, first_row: usize) {
+        // Without load no transform is needed.
         let wanted = self.rows_needed(self.steps_done);
         if self.loaded_bounds().is_none() {
             self.history.clear_increment(wanted);
@@ -94,8 +97,10 @@ impl March<'_> {
         self.history.apply_load(loaded, first_row, rows, wanted);
     }
 
-    /// Bounding box of the elements outside the contact box that the indenter penetrates; `None` without any.
+    /// Bounding box of the elements outside the contact box that the indenter penetrates; `None` without any. The footprint begins at
+    /// row `first_row` of the path, and `depth` is in units of the height scale.
     fn penetration_outside_box(&self, first_row: usize, depth: f64) -> Option<Bounds> {
+        // The tolerance is relative to the largest displacement of the step, as on the box.
         let [rows, columns] = self.layout.folded_shape();
         let increment = self.history.increment(first_row..first_row + rows);
         let deflection = increment.iter().copied().fold(0.0, f64::max);
@@ -108,7 +113,8 @@ impl March<'_> {
         Bounds::enclosing(outside)
     }
 
-    /// Fails if the contact touches the boundary of the footprint; `position` \[m] is for the error.
+    /// Fails with [`BemError::ContactReachesBoundary`] if the bounding box of the contact, in the whole footprint, touches the boundary
+    /// of the footprint; `position` \[m] is for the message.
     fn check_footprint(&self, bounds: &Bounds, position: f64) -> Result<(), BemError> {
         let shape = self.layout.shape;
         let inside = (0..2).all(|axis| bounds.lower[axis] > 0 && bounds.upper[axis] < shape[axis]);
@@ -118,7 +124,7 @@ impl March<'_> {
         Err(self.options.footprint.boundary_reached(position))
     }
 
-    /// Replaces the box by a smaller one around `contact` when that needs less than [`SHRINKING_AREA_RATIO`] of it.
+    /// Replaces the contact box by a smaller one around `contact` if that needs less than [`SHRINKING_AREA_RATIO`] of its area.
     fn shrink_box(&mut self, contact: &Bounds) -> Result<(), BemError> {
         let shape = self.contact_box.bounds.shape();
         let needed = self.with_margin(contact);

@@ -17,12 +17,14 @@ use crate::estimate::refinement_limits::HISTORY;
 use crate::march::n_history_variables;
 use crate::{BemError, Elastomer, GridOptions};
 
-/// Largest number of time steps of a history on one grid, unless its points are so many that
-/// [`MIN_STEPS_PER_INTERVAL`] needs more: a limit of the time.
+/// Largest number of time steps of a history on one grid, a limit of the time. [`MIN_STEPS_PER_INTERVAL`] takes precedence for
+/// histories of many points.
 const MAX_HISTORY_STEPS: usize = 4096;
-/// Steps between two points that are always allowed: three halvings of one step.
+/// Number of steps between two points that is always allowed: three halvings of one step give two successive changes of the
+/// extrapolated values, and so their ratio.
 const MIN_STEPS_PER_INTERVAL: usize = 8;
-/// Duration of a jump, as a fraction of that of the history; a jump within it leaves the control elsewhere as it was.
+/// Duration of a jump, as a fraction of that of the history. Chosen: short compared with any interval, and far above the rounding of
+/// times.
 const JUMP_DURATION_FRACTION: f64 = 1e-9;
 
 /// The contact at one point of a history; an error of 0 says that a quantity is given.
@@ -145,7 +147,7 @@ pub fn indent_along<'w>(
     reached_or_error(fine.missed, Name::of_quantity, found)
 }
 
-/// Memory that [`indent_along`] takes at most for a number of elements along the largest contact, \[bytes].
+/// Upper bound of the memory of [`indent_along`] for a number of elements along the largest contact, \[bytes].
 ///
 /// # Errors
 /// As for [`indent_along`], before anything is solved.
@@ -163,7 +165,7 @@ pub fn indent_along_memory(
     Ok(per_element * n_followed(surface, &grid(&plan, elements)))
 }
 
-/// The quantities of one row: without sliding no friction, and a largest pressure without a known limit.
+/// The quantities of one row of a history. Friction is 0 without sliding; the peak pressure is not estimated and 0.
 const fn row_quantities(row: &MotionRow) -> Quantities<f64> {
     Quantities {
         friction_coefficient: 0.0,
@@ -174,16 +176,16 @@ const fn row_quantities(row: &MotionRow) -> Quantities<f64> {
     }
 }
 
-/// A history of which every point is later than the one before.
+/// A checked history, whose points have increasing times.
 struct Path {
     /// True if forces are given, false for depths.
     is_force: bool,
-    /// Time since the first one, and force or depth; at the first one nothing is pressed.
+    /// Points [time since the first one \[s], force \[N] or depth \[m]]; at the first point nothing is pressed.
     points: Vec<[f64; 2]>,
 }
 
 impl Path {
-    /// Checks the points, and moves apart those of the same time.
+    /// Checks the points of a history, and turns jumps, which are two points of the same time, into short ramps.
     fn new(history: &[HistoryPoint], has_instantaneous_compliance: bool) -> Result<Self, BemError> {
         let allowed = "at least 2";
         let n_points = history.len() as f64;
@@ -218,7 +220,7 @@ impl Path {
         })
     }
 
-    /// The force or depth of this value.
+    /// The control with a value, \[N] or \[m]: a force if forces are given, else a depth.
     fn control(&self, value: f64) -> Control {
         if self.is_force {
             Control::NormalForce(value)
@@ -227,14 +229,14 @@ impl Path {
         }
     }
 
-    /// The largest force or depth.
+    /// The largest force or depth of the history.
     fn largest(&self) -> Control {
         let values = self.points.iter().map(|[_, value]| *value);
         self.control(values.fold(0.0, f64::max))
     }
 
-    /// The elastic contact that reaches at least as far as that of any point: under a force that of the largest one held all
-    /// the time, because ∫ J dF ≤ J(t) max F.
+    /// The elastic material whose contact under [`largest`](Self::largest) encloses the contacts of all points, for the footprint. With
+    /// given forces its compliance is J at the end of the history, because ∫ J dF ≤ J(t) max F.
     fn spring(&self, elastomer: &dyn Elastomer) -> Result<Spring, BemError> {
         let [duration, _] = self.points[self.points.len() - 1];
         let load = PressingLoad::new(self.largest(), duration)?;
@@ -245,8 +247,9 @@ impl Path {
         }
     }
 
-    /// Control at a time, linear between two points.
+    /// Control at a `time` \[s] since the first point, linear between two points.
     fn control_at(&self, time: f64) -> Control {
+        // The two points around the time.
         let next = self.points.partition_point(|[before, _]| *before < time);
         let index = next.clamp(1, self.points.len() - 1);
         let [[start, from], [end, to]] = [self.points[index - 1], self.points[index]];
@@ -254,7 +257,7 @@ impl Path {
         self.control(from + part * (to - from))
     }
 
-    /// Force or depth, whichever is not given, and the other.
+    /// Names [sought, given] of force and depth: the sought quantity follows from the given one.
     const fn sought_and_given(&self) -> [Name; 2] {
         if self.is_force {
             [Name::Depth, Name::Force]
@@ -263,8 +266,8 @@ impl Path {
         }
     }
 
-    /// Quantities of all rows, one row after the other. The one that is sought must have the requested error, relative to its largest
-    /// value in the history.
+    /// Quantities of all rows, one row after the other, for the refinement. The sought quantity controls it; errors are relative to the
+    /// largest value of a quantity in the history.
     fn quantities(&self, found: &IndentHistory) -> Vec<Quantity> {
         // Scale of each quantity: its largest value in the history.
         let largest = |name| {
@@ -293,7 +296,8 @@ impl Path {
         found.rows.iter().flat_map(of_one_row).collect()
     }
 
-    /// The points of a history with the errors of area, force and depth.
+    /// The points of a history with their values from `rows`; `error(name)` is the absolute error of a quantity at all points. The
+    /// given quantity has no error.
     fn with_errors(
         &self,
         history: &[HistoryPoint],
@@ -312,7 +316,7 @@ impl Path {
                 contact_area: known.contact_area,
             }
         };
-        // Nothing is pressed at a first point that has no row.
+        // The march has no row for a first point at which nothing is pressed.
         let free = (rows.len() < history.len()).then_some(Quantities {
             friction_coefficient: 0.0,
             normal_force: 0.0,

@@ -9,14 +9,14 @@ use rheology::{CreepSpectrum, Material as _};
 use super::{MotionRow, indent_history_on_grid};
 use crate::{BemError, Elastomer, GridOptions};
 
-/// Smallest ratio of two successive changes by halving the steps: that of an error of the first order in their length. Changes that
-/// fall faster count as such, because two of them may agree by chance.
+/// Smallest ratio of successive changes by halving the steps that an error estimate uses: that of an error of the first order in their
+/// length. Changes that fall faster count with this ratio, because two of them may agree by chance.
 const FIRST_ORDER_RATIO: f64 = 0.5;
-/// Ratio of successive changes where only one is known, so that the error is twice that change: between the first
-/// order, 1/2, and [`LARGEST_RATIO`]. Chosen; it decides a bar only where a single halving is affordable.
+/// Ratio r of successive changes that is assumed if only one change is known, so that the error r/(1 − r) is twice that change. Chosen
+/// between 1/2, the ratio of the first order, and [`LARGEST_RATIO`]; it decides a bar only where a single halving is affordable.
 const ASSUMED_RATIO: f64 = 2.0 / 3.0;
-/// Largest ratio r of successive changes, with which the error is r/(1 − r) = 9 times the last one. Chosen: changes
-/// that the tolerance of the contact leaves no longer fall.
+/// Largest ratio r of successive changes that an error estimate uses, with which the error is r/(1 − r) = 9 times the last change.
+/// Chosen: changes of the size of the contact tolerance no longer fall, and would give r = 1.
 const LARGEST_RATIO: f64 = 0.9;
 
 /// How exactly a history is followed.
@@ -84,7 +84,8 @@ pub fn indent_history(
     })
 }
 
-/// Like [`indent_history`], with whatever error is reached within the allowed steps.
+/// Halves the steps of a history until the error asked for is met or no more steps are allowed; returns the history with the error
+/// reached. Arguments and errors are those of [`indent_history`].
 pub(super) fn refined(
     surface: &dyn Surface,
     elastomer: &dyn Elastomer,
@@ -105,6 +106,7 @@ pub(super) fn refined(
         let last = 2 * n > options.max_steps;
         match run(n) {
             Ok(fine) => {
+                // Extrapolate, and estimate the error from the change of the extrapolated values.
                 let rows = coarse.map(|coarse| extrapolated(&coarse, &fine));
                 if let Some((before, rows)) = before.zip(rows.as_ref()) {
                     let change = difference(&before, rows);
@@ -143,13 +145,13 @@ fn remaining_error(change: f64, before: Option<f64>) -> f64 {
     change * ratio / (1.0 - ratio)
 }
 
-/// The intervals between successive times; the first one begins at zero.
+/// Intervals [start, end] between successive times; the first one begins at zero.
 fn intervals(times: &[f64]) -> impl Iterator<Item = [f64; 2]> {
     let starts = std::iter::once(&0.0).chain(times);
     starts.zip(times).map(|(&start, &end)| [start, end])
 }
 
-/// `n` equal steps to each of the times.
+/// The points at the ends of all time steps, with `n` equal steps in each interval between the `times`.
 fn subdivided(control: impl Fn(f64) -> Control, times: &[f64], n: usize) -> Vec<HistoryPoint> {
     let ends = intervals(times).flat_map(|[start, end]| {
         let inner = move |k| start + (end - start) * (k as f64 / n as f64);
@@ -162,8 +164,8 @@ fn subdivided(control: impl Fn(f64) -> Control, times: &[f64], n: usize) -> Vec<
     ends.map(step).collect()
 }
 
-/// Force and depth extrapolated to steps of no length, 2 f_2n − f_n. The contact is that of the finer rows: elements are in contact or
-/// not. Forces stay above zero: the contact opens between two steps.
+/// Rows with force and depth extrapolated to steps of length zero, 2 f_2n − f_n (Richardson). The contact is that of the finer rows,
+/// because it changes by whole elements. Forces are not negative: the contact opens between two steps.
 fn extrapolated(coarse: &[MotionRow], fine: &[MotionRow]) -> Vec<MotionRow> {
     let row = |(coarse, fine): (&MotionRow, &MotionRow)| MotionRow {
         indentation_depth: 2.0 * fine.indentation_depth - coarse.indentation_depth,
@@ -173,9 +175,11 @@ fn extrapolated(coarse: &[MotionRow], fine: &[MotionRow]) -> Vec<MotionRow> {
     coarse.iter().zip(fine).map(row).collect()
 }
 
-/// Largest relative error by retardation elements that are faster than a step: retardation time over the interval between two rows, times
-/// the fraction of the compliance. Halving the steps does not reveal it while all of them are longer than the retardation time.
+/// Bound of the relative error by retardation elements that are faster than a step, over all intervals between two rows with `n` steps
+/// each: retardation time over interval, times the element's fraction of the compliance. Halving the steps does not reveal this error
+/// while they are longer than the retardation time.
 fn unresolved_relaxation(creep: &CreepSpectrum, times: &[f64], n: usize) -> Result<f64, BemError> {
+    // Only elements that relax within one of the steps count.
     let mut largest = 0.0_f64;
     for [start, end] in intervals(times) {
         let interval = end - start;
@@ -190,7 +194,7 @@ fn unresolved_relaxation(creep: &CreepSpectrum, times: &[f64], n: usize) -> Resu
     Ok(largest)
 }
 
-/// Largest change of force and of depth, relative to the largest of each.
+/// Larger of the relative changes of force and of depth between two solutions: maximum change over all rows, over the maximum value.
 fn difference(before: &[MotionRow], rows: &[MotionRow]) -> f64 {
     let of = |value: fn(&MotionRow) -> f64| {
         let pairs = before.iter().zip(rows);

@@ -34,6 +34,7 @@ pub fn indent_history_on_grid(
     steps: &[HistoryPoint],
     options: &GridOptions,
 ) -> Result<Vec<MotionRow>, BemError> {
+    // A motion that stays over the same element.
     let motion = |step: &HistoryPoint| Motion {
         time: step.time,
         position: 0.0,
@@ -41,6 +42,7 @@ pub fn indent_history_on_grid(
     };
     let motions: Vec<Motion> = steps.iter().map(motion).collect();
     let mut march = March::new(surface, elastomer, &motions, options)?;
+    // The largest contact of the history must cover enough elements; others may be small.
     let mut rows = Vec::with_capacity(steps.len());
     let mut largest = 0;
     while let Some(row) = march.advance()? {

@@ -1,8 +1,8 @@
 //! One control, constant in time.
 //!
-//! While the contact grows, or stays as it is, a constant force acts on every material like the force F J(t) on a spring of
-//! unit modulus, and a constant depth makes G(t) times its force (Lee & Radok 1960), with J and G taken
-//! 2 (1 − ν) times as compliant. So one elastic contact is all that has to be solved.
+//! While the contact does not shrink, a constant force F acts on every material like the force 2 (1 − ν) J(t) F on an elastic half
+//! space of unit compliance, the *spring*. A constant depth causes G(t)/(2 (1 − ν)) times the force of the spring (Lee & Radok
+//! 1960). So one elastic contact is all that has to be solved.
 
 use std::f64::consts::{FRAC_1_PI, PI};
 
@@ -19,26 +19,27 @@ use crate::estimate::refinement_limits::PRESS;
 use crate::march::{March, Motion};
 use crate::{Base, BemError, Elastomer, Footprint, GridOptions, Layer};
 
-/// Convergence order that is assumed of depth and force, which converge faster, under cusps too.
+/// Convergence order that error estimates assume for depth and force: a lower bound, also under cusps.
 pub(super) const PRESSED_ORDER: f64 = 1.0;
-/// Convergence order of the counted contact area where nothing slides: the straight runs of a smooth outline of n elements are √n
-/// edges long, and are displaced by up to half an element, of n² elements in all.
+/// Convergence order of the counted contact area without sliding. The longest straight runs of a smooth outline of n elements have √n
+/// edges and are displaced by up to half an element: an error of √n/2 elements in an area of about n² elements.
 pub(super) const PRESSED_AREA_ORDER: f64 = 1.5;
 /// Smallest relative error of depth or force on n elements in contact, times n^(3/4).
 ///
-/// Near the outline the pressure grows with the root of the distance. The outermost elements carry a part n^(−3/4) of the force,
-/// and each of them is in contact or not as a whole, which different grids may have in common by chance. Measured: twice the median
-/// deviation of the random scenes of docs/calibration.md.
+/// Near the outline the pressure grows like the root of the distance, so that the outermost elements carry a part n^(−3/4) of the
+/// force. Each of them is in contact or not as a whole, which different grids may have in common by chance. Measured: twice the
+/// median deviation of the random scenes of docs/calibration.md.
 const BOUNDARY_ERROR_FACTOR: f64 = 0.07;
-/// Edges of an element by which a disc of elements is wider than the flat punch that it stands for.
+/// Difference between the radius of a disc of elements and that of the flat punch that it replaces, in edges of an element.
 ///
 /// Uniform pressures do not follow the singular pressure at the edge of the punch; the wider disc is as stiff as the punch.
 /// Measured on a half space: 160 to 512 elements along a disc err by 3e-5 to 5e-7 with it.
 const PUNCH_WIDENING: f64 = 0.113;
-/// Fewest elements along a disc: with fewer, grids of different spacings have the same disc.
+/// Smallest number of elements along a disc that replaces a flat punch: with fewer, grids of different spacings have the same disc.
 const MIN_ELEMENTS_OF_DISC: usize = 4;
 
-/// Memory for an element in front of the mirrors, \[bytes].
+/// Upper bound of the memory per element in front of the mirrors, \[bytes]; a test compares it with the memory taken
+/// (tests/it/memory.rs).
 pub(super) const PRESS_BYTES_PER_ELEMENT: f64 = 600.0;
 
 /// A contact under a control that was constant, on one grid.
@@ -53,9 +54,10 @@ pub struct PressSolution {
     pub normal_force: f64,
     /// [Area](PressureField::contact_area) of the contact, \[m²].
     pub contact_area: f64,
-    /// What the elements leave unknown of the contact area, because its outline lies anywhere within those at the edge, \[m²].
+    /// Discretisation error of the contact area, because its outline lies anywhere within the outermost elements, \[m²].
     pub(crate) contact_area_uncertainty: f64,
-    /// How singular the pressure is along the outline of the contact: 1 under a flat punch, and near 0 where it ends like a root.
+    /// Measure of the singularity of the pressure along the outline of the contact: 1 under a flat punch, near 0 where the pressure
+    /// vanishes like a root.
     pub(crate) edge_singularity: f64,
     /// Ends of the contact along x relative to the lowest point, \[m].
     pub contact_x: [f64; 2],
@@ -65,8 +67,7 @@ pub struct PressSolution {
     pub n_contact: usize,
     /// Iterations of the contact solver.
     pub iterations: usize,
-    /// Pressure over the contact; none under a force on a material that creeps, where it depends on how the contact has
-    /// grown.
+    /// Pressure over the contact; `None` under a force on a material that creeps, where it depends on the history of the contact.
     pub pressure: Option<PressureField>,
 }
 
@@ -132,7 +133,7 @@ pub fn indent<'w>(
     estimate(surface, &spring, load.control(), request.into())
 }
 
-/// Memory that [`indent`] takes at most for a number of elements along the contact, \[bytes].
+/// Upper bound of the memory of [`indent`] for a number of elements along the contact, \[bytes].
 ///
 /// # Errors
 /// As for [`indent`], before anything is solved.
@@ -146,19 +147,20 @@ pub fn indent_memory(
     Ok(PRESS_BYTES_PER_ELEMENT * n_followed(surface, &grid(&plan, elements)))
 }
 
-/// Elements in front of the mirrors.
+/// Approximate number of elements of a grid in front of the mirrors of a surface.
 pub(super) fn n_followed(surface: &dyn Surface, options: &GridOptions) -> f64 {
     let mirrored = surface.mirrors().into_iter().filter(|mirrored| *mirrored);
     let followed: f64 = mirrored.map(|_| 0.5).product();
     followed * options.footprint.n_elements(options.spacing)
 }
 
+/// Grid of square elements, about `elements` of them along the pressed contact, which is twice as long as [`GridPlan::length`].
 pub(super) fn grid(plan: &GridPlan, elements: usize) -> GridOptions {
     let spacing = 2.0 * plan.length() / elements as f64;
     GridOptions::new([spacing; 2], plan.footprint.widened(spacing))
 }
 
-/// The rectangle around the contact of a body that was pressed a time ago.
+/// The rectangle in which contact may occur at the end of a pressing load.
 pub(crate) fn footprint_after(
     surface: &dyn Surface,
     elastomer: &dyn Elastomer,
@@ -168,20 +170,21 @@ pub(crate) fn footprint_after(
     Ok(plan.footprint)
 }
 
-/// The spring that a material under a constant control is equivalent to (Lee & Radok 1960).
+/// The elastic contact that is equivalent to that of a material under a constant control (Lee & Radok 1960): an elastic material of
+/// unit compliance, and the factor from forces on the material to forces on it.
 pub(super) struct Spring {
-    /// Material of the compliance 2 (1 − ν)/G = 1, with the Poisson ratio of the material.
+    /// Elastic material of the compliance 2 (1 − ν)/G = 1/Pa, with the Poisson ratio of the material.
     unit: Compressible,
     /// Base of the material: a half space of the same material, or a substrate.
     base: Base,
-    /// Compliance 2 (1 − ν) J, or its inverse where the depth is given, \[1/Pa].
+    /// Compliance 2 (1 − ν) J under a force, or 2 (1 − ν)/G at a depth, \[1/Pa].
     compliance: f64,
-    /// True if its pressure is that of the material too.
+    /// True if the pressure of the material is that of the spring over the compliance.
     has_pressure: bool,
 }
 
 impl Spring {
-    /// The spring of a material that has come to rest; fails for one that flows.
+    /// The spring of a material at equilibrium. Fails with [`BemError::NoEquilibrium`] for one that flows.
     fn at_rest(elastomer: &dyn Elastomer) -> Result<Self, BemError> {
         let material = elastomer.material();
         check_spectra(&material)?;
@@ -209,11 +212,12 @@ impl Spring {
         })
     }
 
+    /// The spring as an elastomer: its elastic material on the base.
     fn layer(&self) -> Layer<'_, Compressible> {
         Layer::over(&self.unit, self.base.clone())
     }
 
-    /// Grid and footprint of the pressed body.
+    /// Plan of the grids for a body that is pressed into the material.
     pub(super) fn plan(
         &self,
         surface: &dyn Surface,
@@ -222,10 +226,13 @@ impl Spring {
         GridPlan::pressed(surface, &self.layer(), self.scaled(control)?)
     }
 
-    /// The spring that a material is equivalent to at the end of a load: its creep compliance under a force, its relaxation modulus at a depth.
+    /// The spring that a material is equivalent to at the end of a load: its creep compliance under a force, its relaxation modulus
+    /// at a depth.
     pub(super) fn after(elastomer: &dyn Elastomer, load: &PressingLoad) -> Result<Self, BemError> {
         let material = elastomer.material();
         check_spectra(&material)?;
+        // A force acts through the creep compliance, a depth through the relaxation modulus. If the material creeps under a force, the
+        // pressure depends on the history, unlike force and depth.
         let (factor, duration) = (material.half_space_factor(), load.duration());
         let is_elastic = material.creep().is_elastic();
         match load.control() {
@@ -241,7 +248,7 @@ impl Spring {
         }
     }
 
-    /// The control of the spring of unit modulus.
+    /// The control of the spring: a force times the compliance, or the same depth. Fails unless both are positive.
     fn scaled(&self, control: Control) -> Result<Control, BemError> {
         Ok(match control {
             Control::NormalForce(force) => {
@@ -254,13 +261,14 @@ impl Spring {
         })
     }
 
-    /// The contact on one grid: that of the spring of unit compliance, with its pressures and forces divided by the compliance.
+    /// Solves the contact of the spring on one grid, in one step of a march, and divides its pressures and forces by the compliance.
     fn solve(
         &self,
         surface: &dyn Surface,
         control: Control,
         options: &GridOptions,
     ) -> Result<PressSolution, BemError> {
+        // On an elastic material one step of any duration is the static contact.
         let motion = Motion {
             time: 1.0,
             position: 0.0,
@@ -269,6 +277,7 @@ impl Spring {
         let mut march = March::new(surface, &self.layer(), &[motion], options)?;
         let row = march.first()?;
         check_contact_elements(march.elements_across())?;
+        // Back from the spring to the material.
         let [contact_x, contact_y] = march.contact_edges();
         let mut pressure = march.pressure()?;
         for value in &mut pressure.pressure {
@@ -292,8 +301,9 @@ impl Spring {
     }
 }
 
-/// Refines the contact of a spring until the depth, or the force at a given depth, has the error asked for. A flat punch is pressed as the disc
-/// that the elements widen it to, and keeps its own area.
+/// Refines the contact of a spring until the depth, or the force at a given depth, has the error asked for.
+///
+/// A flat punch is replaced by a disc of elements that is as stiff ([`PUNCH_WIDENING`]); its contact area is exact.
 fn estimate(
     surface: &dyn Surface,
     spring: &Spring,
@@ -316,7 +326,7 @@ fn estimate(
                 let needed = MIN_ELEMENTS_OF_DISC;
                 return Err(BemError::GridTooCoarse { elements, needed });
             }
-            // Refuses more than any grid has, which would take too long to count.
+            // Refuse more elements than a grid may have before counting those of a disc.
             options.footprint.elements(options.spacing)?;
             let [spacing, wider] = disc_of_elements(radius, elements);
             options.spacing = [spacing; 2];
@@ -332,29 +342,32 @@ fn estimate(
     };
     bars::resolve(&resolution, solve, |estimate: PressEstimate| {
         if let Some(body) = surface.as_axisymmetric() {
-            // Refuses a contact beyond the end of the body, as beyond the equator of a sphere.
+            // Refuse a contact beyond the end of the body, as beyond the equator of a sphere.
             contact_radius(body, estimate.finest.indentation_depth)?;
         }
         Ok(estimate)
     })
 }
 
-/// The radius of a body that is a flat punch.
+/// The radius of a flat punch, \[m]; `None` for any other body.
 fn radius_of_punch(body: &dyn Axisymmetric) -> Option<f64> {
     let radius = body.max_radius();
     (radius.is_finite() && body.profile_height(radius) <= 0.0).then_some(radius)
 }
 
-/// Spacing of about `elements` elements along a disc, and the radius of a disc that is wider by [`PUNCH_WIDENING`], \[m].
+/// [spacing, radius of a disc] for a flat punch of a `radius`, with about `elements` elements along it; the disc is wider than the
+/// punch by [`PUNCH_WIDENING`] elements; lengths in \[m].
 ///
-/// The elements with their centres in the wider disc have exactly its area. On other spacings their area differs by about the root
-/// of their number.
+/// The spacing is such that the elements with their centres in the disc have exactly its area. On other spacings the two areas differ
+/// by about the root of the number of elements.
 fn disc_of_elements(radius: f64, elements: usize) -> [f64; 2] {
+    // Number of elements whose centres lie within a radius, given by its square in elements (Gauss circle problem).
     let within = |square: f64| {
         let row = |place: u32| (square - f64::from(place).powi(2)).sqrt().floor();
         let rows = (1_u32..).map(row).take_while(|half| *half >= 0.0);
         2.0 * row(0) + 1.0 + rows.map(|half| 2.0 * (2.0 * half + 1.0)).sum::<f64>()
     };
+    // The first radius whose disc has the area of its elements; centres lie at integer squares only.
     let mut square = (0.5 * elements as f64).powi(2).ceil();
     loop {
         let squared_radius = within(square) * FRAC_1_PI;
@@ -368,8 +381,10 @@ fn disc_of_elements(radius: f64, elements: usize) -> [f64; 2] {
 }
 
 impl PressSolution {
-    /// A residual of the size of the tolerance changes the depth by as much, and the force by as many times that part as
-    /// there are elements along the contact.
+    /// The solution with the errors that refinement does not reveal, for [`bars::resolve`].
+    ///
+    /// A residual of the relative size ε of the contact tolerance changes the depth by the fraction ε, and the force at a given
+    /// depth by the fraction n ε on n elements along the contact.
     fn on_grid(
         self,
         control: Control,
@@ -381,8 +396,8 @@ impl PressSolution {
             Control::IndentationDepth(_) => elements as f64 * self.normal_force,
         };
         let n_contact = self.n_contact as f64;
-        // A singular outline is that of the elements: it is too narrow by the widening of a punch, and their number scatters. The
-        // perimeter correction of the area is for pressures that end like a root.
+        // Where the pressure is singular, the outline is that of the elements: it is too narrow by the widening of a punch, and their
+        // number scatters. The perimeter correction of the area holds for pressures that vanish like a root only.
         let excess = n_contact * options.spacing.iter().product::<f64>() - self.contact_area;
         let edge_error = self.edge_singularity
             * (PUNCH_WIDENING * (PI / n_contact).sqrt()

@@ -3,6 +3,9 @@
 //! ```text
 //! p(q, t) = p̄ δ_q0 − |q| ĥ(q) σ(q_x, t)/((1 − ν) M),      force/area = Σ_q |q| |ĥ|² Re(i q_x σ u*)/((1 − ν) M)
 //! ```
+//!
+//! for the mean pressure p̄ and a surface of the heights h = Σ ĥ(q) e^(iq·r), which is shifted by the motion: u is the displacement
+//! of a unit wave and σ its stress (`stresses.rs`). M is the compliance ratio of a layer, 1 on a half space.
 
 use std::f64::consts::PI;
 
@@ -20,26 +23,26 @@ pub(super) struct FullContactSurface<'a> {
     pub(super) grid: &'a Grid,
     /// Heights at the centres of the elements, \[m].
     pub(super) heights: &'a [f64],
-    /// Waves of the grid.
+    /// Fourier transforms on the grid, with the stiffness |q|/M of the base for each wave.
     pub(super) waves: FourierMultiplier,
     /// Factor 1 − ν, for the Poisson ratio ν.
     pub(super) factor: f64,
     /// Mean pressure, \[Pa].
     pub(super) mean_pressure: f64,
-    /// Largest numbers of waves in the period along both axes.
+    /// Largest numbers of waves in the period along x and y.
     pub(super) largest_numbers: [usize; 2],
 }
 
 /// Forces and work of a cycle in full contact.
 pub(super) struct FullContact {
-    /// Force along −x over the area at the end of every step, \[Pa].
+    /// Tangential force along −x over the area of the period, at the end of every step, \[Pa].
     pub(super) stresses: Vec<f64>,
-    /// Work over the area, \[J/m²].
+    /// Dissipated work of the cycle over the area of the period, \[J/m²].
     pub(super) work: f64,
 }
 
 impl FullContactSurface<'_> {
-    /// Lower bound of the ratio of the largest value at the centres of the elements to the maximum of a band-limited field.
+    /// Lower bound of the largest value at the centres of the elements over the maximum of a band-limited field, without unit.
     ///
     /// It is cos(πn/N) for n waves along N elements (Ehlich & Zeller 1964), and once more along x, because steps are as long as an
     /// element.
@@ -49,8 +52,9 @@ impl FullContactSurface<'_> {
         x * x * y
     }
 
-    /// True if the pressure is positive everywhere, also between elements and between steps.
+    /// True if the pressure of the motion is positive everywhere, also between elements and between steps.
     pub(super) fn is_full(&mut self, motion: &WaveMotion) -> bool {
+        // The deviation of the pressure from its mean must stay below the mean, at all ends of steps.
         let rows = self.grid.shape()[0];
         let allowed = self.sampling_ratio() * self.mean_pressure;
         let mut field = vec![0.0; self.heights.len()];
@@ -64,7 +68,8 @@ impl FullContactSurface<'_> {
         })
     }
 
-    /// Forces and work of the cycle, from the waves of the motion.
+    /// Forces and work of the cycle, from the waves of the motion; `wave_numbers` are q_x by the number of waves in the period,
+    /// \[rad/m].
     pub(super) fn cycle(mut self, motion: &WaveMotion, wave_numbers: &[f64]) -> FullContact {
         let ends = &motion.states[1..];
         let n = self.grid.n_elements() as f64;
@@ -81,6 +86,7 @@ impl FullContactSurface<'_> {
                 dot(&field, self.heights) / n
             })
             .collect();
+        // Sum over the waves along x.
         let stress = |state: &super::stresses::WaveStates| {
             let pairs = state.stress.iter().zip(&state.displacement);
             let waves = pairs.zip(wave_numbers.iter().zip(&weights));
@@ -95,8 +101,8 @@ impl FullContactSurface<'_> {
     }
 }
 
-/// The value for a row of a transform, from values by the number of waves in the period; conjugate for negative q_x, and 0 for waves
-/// beyond the values.
+/// Value for a row of a transform of `rows` rows, from `values` by the number of waves along x in the period. It is conjugate for
+/// negative q_x, and 0 for more waves than there are values.
 pub(super) fn value_of_row(values: &[Complex<f64>], row: usize, rows: usize) -> Complex<f64> {
     let number = row.min(rows - row);
     let value = values.get(number).copied().unwrap_or(ZERO);

@@ -18,15 +18,15 @@ use crate::stationary::periodic::refinement::MIN_CONTACT_ELEMENTS;
 use crate::{BemError, Elastomer};
 use moving_surface::MovingSurface;
 
-/// Elements per shortest wave for the first error estimate, whose coarsest grid has three eighths of them: the fewest
-/// that resolve the wave there. Twice as many make the bar 0.63 times as wide and take 8 times as long.
+/// Number of elements per shortest wave for the first error estimate. Its coarsest grid has three eighths as many, so that eight
+/// are the fewest that resolve the wave there. Twice as many make the bar 0.63 times as wide and take 8 times as long.
 const ELEMENTS_PER_SHORTEST_WAVE: usize = 8;
-/// Relative tolerance of the contact of a step. Times the slope it is a part of the error of the friction of a cycle.
+/// Relative tolerance of the contact of a step. Times the rms slope it is a part of the error of the friction of a cycle.
 /// Chosen; from 1e-9 to 1e-7 no answer changes by more than 1e-7 of its bar.
 const CONTACT_TOLERANCE: f64 = 1e-8;
-/// Memory per element without its history variables, \[bytes].
+/// Upper bound of the memory per element without its history variables, \[bytes].
 const BYTES_PER_ELEMENT: f64 = 170.0;
-/// Memory per wave along x and step, \[bytes].
+/// Upper bound of the memory per wave along x and step, for its three complex states, \[bytes].
 const BYTES_PER_WAVE: f64 = 80.0;
 
 /// Moves a sum of waves over a material at rest, along a path through points, or reciprocating up to the limit cycle.
@@ -113,7 +113,7 @@ pub fn move_along_memory(
     let shape = problem.shape(elements);
     let n_steps = problem.n_steps(elements, shape)?;
     let n_fields = n_history_variables(&problem.spectra.creep);
-    // One more is that of the grid before.
+    // One more state is that of the coarser grid.
     let copies = if problem.limit_cycle.is_some() {
         MAX_STORED_STATES + 1
     } else {
@@ -131,7 +131,8 @@ pub fn elements_of_motion(surface: &PeriodicSurface) -> usize {
     x.max(y)
 }
 
-/// Elements along both edges for the first error estimate, in proportion to the waves.
+/// Numbers of elements along both edges for the first error estimate, in proportion to the largest numbers of waves; 2 along an edge
+/// without waves.
 fn edges(surface: &PeriodicSurface) -> [usize; 2] {
     surface.largest_numbers().map(|number| match number {
         0 => 2,
@@ -139,8 +140,8 @@ fn edges(surface: &PeriodicSurface) -> [usize; 2] {
     })
 }
 
-/// Errors besides that of the elements: the distance to the limit cycle and the contact tolerance; the whole value if too few
-/// elements are in contact.
+/// Errors of the quantities of the `view` that finer elements do not reduce: the remaining change to the limit cycle, and the contact
+/// tolerance. If too few elements are in contact, the whole value is added as discretisation error.
 fn other_errors(view: &MotionView, record: &MotionRecord) -> Vec<ErrorParts> {
     let pressed = record.steps.iter().filter(|step| step.normal_force > 0.0);
     let fewest = pressed

@@ -26,10 +26,10 @@ use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
 use crate::stationary::periodic::nested::interpolated;
 use crate::{BemError, ContactOptions, Elastomer, Grid};
 
-/// Largest number of elements times steps of a cycle or path: a limit of the time, a few minutes.
+/// Largest number of elements times steps of a cycle or path: a limit of the time, to a few minutes.
 const MAX_ELEMENT_STEPS: f64 = 6e7;
 
-/// A motion of a surface over a material.
+/// The problem of a moving periodic surface, which can be solved on any number of elements.
 pub(super) struct MovingSurface<'a> {
     /// Surface that moves.
     surface: &'a PeriodicSurface,
@@ -43,7 +43,7 @@ pub(super) struct MovingSurface<'a> {
     wave_numbers: Vec<f64>,
     /// Search for the limit cycle; `None` for a motion through points.
     pub(super) limit_cycle: Option<LimitCycle>,
-    /// Shape of the last grid with a limit cycle, and the history variables at its end.
+    /// Shape of the last grid on which a limit cycle was found, with the history variables at its end, `[field][row][column]`.
     last_cycle: RefCell<Option<([usize; 2], Vec<f64>)>>,
 }
 
@@ -55,11 +55,11 @@ struct MotionOnGrid {
     heights: Vec<f64>,
     /// Time steps of the motion.
     steps: Vec<MovingStep>,
-    /// Waves over all steps.
+    /// Displacements and stresses of all waves along x over all steps.
     waves: WaveMotion,
 }
 
-/// The state at the end of a step.
+/// Forces, depth and contact at the end of a step of the motion.
 #[derive(Clone, Copy)]
 struct StepEnd {
     /// Tangential force, \[N].
@@ -73,13 +73,15 @@ struct StepEnd {
 }
 
 impl<'a> MovingSurface<'a> {
-    /// Prepares a motion for all grids: spectra of the material, wave numbers along x, and the search for the limit cycle. Refuses a depth.
+    /// Prepares a motion for all grids: spectra of the material, wave numbers along x, and the search for the limit cycle. Refuses
+    /// a depth.
     pub(super) fn new(
         surface: &'a PeriodicSurface,
         elastomer: &'a dyn Elastomer,
         load: &'a MovingLoad,
         accuracy: Accuracy,
     ) -> Result<Self, BemError> {
+        // Spectra of the material; refuse what has no limit cycle, or is not supported.
         let (relaxation, creep) = {
             let material = elastomer.material();
             check_spectra(&material)?;
@@ -90,6 +92,7 @@ impl<'a> MovingSurface<'a> {
             return Err(BemError::DepthFromRest);
         }
         elastomer.base().check_flow(creep.fluidity())?;
+        // Wave numbers of all waves along x.
         let unit = TAU / surface.period()[0];
         let numbers = 0..=surface.largest_numbers()[0];
         let problem = Self {
@@ -107,7 +110,8 @@ impl<'a> MovingSurface<'a> {
         Ok(problem)
     }
 
-    /// Fails for a number of elements whose coarsest grid, with three eighths of them, does not resolve all waves.
+    /// Fails with [`BemError::PeriodTooCoarse`] if the coarsest grid of an error estimate, with three eighths of the elements, does not
+    /// resolve all waves.
     fn check_coarsest(&self, elements: usize) -> Result<(), BemError> {
         let resolves_all_waves = |elements: usize| {
             let coarsest = (3 * elements).div_ceil(8);
@@ -138,13 +142,14 @@ impl<'a> MovingSurface<'a> {
         [0, 1].map(|axis| self.surface.period()[axis] / shape[axis] as f64)
     }
 
-    /// Number of steps above which a grid is refused: elements times steps are limited.
+    /// Largest number of steps on a grid of a shape: [`MAX_STEPS`], or fewer so that elements times steps are at most
+    /// [`MAX_ELEMENT_STEPS`].
     fn max_steps(shape: [usize; 2]) -> f64 {
         let n_elements = shape.map(|n| n as f64).iter().product::<f64>();
         MAX_STEPS.min(MAX_ELEMENT_STEPS / n_elements)
     }
 
-    /// Number of steps on a grid; fails for too many.
+    /// Number of steps on a grid with a number of elements along its longer edge and their `shape`; fails for too many.
     pub(super) fn n_steps(&self, elements: usize, shape: [usize; 2]) -> Result<f64, BemError> {
         let [spacing, _] = self.spacing(shape);
         Ok(self
@@ -152,7 +157,7 @@ impl<'a> MovingSurface<'a> {
             .n_steps(elements, spacing, Self::max_steps(shape))?)
     }
 
-    /// The largest number of elements in the sequence of doublings whose elements times steps are not too many.
+    /// The largest number of elements along the longer edge, among doublings of `first`, whose steps are not too many.
     pub(super) fn largest(&self, first: usize) -> usize {
         let mut elements = first;
         while self.n_steps(2 * elements, self.shape(2 * elements)).is_ok() {
@@ -161,11 +166,12 @@ impl<'a> MovingSurface<'a> {
         elements
     }
 
+    /// Area of the period, \[m²].
     fn area(&self) -> f64 {
         self.surface.period().iter().product()
     }
 
-    /// Heights, steps and moving waves on a grid with a number of elements along x.
+    /// Heights, steps and waves of the motion on a grid with a number of elements along its longer edge.
     fn on_grid(&self, elements: usize) -> Result<MotionOnGrid, BemError> {
         let shape = self.shape(elements);
         let spacing = self.spacing(shape);
@@ -180,7 +186,7 @@ impl<'a> MovingSurface<'a> {
         })
     }
 
-    /// True for a cycle in full contact, tested on a grid fine enough to exclude gaps between its elements.
+    /// True for a cycle in full contact, tested on twice the elements of the first estimate, to exclude gaps between elements.
     pub(super) fn is_full(&self) -> bool {
         let elements = 2 * elements_of_motion(self.surface);
         let fine = || self.on_grid(elements).ok();
@@ -188,7 +194,8 @@ impl<'a> MovingSurface<'a> {
         found.is_some_and(|fine| self.full_contact_on(&fine).is_full(&fine.waves))
     }
 
-    /// The record of the motion on a grid, in closed form or by a march.
+    /// The record of the motion on a grid with a number of elements along its longer edge: in closed form if the contact `is_full`,
+    /// else by a march.
     pub(super) fn solve_on_grid(
         &self,
         elements: usize,
@@ -221,7 +228,7 @@ impl<'a> MovingSurface<'a> {
         }
     }
 
-    /// A cycle in which the contact is full all the time.
+    /// Record of a cycle in which the contact is full all the time, in closed form.
     fn closed(&self, on_grid: &MotionOnGrid) -> MotionRecord {
         let closed = self.full_contact_on(on_grid);
         let compliance = closed.factor * self.spectra.creep.equilibrium_compliance();
@@ -243,7 +250,7 @@ impl<'a> MovingSurface<'a> {
         record
     }
 
-    /// Follows the motion on a grid, from the first touch.
+    /// Record of the motion on a grid by a march from the first touch, for a cycle in its limit cycle.
     fn march(
         &self,
         on_grid: &MotionOnGrid,
@@ -274,8 +281,8 @@ impl<'a> MovingSurface<'a> {
         Ok(record)
     }
 
-    /// History variables before the first cycle on a grid: those interpolated from the limit cycle of the previous grid, so that a
-    /// slow material has nearly reached its limit cycle; on the first grid those of the first touch.
+    /// History variables before the first cycle on a grid of a `shape`: those of the first touch on the first grid, later those of the
+    /// limit cycle on the previous grid, interpolated. A slow material has then nearly reached its limit cycle.
     fn before_cycles(&self, touched: &[f64], shape: [usize; 2]) -> Vec<f64> {
         let last_cycle = self.last_cycle.borrow();
         let Some((from, history)) = &*last_cycle else {
@@ -287,7 +294,7 @@ impl<'a> MovingSurface<'a> {
             .collect()
     }
 
-    /// Follows all steps of the path, or of one cycle.
+    /// Solves all steps of the path, or of one cycle, and returns the state at the end of each; `report` receives the fraction done.
     fn steps(
         &self,
         march: &mut PeriodicMarch<'_>,
@@ -302,7 +309,7 @@ impl<'a> MovingSurface<'a> {
         pairs.map(end).collect()
     }
 
-    /// Takes one step of the march and returns the forces and the depth at its end.
+    /// Solves one step of a `duration` \[s] and returns the forces and the depth at its end, where the waves are in `state`.
     fn step(
         &self,
         march: &mut PeriodicMarch<'_>,
@@ -337,8 +344,9 @@ impl<'a> MovingSurface<'a> {
         })
     }
 
-    /// Means over the steps, from the states before the first step and after each.
+    /// Record of a motion with the mean of each step, from the states `ends` before the first step and after each step.
     fn record(&self, ends: &[StepEnd], steps: &[MovingStep]) -> MotionRecord {
+        // Means over a step belong to its middle.
         let mut record = MotionRecord::default();
         let mut begin = self.load.stages()[0].start.position;
         for (step, ends) in steps.iter().zip(ends.windows(2)) {

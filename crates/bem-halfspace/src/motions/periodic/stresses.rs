@@ -4,9 +4,10 @@
 //! u(t) = e^(−i q x(t)),      σ(t) = ∫ G(t − s) du(s),      work = ∮ Re(σ du*/dt) dt = Σ_n T |c_n|² n ω G''(n ω)
 //! ```
 //!
-//! for the wave number q along x and u = Σ c_n e^(i n ω t), by the Jacobi–Anger expansion a sum of Bessel functions if x is a
-//! cosine. Paths that are straight between points are integrated in closed form, branch by branch. Steps with constant pressure
-//! turn σ into a displacement other than u; a surface with this displacement has exactly the pressure σ in full contact.
+//! for the wave number q along x, the position x(t) of the surface and the relaxation modulus G. A cycle of the duration T has the
+//! frequency ω = 2π/T and u = Σ c_n e^(i n ω t), with Bessel functions c_n if x is a cosine (Jacobi–Anger expansion). Paths that
+//! are straight between points are integrated in closed form, branch by branch. Steps with constant pressure turn σ into a
+//! displacement other than u; a surface with this displacement has exactly the pressure σ in full contact.
 
 use std::f64::consts::TAU;
 
@@ -27,14 +28,14 @@ const SAMPLES_PER_RADIAN: f64 = 4.0;
 /// faster than exponentially. Chosen; from 10 to 1000 no answer changes by more than 1e-12 of its bar.
 const ADDITIONAL_SAMPLES: f64 = 96.0;
 
-/// Displacement and stress of all waves along x at the end of a step, by their number in the period.
+/// Displacement and stress of unit waves at the end of a step, one entry for each number of waves along x in the period.
 #[derive(Debug, Clone)]
 pub(super) struct WaveStates {
-    /// Displacement u of a unit wave.
+    /// Displacement u = e^(−iqx) of a unit wave, without unit.
     pub(super) displacement: Vec<Complex<f64>>,
     /// Stress σ of a unit wave, \[Pa].
     pub(super) stress: Vec<Complex<f64>>,
-    /// Displacement under stresses that are constant in each step.
+    /// Displacement that the stresses σ cause if each is held over its step: it replaces u in a march with held pressures.
     pub(super) held: Vec<Complex<f64>>,
 }
 
@@ -43,7 +44,7 @@ pub(super) struct WaveStates {
 pub(super) struct WaveMotion {
     /// States before the first step, and at the end of each.
     pub(super) states: Vec<WaveStates>,
-    /// Work on unit waves over the whole motion, by their number, \[Pa].
+    /// Work on unit waves over the whole motion, one entry for each number of waves along x, \[Pa].
     pub(super) work: Vec<f64>,
 }
 
@@ -74,8 +75,8 @@ struct Leg {
 }
 
 impl WaveMotion {
-    /// The waves with some wave numbers along x \[rad/m]. A cycle is the limit cycle; before a path the surface has always been at
-    /// its beginning.
+    /// States of the waves with the given wave numbers along x \[rad/m] over all steps. A cycle is the limit cycle; before a path the
+    /// surface has always been at its beginning.
     pub(super) fn new(
         load: &MovingLoad,
         steps: &[MovingStep],
@@ -114,7 +115,7 @@ impl WaveMotion {
         Ok(motion)
     }
 
-    /// Computes the displacements under stresses that are constant in each step.
+    /// Computes [`WaveStates::held`] of all states: marches the creep law with stresses that are held over each step.
     fn update_held(
         &mut self,
         load: &MovingLoad,
@@ -134,6 +135,7 @@ impl WaveMotion {
             }
             let period = load.duration();
             for (element, field) in elements.iter().zip(memory.chunks_exact_mut(n_values)) {
+                // From one cycle at rest to the limit cycle: sum of the geometric series with the ratio e^(−T/λ).
                 let left = -(-period / element.retardation_time).exp_m1();
                 field.iter_mut().for_each(|value| *value /= left);
             }
@@ -171,7 +173,7 @@ impl WaveMotion {
     }
 }
 
-/// Real and imaginary part of each value.
+/// Real and imaginary part of each value, one after the other: twice as many numbers.
 fn parts(values: &[Complex<f64>]) -> Vec<f64> {
     values
         .iter()
@@ -179,7 +181,7 @@ fn parts(values: &[Complex<f64>]) -> Vec<f64> {
         .collect()
 }
 
-/// The steps of a motion, with positions relative to its beginning.
+/// The steps of a motion as legs, with positions relative to its beginning and the mean velocity of their stage.
 fn legs(load: &MovingLoad, steps: &[MovingStep]) -> Vec<Leg> {
     let start = load.stages()[0].start.position;
     let mut before = 0.0;
@@ -196,7 +198,8 @@ fn legs(load: &MovingLoad, steps: &[MovingStep]) -> Vec<Leg> {
     steps.iter().map(leg).collect()
 }
 
-/// Response of a wave along a piecewise linear path, with a `period` \[s] for a limit cycle, and `None` for a path from rest.
+/// Response of a wave of the wave number `q` \[rad/m] along a piecewise linear path, in closed form: spring, dashpot and each
+/// relaxation branch. `period` \[s] is that of a limit cycle; `None` for a path from rest.
 fn piecewise_linear_response(
     q: f64,
     legs: &[Leg],
@@ -217,6 +220,7 @@ fn piecewise_linear_response(
         stresses.push(modulus * at(leg.ends[1]));
         work += relaxation.viscosity() * frequency * frequency * leg.duration;
     }
+    // Add the branches; in a limit cycle each begins with the stress in which it ends.
     for branch in relaxation.branches() {
         let mut start = ZERO;
         if let Some(period) = period {
@@ -233,7 +237,10 @@ fn piecewise_linear_response(
     WaveResponse { stresses, work }
 }
 
-/// Stress of a branch at the end of a path, and the work on it; `add` gets the index of each step and the stress at its end.
+/// Stress of a relaxation branch at the end of a path, and the work on it, both \[Pa] for a unit wave of the wave number `q` \[rad/m].
+///
+/// The branch obeys σ' + σ/τ = G u'. It begins with the stress `start`; `add(index, stress)` receives the stress at the end of each
+/// step.
 fn branch_stress(
     q: f64,
     legs: &[Leg],
@@ -243,6 +250,7 @@ fn branch_stress(
 ) -> (Complex<f64>, f64) {
     let (mut stress, mut work) = (start, 0.0);
     for (index, leg) in legs.iter().enumerate() {
+        // Displacements of the wave at both ends, and the exponent of its change in time.
         let [from, to] = leg.ends.map(|x| Complex::from_polar(1.0, -q * x));
         let turning = Complex::new(0.0, -q * leg.velocity);
         let rate = turning + branch.relaxation_time.recip();
@@ -266,7 +274,8 @@ fn exp_m1(z: Complex<f64>) -> Complex<f64> {
     )
 }
 
-/// Responses of waves under a surface whose position is a cosine of time, from their harmonics.
+/// Responses of waves with the given wave numbers \[rad/m] in the limit cycle of a surface whose position is a cosine of time, from
+/// their harmonics by Fourier transforms of one cycle.
 fn harmonic_responses(
     load: &MovingLoad,
     n_steps: usize,

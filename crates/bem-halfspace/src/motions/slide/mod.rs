@@ -52,7 +52,7 @@ pub fn slide_on_grid(
     )
 }
 
-/// Solves all steps of a march, and reports the fraction that is done.
+/// Solves all steps of a march and collects its rows with contact; `report` receives the fraction that is done.
 fn follow_march(
     mut march: March<'_>,
     load: &SlidingLoad,

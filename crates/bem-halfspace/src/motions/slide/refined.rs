@@ -30,8 +30,8 @@ const MAX_DRIFT: f64 = 0.05;
 /// limit of time and memory, since a march ends when the friction has settled. From 1.2 to 120 no answer changes by
 /// more than 1e-13 of its bar.
 const MAX_DISTANCE_OVER_MEMORY: f64 = 12.0;
-/// Sliding distance in contact lengths that is still made a whole number of elements. Over a shorter one, steps are shorter than
-/// elements.
+/// Smallest sliding distance, in contact lengths, to which the elements are fitted so that it is a whole number of them. Over a shorter
+/// distance the elements keep their length and the steps are shorter. Chosen: the fit changes their length by a factor of 2/3 to 3/2.
 const MIN_DISTANCE_FOR_WHOLE_ELEMENTS: f64 = 2.0 / 3.0;
 /// Longest march to the stationary state, in contact lengths: a limit of the time, beyond which the march is refused.
 const MAX_CONTACT_LENGTHS: f64 = 500.0;
@@ -99,9 +99,9 @@ pub fn slide_memory(
     Ok(extent.memory(surface, &problem.options(elements)))
 }
 
-/// End of one march.
+/// Result of one march.
 struct MarchEnd {
-    /// Transient up to this end.
+    /// Transient up to the end of the march.
     transient: Transient,
     /// Friction coefficient at the end, or in the stationary state.
     friction: f64,
@@ -109,7 +109,7 @@ struct MarchEnd {
     truncation: Option<f64>,
 }
 
-/// A sliding simulation that can be solved on any number of elements.
+/// The problem of a body that slides from first touch, which can be solved on any number of elements.
 struct PlannedSlide<'a> {
     /// Body that slides.
     surface: &'a dyn Surface,
@@ -168,7 +168,7 @@ impl PlannedDistance {
 }
 
 impl<'a> PlannedSlide<'a> {
-    /// Plans grid and distance of a slide from first touch; refuses a track, on which the body meets its own trace.
+    /// Plans grid and distance of a slide from first touch. Fails for a load on a track, on which the body meets its own trace.
     fn new(
         surface: &'a dyn Surface,
         elastomer: &'a dyn Elastomer,
@@ -237,8 +237,8 @@ impl<'a> PlannedSlide<'a> {
         estimate.contact_box_error += ends[0].max(ends[1]);
     }
 
-    /// Square elements, `elements` of them along the contact. At a given depth the body reaches the boundary of its footprint, which
-    /// is widened.
+    /// Grid of square elements, `elements` of them along the contact. At a given depth the body reaches the boundary of its footprint,
+    /// which is therefore widened.
     fn options(&self, elements: usize) -> GridOptions {
         let spacing = self.planned.length / elements as f64;
         let footprint = match self.load.control() {
@@ -260,6 +260,7 @@ impl<'a> PlannedSlide<'a> {
             let step = self.planned.step / elements as f64;
             March::sliding_in_steps(self.surface, self.elastomer, load, &options, step)
         };
+        // Under a force without a distance to the stationary state, otherwise over the distance.
         let end = match (control, distance) {
             (Control::NormalForce(_), None) => {
                 self.check_memory_length()?;
@@ -277,6 +278,7 @@ impl<'a> PlannedSlide<'a> {
             contact_area: last.contact_area,
             peak_pressure: transient.pressure.largest(),
         };
+        // A residual disturbs the friction, except on an elastic material, whose friction is exactly 0.
         let iteration = || iteration_error(self.surface, &transient.pressure);
         Ok(OnGrid {
             quantities,
@@ -295,7 +297,7 @@ impl<'a> PlannedSlide<'a> {
         })
     }
 
-    /// Refuses a material whose memory of the first touch outlasts [`MAX_CONTACT_LENGTHS`].
+    /// Fails with [`BemError::MemoryTooLong`] if the march to the stationary state is longer than [`MAX_CONTACT_LENGTHS`].
     fn check_memory_length(&self) -> Result<(), BemError> {
         let contact_length = self.plan.length();
         if self.planned.distance <= MAX_CONTACT_LENGTHS * contact_length {
@@ -308,7 +310,8 @@ impl<'a> PlannedSlide<'a> {
         })
     }
 
-    /// Marches to the stationary state.
+    /// Marches to the stationary state, and estimates the error by the finite distance. `report` receives the fraction of the longest
+    /// distance.
     fn march_to_stationary(
         &self,
         march: March<'_>,
@@ -360,7 +363,8 @@ fn slide_over_distance(
     })
 }
 
-/// Upper bound of the remaining change of a quantity to its stationary value: twice its change over the second half of a march.
+/// Upper bound of the remaining change of a quantity, `of(row)`, to its stationary value: twice its change over the second half of a
+/// march.
 ///
 /// The missing part of the track, beyond its beginning, acts in inverse proportion to the distance, so that the remaining change is
 /// as large as the last one. On a material that flows the front becomes stationary more slowly, hence the factor 2.
@@ -369,8 +373,8 @@ fn remaining_change(rows: &[SlideRow], of: &dyn Fn(&SlideRow) -> f64) -> f64 {
     2.0 * (of(last) - of(half)).abs()
 }
 
-/// Memory length v λ_max of the largest retardation time, \[m]; on a layer that flows at least its thickness, over which a load is
-/// felt ahead of it. 0 on an elastic material and on a half space with flow alone.
+/// Memory length v λ_max of the largest retardation time, \[m]. On a layer that flows it is at least the thickness, the distance over
+/// which a load displaces the surface. It is 0 on an elastic material and on a half space with flow alone.
 fn memory_length(elastomer: &dyn Elastomer, load: &SlidingLoad) -> f64 {
     let creep = elastomer.material().creep();
     let memory = load.velocity() * largest_retardation_time(&creep);
@@ -382,7 +386,7 @@ fn memory_length(elastomer: &dyn Elastomer, load: &SlidingLoad) -> f64 {
     }
 }
 
-/// Error of the friction coefficient by a residual of the contact of the size of its tolerance.
+/// Absolute error of the friction coefficient by a residual of the contact of the size of its tolerance.
 ///
 /// A residual ε that alternates from element to element changes the pressure relatively by ε times the number of elements along the
 /// contact, and the friction by the same fraction of the mean modulus of the slope.

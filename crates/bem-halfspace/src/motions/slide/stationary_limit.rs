@@ -16,9 +16,9 @@ use numerics::{between_zero_and_one, positive};
 use crate::motions::slide::{March, SlideRow, Transient};
 use crate::{BemError, Elastomer, GridOptions};
 
-/// Smallest number of steps that can be extrapolated: S, S/2 and S/4 must be different steps.
+/// Smallest number of steps that can be extrapolated to infinite distance: S, S/2 and S/4 must be different steps.
 const MIN_STEPS: usize = 4;
-/// Smallest number of steps over which a limit can change, because it looks back to a half and a quarter of the distance.
+/// Smallest number of steps after which the change of extrapolated values is meaningful: half of them must allow an extrapolation.
 const MIN_STEPS_OF_CHANGE: usize = 2 * MIN_STEPS;
 
 /// The limit of the friction coefficient for an infinite sliding distance.
@@ -82,7 +82,7 @@ impl Transient {
     }
 }
 
-/// Spread of the limits that are extrapolated from each step of the last two fifths of the rows.
+/// Range, largest minus smallest, of the friction coefficients that are extrapolated from each row of the last two fifths.
 fn spread_of_limits(rows: &[SlideRow]) -> f64 {
     let [mut lowest, mut highest] = [f64::INFINITY, f64::NEG_INFINITY];
     let first = (3 * rows.len() / 5).max(MIN_STEPS);
@@ -94,8 +94,8 @@ fn spread_of_limits(rows: &[SlideRow]) -> f64 {
     highest - lowest
 }
 
-/// Friction coefficient for an infinite distance: the value at 1/S = 0 of the polynomial in 1/S through the last row and those at a half
-/// and a quarter of their number (Lagrange).
+/// Friction coefficient for an infinite distance: the value at 1/S = 0 of the polynomial in 1/S through the last row and those at a
+/// half and a quarter of their number (Lagrange).
 fn extrapolated_limit(rows: &[SlideRow]) -> f64 {
     let n = rows.len();
     let nodes = [n, n / 2, n / 4].map(|count| &rows[count - 1]);
@@ -196,8 +196,8 @@ pub(super) fn slide_until_stationary(
     })
 }
 
-/// √e − 1, lower bound of the change of a quantity over its second half of a distance, in units of the remaining
-/// change: the quantity falls at least e-fold over the distance, so at least √e-fold over the half.
+/// √e − 1: lower bound of the change of a quantity over the second half of a distance, over the change that remains at its end.
+/// Derived: the deviation from the limit falls at least e-fold over the distance, so at least √e-fold over the half.
 const CHANGE_OVER_REMAINDER: f64 = 0.648_721_270_700_128_1;
 
 /// Extrapolated friction coefficient after each step, as [sliding distance \[m], limit].
@@ -205,7 +205,8 @@ const CHANGE_OVER_REMAINDER: f64 = 0.648_721_270_700_128_1;
 struct ExtrapolatedFriction(Vec<[f64; 2]>);
 
 impl ExtrapolatedFriction {
-    /// Appends the limit that `rows` extrapolate to; on a half space that does not flow, the last friction coefficient.
+    /// Appends the value of the last row: its friction coefficient, or on a half space that `flows` that extrapolated to infinite
+    /// distance.
     fn push(&mut self, rows: &[SlideRow], flows: bool) {
         let Some(last) = rows.last() else {
             return;
@@ -218,13 +219,13 @@ impl ExtrapolatedFriction {
         self.0.push([last.sliding_distance, limit]);
     }
 
-    /// The last limit; 0 without any.
+    /// The last value; 0 without any.
     fn last(&self) -> f64 {
         self.0.last().map_or(0.0, |[_, limit]| *limit)
     }
 
-    /// Largest change over the last `over_distance`, relative to the last value; 0 if it does not exceed `noise`, and 1 if the
-    /// sliding distance is shorter.
+    /// Largest change over the last `over_distance` \[m], relative to the last value. It is 0 if the absolute change does not exceed
+    /// `noise`, and 1 if the sliding distance is shorter.
     fn largest_change(&self, over_distance: f64, noise: f64) -> f64 {
         let Some(&[distance, limit]) = self.0.last() else {
             return 1.0;

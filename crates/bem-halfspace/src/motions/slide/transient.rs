@@ -27,7 +27,7 @@ pub struct SlideRow {
     pub friction_coefficient_end_of_step: f64,
     /// [Area](crate::PressureField::contact_area) of the contact, \[m²].
     pub contact_area: f64,
-    /// What the elements leave unknown of the contact area, because its outline lies anywhere within those at the edge, \[m²].
+    /// Discretisation error of the contact area, because its outline lies anywhere within the outermost elements, \[m²].
     pub(crate) contact_area_uncertainty: f64,
     /// Rear and front of the contact relative to the lowest point, \[m].
     pub contact_x: [f64; 2],
@@ -87,6 +87,7 @@ impl Transient {
         rows: Vec<SlideRow>,
     ) -> Result<Self, BemError> {
         let pressure = march.pressure()?;
+        // Refuse a last contact that the elements do not resolve.
         let [length, width] = pressure.grid.shape();
         check_contact_elements(length.min(width))?;
         if let Some(force) = load.normal_force() {
