@@ -2,15 +2,16 @@
 //!
 //! With the feature `dense` faer factorises, else nalgebra. Both work on one thread, so that results do not depend on their number.
 
-/// Largest number of unknowns of a direct solve.
-///
-/// With 4000 unknowns no periodic contact of docs/dependencies.md, "Factorisation or iteration", is solved faster.
+/// Largest number of unknowns of a direct solve. Chosen: with 4000 no periodic contact of docs/dependencies.md, "Factorisation or
+/// iteration", is solved faster.
 pub(crate) const MAX_UNKNOWNS: usize = 2048;
 /// Memory of the matrix of the largest direct solve, \[bytes].
 #[cfg(feature = "rough")]
 pub(crate) const MAX_MATRIX_BYTES: usize = size_of::<f64>() * MAX_UNKNOWNS * MAX_UNKNOWNS;
 
-/// Solves A x = b for each right side b. `entry(row, column)` gives the elements of A; `None` if A is singular or not finite.
+/// Solves A x = b for each right side b, all of the same length n; returns the solutions in their order.
+///
+/// `entry(row, column)` gives the elements of the n × n matrix A. `None` if A is singular or not finite.
 #[cfg(feature = "dense")]
 pub(crate) fn solve(
     entry: impl FnMut(usize, usize) -> f64,
@@ -57,7 +58,9 @@ pub(crate) fn solve(
     Some(right_sides)
 }
 
-/// Solves A x = b for each right side b. `entry(row, column)` gives the elements of A; `None` if A is singular or not finite.
+/// Solves A x = b for each right side b, all of the same length n; returns the solutions in their order.
+///
+/// `entry(row, column)` gives the elements of the n × n matrix A. `None` if A is singular or not finite.
 #[cfg(not(feature = "dense"))]
 pub(crate) fn solve(
     entry: impl FnMut(usize, usize) -> f64,

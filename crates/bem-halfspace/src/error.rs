@@ -279,8 +279,8 @@ pub enum BemError {
     Material(#[from] RheologyError),
 }
 
-/// Smallest number of elements along or across a contact: one at either end, which counts as a whole or not at all,
-/// and one between them.
+/// Smallest number of elements along or across a contact. Derived: one at either end, which is in contact as a whole or not at all, and
+/// one between them.
 const MIN_CONTACT_ELEMENTS: usize = 3;
 
 /// Refuses a contact of fewer than [`MIN_CONTACT_ELEMENTS`] elements; `elements` is the smaller of the numbers along x and y.

@@ -46,6 +46,7 @@ pub(super) struct Stagnation {
 }
 
 impl Default for Stagnation {
+    /// The count before the first update, which improves on any number of violations.
     fn default() -> Self {
         Self {
             fewest_violations: usize::MAX,

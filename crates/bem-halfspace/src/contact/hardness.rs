@@ -187,6 +187,7 @@ impl<'a> SaturatedSet<'a> {
     fn violations(&self, state: &LoadState, test: GapTest) -> Vec<Violation> {
         let convolution = self.problem.convolution;
         let columns = convolution.grid().shape()[1];
+        // A saturated element violates by an open gap, another one by the excess of its load.
         let violation = |element: usize| {
             let size = if self.is_saturated[element] {
                 let displacement = state.displacement[element] + self.displacement[element];

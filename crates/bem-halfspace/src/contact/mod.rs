@@ -71,6 +71,7 @@ pub struct ContactOptions {
 }
 
 impl Default for ContactOptions {
+    /// A tolerance of 1e-9 and at most 2000 iterations.
     fn default() -> Self {
         // Chosen: the tolerance is four decades above the rounding of the transforms on 512² elements, and the limit of the iterations
         // ends only solves that do not converge.

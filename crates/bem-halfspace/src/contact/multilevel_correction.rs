@@ -105,12 +105,14 @@ impl MultilevelCorrection {
 
     /// Sums the conductances over the blocks of all levels, from small blocks to large ones.
     fn sum_conductances(&mut self, active: &ActiveSet) {
+        // The smallest blocks sum over their elements.
         let (conductances, levels) = (&self.conductances, &mut self.levels);
         let sums = [active.blocks(FINEST_BLOCK_EDGE, &mut levels[0].conductance)];
         active.row_blocks.for_each_part(sums, |row_block, [sums]| {
             let conductances = &conductances[active.packed_range(row_block)];
             sum_blocks::<FINEST_BLOCK_EDGE>(active, row_block, |index| conductances[index], sums);
         });
+        // Larger blocks sum what their children pass on.
         levels[0].update_local_fraction();
         for_each_parent(levels, |smaller, level| {
             let load =

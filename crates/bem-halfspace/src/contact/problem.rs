@@ -63,6 +63,7 @@ impl StoppingCriterion {
 }
 
 impl From<&ContactOptions> for StoppingCriterion {
+    /// Criterion with tolerance and iterations of the options, without a bound relative to the first guess and without given loads.
     fn from(options: &ContactOptions) -> Self {
         Self {
             tolerance: options.tolerance,

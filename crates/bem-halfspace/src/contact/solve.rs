@@ -160,6 +160,7 @@ fn prolong_coarse_solution(problem: LoadProblem, state: &mut LoadState) {
     };
     // An unconverged solution is a guess too; the finer grid decides whether the problem can be solved.
     let _guess = solve_loads(problem, &mut coarse, &StoppingCriterion::GUESS);
+    // Each fine element takes the load of its coarse one.
     for_each_row(&mut state.load, columns, |row, loads| {
         let coarse = &coarse.load[row / 2 * columns.div_ceil(2)..];
         for (column, load) in loads.iter_mut().enumerate() {

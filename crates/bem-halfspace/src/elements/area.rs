@@ -10,13 +10,13 @@ use crate::elements::mirror::Mirror;
 /// It is the mean over all directions of the contact boundary (Yastrebov, Anciaux & Molinari 2017).
 pub(crate) const EXCESS_PER_EDGE: f64 = (PI - 1.0 + LN_2) / 24.0;
 
-/// Area of `count` elements with `edges` edges to elements outside, after the perimeter correction, in elements; more than half
-/// of `count`.
+/// Area of `count` elements with `edges` edges to elements outside, after the perimeter correction, in areas of an element. It is more
+/// than half of `count`, because an element has at most four such edges.
 pub(crate) fn corrected_area(count: usize, edges: usize) -> f64 {
     count as f64 - EXCESS_PER_EDGE * edges as f64
 }
 
-/// Contact area of a periodic surface.
+/// Contact area of a periodic surface after the perimeter correction, as a fraction of the period.
 pub(crate) struct AreaFraction {
     /// Corrected area as a fraction of the period.
     pub(crate) area: f64,
@@ -28,11 +28,11 @@ pub(crate) struct AreaFraction {
     pub(crate) perimeter_correction: f64,
 }
 
-/// Contact area of a periodic pressure field with a number of columns.
+/// Contact area of a periodic, row-major pressure field with a number of columns: elements with a positive pressure are in contact.
 pub(crate) fn area_fraction(columns: usize, pressure: &[f64]) -> AreaFraction {
     let n = pressure.len();
     let inside = |element: usize| pressure[element] > 0.0;
-    // Each edge is seen from the element behind it, so that it is counted once.
+    // Each edge is counted once, from the element before it along x or y.
     let [mut count, mut edges] = [0; 2];
     for element in 0..n {
         let row = element / columns * columns;
@@ -48,8 +48,9 @@ pub(crate) fn area_fraction(columns: usize, pressure: &[f64]) -> AreaFraction {
     }
 }
 
-/// Contact area in areas of an element: that of the loaded elements in a box and of their images, corrected for the course of the boundary
-/// through elements. Mirrors pass through the first row and column of the field.
+/// Contact area of the loaded elements in a box and of their images, after the perimeter correction, in areas of an element.
+///
+/// `loads` are those of the box `bounds`, row-major. Mirrors are at the first row and column of the field in which the box lies.
 pub(crate) fn in_elements(loads: &[f64], bounds: &Bounds, mirrors: [Mirror; 2]) -> f64 {
     let [rows, columns] = bounds.shape();
     let has_load = |row: usize, column: usize| {
@@ -82,16 +83,17 @@ pub(crate) fn in_elements(loads: &[f64], bounds: &Bounds, mirrors: [Mirror; 2]) 
     corrected_area(count, edges)
 }
 
-/// Number of images of an edge between two elements in front of a mirror, itself included.
+/// Number of copies of an edge between two elements in front of a mirror: itself and its image.
 const fn multiplicity(mirror: Mirror) -> usize {
     if mirror.is_none() { 1 } else { 2 }
 }
 
-/// Singularity of the pressure at the contact boundary: the mean square of the loads of the outermost elements over that under a flat
-/// punch with this force and area; at most 1.
+/// Measure of the singularity of the pressure at the contact boundary: the mean square of the loads of the outermost elements, over
+/// that under a flat punch with the same force and area; at most 1, and 0 if no element is at the boundary.
 ///
 /// Elements at the edge of a punch with a radius of a elements have √(a/2) times the mean load, from p = F/(2π a √(a² − r²)). Where the
-/// pressure vanishes like a root they have √(1/a) times the mean load, so that the ratio is of the order 1/a².
+/// pressure vanishes like a root they have √(1/a) times the mean load, so that the ratio is of the order 1/a². Loads are those of the
+/// box `bounds`, row-major.
 pub(crate) fn edge_singularity(loads: &[f64], bounds: &Bounds, mirrors: [Mirror; 2]) -> f64 {
     let [rows, columns] = bounds.shape();
     let load = |row: usize, column: usize| {
@@ -131,7 +133,7 @@ pub(crate) fn edge_singularity(loads: &[f64], bounds: &Bounds, mirrors: [Mirror;
     (edge_squares / edge_count / square_under_punch).min(1.0)
 }
 
-/// Discretization error of a counted contact area, in elements: √(Σ L²) over all straight runs of L edges of its boundary.
+/// Discretisation error of a counted contact area, in areas of an element: √(Σ L²) over all straight runs of L edges of its boundary.
 ///
 /// Along a run the true boundary lies within half an element of the counted one, so that the area is off by at most L/2. The errors
 /// of runs are independent, except where runs are images of each other: four sides of L edges that are displaced alike make 2 L,

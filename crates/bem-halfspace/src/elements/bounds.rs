@@ -101,12 +101,13 @@ impl Bounds {
         });
     }
 
-    /// The box with a margin for a growing contact, inside a field of the given shape, with lengths that transform fast.
+    /// The box with a margin for a growing contact, inside a field of the shape `field`, with lengths whose Fourier transform is fast.
     ///
-    /// The margin is an eighth of the length, at least four elements, in total. Along an axis with a mirror the box begins at
-    /// the rear of the field, where the mirror is.
+    /// Along each axis the margin is an eighth of the length, at least four elements, shared by both ends. Along an axis with a mirror
+    /// the box begins at the first row or column of the field, where the mirror is. The share is chosen; it decides how often a box has
+    /// to be enlarged, not the solution.
     pub(crate) fn with_margin(&self, field: [usize; 2], mirrors: [Mirror; 2]) -> Self {
-        // Widen the box along each axis by its margin, one part in front of it and the rest behind.
+        // Widen the box along each axis. The padded transform has twice its length, which is made a fast one.
         let mut grown = *self;
         for (axis, &available) in field.iter().enumerate() {
             let is_free = mirrors[axis].is_none();

@@ -21,8 +21,8 @@
 //!
 //! Theory: docs/sensitivity.md.
 
-/// κ times the second difference of the kernel, for boundaries of many elements, on which errors of κ average out.
-/// Chosen between the measured 0.3 and 0.6 (module); from 0.1 to 2 sensitivities change by at most half of their
+/// Product κ b of the load–gap ratio κ and the second difference b of the kernel (head of this file), for boundaries of many elements,
+/// on which errors of κ average out. Chosen between 0.3 and 0.6; from 0.1 to 2 sensitivities change by at most half of their
 /// bars.
 const LOAD_GAP_RATIO: f64 = 0.4;
 
@@ -36,15 +36,17 @@ pub(crate) struct BoundaryField {
     pub(crate) aspect: f64,
     /// Flag of each element: true in contact.
     pub(crate) inside: Vec<bool>,
-    /// Load of an element in contact, gap of an element outside; not finite if unknown.
+    /// Load x of an element in contact, gap g of an element outside, row-major; not finite if unknown. Units are those of the caller,
+    /// with gap = kernel · load.
     pub(crate) values: Vec<f64>,
-    /// Second difference k₀ − (k₁ + k₋₁)/2 of the kernel along each axis.
+    /// Second difference b = k₀ − (k₁ + k₋₁)/2 of the kernel along x and y, in units of gap over load.
     pub(crate) second_difference: [f64; 2],
-    /// Increase of the loads and decrease of the gaps per unit of depth, whose ratio is κ; `None` for boundaries of many elements.
+    /// Increase of the load of each element inside, or decrease of the gap of each element outside, per unit of depth; the ratio of the
+    /// two is κ. `None` for boundaries of many elements.
     pub(crate) unit_depth_response: Option<Vec<f64>>,
 }
 
-/// The derivatives of one quantity of the boundary.
+/// The derivatives of one quantity, area or boundary weight, at a fixed active set.
 #[derive(Debug, Clone)]
 pub(crate) struct BoundaryDerivatives {
     /// Derivatives by the load or gap of each element of the box.
@@ -82,7 +84,7 @@ impl BoundaryDerivatives {
         }
     }
 
-    /// Adds the derivatives of x/(x + κ g) at a pair, times (x + κ g)²/κ and a weight.
+    /// Adds the derivatives of the fraction s = x/(x + κ g) of a pair, times (x + κ g)²/κ and a weight.
     fn add(&mut self, field: &BoundaryField, pair: BoundaryPair, weight: f64) {
         let [load, gap] = [pair.inside, pair.outside].map(|element| field.values[element]);
         self.by_values[pair.inside] += weight * gap;
@@ -116,7 +118,7 @@ impl ContactBoundary {
 }
 
 impl BoundaryField {
-    /// All pairs whose gap is known.
+    /// All pairs of an element in contact and a neighbour outside whose gap is known.
     fn pairs(&self) -> impl Iterator<Item = BoundaryPair> {
         let inside = (0..self.values.len()).filter(|element| self.inside[*element]);
         inside.flat_map(move |inside| {
@@ -133,8 +135,9 @@ impl BoundaryField {
         })
     }
 
-    /// The ratio κ of load to gap at a pair.
+    /// The ratio κ of load to gap at a pair: from the responses to depth where these are known and positive, else [`LOAD_GAP_RATIO`].
     fn load_gap_ratio(&self, pair: BoundaryPair) -> f64 {
+        // A gap that grows with the depth has no ratio.
         let response = self.unit_depth_response.as_ref();
         let ratio_of_responses =
             response.map(|response| response[pair.inside] / response[pair.outside]);
@@ -143,7 +146,7 @@ impl BoundaryField {
             .unwrap_or(LOAD_GAP_RATIO / self.second_difference[pair.axis])
     }
 
-    /// The neighbour of an element along an axis, ahead or behind; `None` beyond the end of the box.
+    /// Index of the neighbour of an element along an axis (0 is x, 1 is y), ahead or behind; `None` beyond the end of the box.
     fn next(&self, element: usize, axis: usize, ahead: bool) -> Option<usize> {
         let [rows, columns] = self.shape;
         let mut indices = [element / columns, element % columns];
@@ -157,7 +160,7 @@ impl BoundaryField {
         Some(indices[0] * columns + indices[1])
     }
 
-    /// Squared component of the normal of the contact boundary along the axis of a pair of elements.
+    /// Squared component n_x² or n_y² of the unit normal of the contact boundary along the axis of a pair, from 0 to 1.
     ///
     /// The normal is the gradient of a field that is the load inside the contact and −κ times the gap outside, with κ = `ratio`;
     /// `leaving_load` is the change of the field across the pair.

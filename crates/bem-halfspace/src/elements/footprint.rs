@@ -9,11 +9,12 @@ use crate::elements::grid::elements_along;
 use crate::stationary::steady::depth_scale_of_surface;
 use crate::{BemError, Elastomer};
 
-/// Largest height that may touch, in depth scales. It is reached under a cusp, see [`Footprint::sliding`].
+/// Largest height of a body that may be in contact under a force, in depth scales D. Chosen: the highest front that is known, under a
+/// cusp h ∼ r^0.51, lies at 1.6 D ([`Footprint::sliding`]).
 pub(crate) const MAX_HEIGHT_IN_DEPTH_SCALES: f64 = 2.0;
 
-/// Factor from a footprint to the next one, which is tried if the contact reaches its boundary. Chosen; any factor
-/// above 1 leads to the same contact, and this one needs few trials.
+/// Factor from the edges of a footprint to those of the next one, which is tried if the contact reaches its boundary. Chosen; any
+/// factor above 1 leads to the same contact, and this one needs few trials.
 const GROWTH_FACTOR: f64 = 1.5;
 
 /// The rectangle around the lowest point of the indenter, which lies at [0, 0], in which contact may occur, \[m].
@@ -73,8 +74,8 @@ impl Footprint {
         Err(nowhere_as_high(height).into())
     }
 
-    /// The rectangle that holds the contact if that of a half space holds the points below a `height` \[m]; on a layer, which
-    /// piles up, it is larger.
+    /// The rectangle that holds the contact, if on a half space only points of the surface below a `height` \[m] touch. On a layer,
+    /// which piles up, it is larger.
     pub(crate) fn reached(
         surface: &dyn Surface,
         elastomer: &dyn Elastomer,
@@ -90,6 +91,7 @@ impl Footprint {
         elastomer: &dyn Elastomer,
         height: f64,
     ) -> Result<f64, BemError> {
+        // A half space nowhere rises to meet the body.
         let base = elastomer.base();
         if base.is_half_space() {
             return Ok(height);
@@ -138,7 +140,7 @@ impl Footprint {
         }
     }
 
-    /// The error for a contact that reaches the boundary after sliding over a distance \[m].
+    /// The error [`BemError::ContactReachesBoundary`] for this footprint, after sliding over a distance \[m].
     pub(crate) const fn boundary_reached(self, sliding_distance: f64) -> BemError {
         BemError::ContactReachesBoundary {
             sliding_distance,
@@ -146,8 +148,8 @@ impl Footprint {
         }
     }
 
-    /// Distances of the edges from the lowest point, \[m]: behind and ahead of it, right and left of it. Fails unless all are
-    /// finite and greater than 0.
+    /// Distances [[behind, ahead], [right, left]] of the edges from the lowest point, \[m]. Fails unless all are finite and greater
+    /// than 0.
     pub(crate) fn sides(&self) -> Result<[[f64; 2]; 2], BemError> {
         let mut sides = [self.x, self.y];
         let names = ["footprint along x", "footprint along y"];
@@ -180,7 +182,7 @@ impl Footprint {
     }
 }
 
-/// The error for a height \[m] that the surface does not reach on all sides.
+/// The error [`InvalidParameter`] for a height \[m] that the surface does not reach on all sides at a finite distance.
 fn nowhere_as_high(height: f64) -> InvalidParameter {
     InvalidParameter {
         parameter: "indentation depth",

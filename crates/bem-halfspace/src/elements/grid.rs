@@ -4,9 +4,10 @@ use crate::BemError;
 use crate::elements::mirror::Mirror;
 use numerics::{positive, whole_part};
 
-/// Largest number of elements of a grid: a limit of the memory. With 150 bytes for an element they take 37.5 GiB.
+/// Largest number of elements of a grid, 2^28: a limit of the memory. With 150 bytes for an element they take 37.5 GiB.
 pub(crate) const MAX_ELEMENTS: f64 = (1_u64 << 28) as f64;
-/// Fewest elements along an edge of the coarsest grid: of a nested iteration, and of a refinement along an edge of a period with waves.
+/// Smallest number of elements along an edge of the coarsest grid: of a nested iteration, and of a refinement along an edge of a period
+/// with waves.
 ///
 /// Chosen; from 8 to 32 no answer of `evidence tuning` changes by more than 1e-9 of its bar.
 pub(crate) const MIN_COARSEST_EDGE: usize = 32;
@@ -87,13 +88,15 @@ impl Grid {
     }
 }
 
-/// Number of elements that cover a length. Fails with [`BemError::GridTooLarge`] for more than a grid may have.
+/// Number of elements of the edge `spacing` that cover a length, both in \[m]. Fails with [`BemError::GridTooLarge`] for more than a
+/// grid may have.
 pub(crate) fn elements_along(length: f64, spacing: f64) -> Result<usize, BemError> {
     // An integer ratio must not gain an element by rounding, or results would depend on the unit of length.
     whole_elements((length / spacing * (1.0 - 4.0 * f64::EPSILON)).ceil())
 }
 
-/// An integral number of elements as an integer, 0 if it is negative. Fails for more than a grid may have, and for NaN.
+/// Converts an integral number of elements to an integer, a negative one to 0. Fails with [`BemError::GridTooLarge`] for NaN and for
+/// more than a grid may have.
 pub(crate) fn whole_elements(elements: f64) -> Result<usize, BemError> {
     if elements > MAX_ELEMENTS || elements.is_nan() {
         return Err(BemError::GridTooLarge {

@@ -2,7 +2,7 @@
 //!
 //! Theory: docs/theory/contact.md, "Mirrors".
 
-/// Mirror across one axis of a grid; only the part in front of it is stored.
+/// Mirror across one axis of a grid; only the part in front of it, towards larger indices, is stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Mirror {
     /// No symmetry, or none that the grid has.
@@ -41,7 +41,7 @@ impl Mirror {
         matches!(self, Self::None)
     }
 
-    /// The mirror of a coarser grid over the same part; an element of twice the edges has no centre at the mirror.
+    /// The mirror of the grid of blocks of two by two elements over the same part, whose blocks begin at the mirror.
     pub(crate) const fn of_blocks(self) -> Self {
         match self {
             Self::None => Self::None,

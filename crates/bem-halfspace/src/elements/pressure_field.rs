@@ -21,7 +21,10 @@ pub struct PressureField {
 }
 
 impl PressureField {
-    /// The field on a box whose first element has its centre at `origin` \[m]; pressures \[Pa] that are given for one element add up.
+    /// The field on the box `bounds`, whose first element has its centre at `origin` \[m].
+    ///
+    /// `loaded` gives elements [row, column] of the field in which the box lies, with their pressures \[Pa]; pressures given for the
+    /// same element add up.
     pub(crate) fn from_elements(
         bounds: &Bounds,
         spacing: [f64; 2],
@@ -58,6 +61,7 @@ impl PressureField {
 
     /// Pressure of the element at a `position` \[m] relative to the lowest point, \[Pa]; zero outside the field.
     pub fn pressure_at(&self, position: [f64; 2]) -> f64 {
+        // The element whose edges enclose the position.
         let [rows, columns] = self.grid.shape();
         let index =
             |axis: usize| (position[axis] - self.origin[axis]) / self.grid.spacing()[axis] + 0.5;

@@ -20,7 +20,7 @@ pub struct GridOptions {
 /// Arrangement of the elements under the indenter: their number, the one under the lowest point, and the mirrors.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Layout {
-    /// Number of elements of the footprint.
+    /// Numbers of elements [n_x, n_y] of the footprint.
     pub(crate) shape: [usize; 2],
     /// The element [row, column] under the lowest point.
     pub(crate) apex: [usize; 2],
@@ -38,11 +38,13 @@ impl GridOptions {
         }
     }
 
-    /// The layout under an indenter that is symmetric along the axes for which `even` is true.
+    /// The layout under an indenter that is its own mirror image about x = 0 if `even[0]`, and about y = 0 if `even[1]`. A mirror also
+    /// needs a symmetric footprint.
     pub(crate) fn layout(&self, even: [bool; 2]) -> Result<Layout, BemError> {
         positive("spacing along x", self.spacing[0])?;
         positive("spacing along y", self.spacing[1])?;
         self.contact.validate()?;
+        // The lowest point lies over the centre of one more element between the two sides.
         let counts = self.footprint.elements(self.spacing)?;
         Ok(Layout {
             shape: counts.map(|[before, after]| before + after + 1),
@@ -65,13 +67,13 @@ impl Layout {
         [0, 1].map(|axis| self.mirrors[axis].folded_len(self.shape[axis]))
     }
 
-    /// The first element in front of the mirrors.
+    /// The first element [row, column] of the footprint in front of the mirrors.
     pub(crate) fn first(&self) -> [usize; 2] {
         let folded = self.folded_shape();
         [0, 1].map(|axis| self.shape[axis] - folded[axis])
     }
 
-    /// An element of the footprint and its images; an element on a mirror appears once for each half.
+    /// An element [row, column] of the footprint and its images; an element on a mirror appears once for each half.
     pub(crate) fn images_of(&self, element: [usize; 2]) -> impl Iterator<Item = [usize; 2]> {
         let [rows, columns] = [0, 1].map(|axis| {
             let index = element[axis];
@@ -90,7 +92,8 @@ impl Layout {
         along(0) * along(1)
     }
 
-    /// The smallest box of the footprint that holds a box of elements in front of the mirrors and their images.
+    /// The smallest box of the footprint that holds the box `front` and its images; `front` counts rows and columns from the first
+    /// element in front of the mirrors.
     pub(crate) fn unfolded(&self, front: &Bounds) -> Bounds {
         let first = self.first();
         let upper = [0, 1].map(|axis| first[axis] + front.upper[axis]);

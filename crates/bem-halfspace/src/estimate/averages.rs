@@ -13,7 +13,7 @@ pub struct Average {
 }
 
 impl Average {
-    /// Mean and standard deviation over at least two shifts.
+    /// Mean and standard deviation (n − 1 degrees of freedom) of a quantity over at least two shifts.
     pub(crate) fn over_shifts<State>(states: &[State], quantity: impl Fn(&State) -> f64) -> Self {
         let count = states.len() as f64;
         let value = states.iter().map(&quantity).sum::<f64>() / count;
@@ -24,10 +24,10 @@ impl Average {
         }
     }
 
-    /// Mean over all shifts, with half the difference between two interleaved halves as scatter.
+    /// Mean of a quantity over all shifts, with half the difference between the means of two interleaved halves as scatter.
     ///
-    /// The second half of the shifts must lie between those of the first half. Each half alone leaves errors of twice the
-    /// wavelength.
+    /// The second half of `states` must have shifts between those of the first half. The mean over one half leaves errors of twice the
+    /// wavelength of those that the mean over all shifts leaves.
     pub(crate) fn over_interleaved_shifts<State>(
         states: &[State],
         quantity: impl Fn(&State) -> f64,
@@ -40,7 +40,7 @@ impl Average {
         }
     }
 
-    /// Both multiplied by a factor.
+    /// Value and scatter multiplied by a factor.
     pub(crate) fn times(self, factor: f64) -> Self {
         Self {
             value: factor * self.value,
@@ -53,7 +53,8 @@ impl Average {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Refinement {
-    /// Element length Δx, \[m], the mean over the shifts. A shift whose contact does not converge is solved on elements that are 1 or 2 % finer.
+    /// Element length Δx, \[m], the mean over the shifts. A shift whose contact does not converge is solved on elements that are 1
+    /// or 2 % finer.
     pub spacing: f64,
     /// Friction coefficient.
     pub friction_coefficient: Average,

@@ -11,9 +11,9 @@ use crate::estimate::quantities::{Name, Quantities};
 
 /// Index of the friction from the dissipated power in vectors of quantities, after those of [`Name`].
 const DISSIPATED: usize = Name::ALL.len();
-/// Error of each end of a contact, in elements.
+/// Error of each end of a contact, in elements. Chosen above one element.
 ///
-/// The contact boundary follows the elements, and each outermost element counts as a whole or not at all. The test
+/// The contact boundary follows the elements, and each outermost element is in contact as a whole or not at all. The test
 /// `the_bars_of_an_elastic_contact_hold` compares with known contacts.
 const END_ERROR_IN_ELEMENTS: f64 = 1.5;
 
@@ -61,7 +61,7 @@ impl<S, O> ContactEstimate<S, O> {
     }
 }
 
-/// A contact on one grid.
+/// A contact on one grid, with what an error estimate needs besides the differences between grids.
 pub(crate) struct OnGrid<S, O> {
     /// Values of all quantities.
     pub(crate) quantities: Quantities<f64>,
@@ -69,22 +69,24 @@ pub(crate) struct OnGrid<S, O> {
     pub(crate) dissipated: Option<f64>,
     /// Parts of the error of the target that all grids have in common, so that refinement does not reveal them.
     pub(crate) common_error: ErrorParts,
-    /// Floor of the relative discretisation error of the target, because some grids agree by chance.
+    /// Lower bound of the relative discretisation error of the target, because some grids agree by chance.
     pub(crate) min_relative_error: f64,
-    /// Uncertainty of the contact area by the elements, \[m²].
+    /// Lower bound of the discretisation error of the contact area, \[m²].
     pub(crate) area_uncertainty: f64,
     /// Convergence order of the contact area; `None` if it is that of the target.
     pub(crate) area_order: Option<f64>,
-    /// Edge of an element, the longer one of two, \[m].
+    /// Longer edge of an element, \[m].
     pub(crate) spacing: f64,
-    /// State of the contact.
+    /// Solution on the grid, which becomes [`ContactEstimate::finest`].
     pub(crate) state: S,
-    /// Grid and stopping criteria.
+    /// Grid and stopping criteria of the solution.
     pub(crate) options: O,
 }
 
 impl<S, O> OnGrid<S, O> {
-    /// The quantities of the grid; those of normal force and `driven` are refined to the error asked for.
+    /// The quantities of the grid for the refinement, in the order of [`Name::ALL`], then the friction from dissipation if it is known.
+    ///
+    /// Normal force and the quantity `target` control the refinement: they are refined to the error asked for.
     fn quantities_driven_by(&self, driven: Name) -> Vec<Quantity> {
         let quantity = |(name, value): (Name, f64)| Quantity {
             controls_refinement: name == driven || name == Name::Force,
@@ -109,8 +111,9 @@ impl<S, O> OnGrid<S, O> {
 /// The quantity that is refined to the error asked for, in addition to the normal force.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Target {
+    /// Friction coefficient.
     Friction,
-    /// The target without sliding or without dissipation; at a given depth it is the force.
+    /// Depth under a force, or force at a depth: for contacts without sliding or without dissipation.
     Depth,
 }
 
@@ -122,14 +125,14 @@ pub(crate) struct Resolution<'w> {
     pub(crate) control: Control,
     /// Quantity that is refined besides the force.
     pub(crate) target: Target,
-    /// True if the largest pressure is known to be bounded.
+    /// True if the largest pressure is known to be bounded on refinement, so that it has an estimate.
     pub(crate) has_peak: bool,
-    /// The friction from dissipation is taken if its error is below this multiple of the error of that from slopes.
+    /// The result is the friction from dissipation if its error is below this multiple of the error of that from slopes; 0 for never.
     pub(crate) max_dissipation_error_ratio: f64,
 }
 
 impl Resolution<'_> {
-    /// Name of the target, given what is prescribed.
+    /// Name of the quantity that is the target under the prescribed force or depth.
     const fn driven(&self) -> Name {
         match (self.target, self.control) {
             (Target::Friction, _) => Name::Friction,
@@ -139,12 +142,13 @@ impl Resolution<'_> {
     }
 }
 
-/// Convergence order of the friction under an apex h ∼ r^p: 2p − 1, at most `smooth`, the order of a smooth body.
+/// Convergence order of the friction under an apex h ∼ r^p with p = `apex_exponent`: 2p − 1, at most `smooth`, the order under a smooth
+/// body (docs/theory/stationary-half-space.md, "Scatter, order, error bar").
 pub(crate) fn order_of_friction(apex_exponent: f64, smooth: f64) -> f64 {
     (2.0 * apex_exponent - 1.0).clamp(MIN_CONVERGENCE_ORDER, smooth)
 }
 
-/// Error of the ends of a contact on elements whose longer edge is `spacing`, \[m].
+/// Error of the ends of a contact, \[m], on elements whose longer edge is `spacing` \[m].
 pub(crate) fn contact_box_error(spacing: f64) -> f64 {
     END_ERROR_IN_ELEMENTS * spacing
 }
@@ -166,9 +170,13 @@ pub(crate) fn peak_has_limit(surface: &dyn Surface, elastomer: &dyn Elastomer) -
 }
 
 /// Solves with the number of elements asked for, or on finer and finer grids until normal force and target have the error asked
-/// for.
+/// for; returns the values with error bars.
 ///
-/// `finish` turns the estimate into the result, also if that error was not reached.
+/// `solve(elements, report)` solves on one grid with a number of elements along the contact. `finish` turns the estimate into the
+/// result, also if the error was not reached.
+///
+/// # Errors
+/// [`BemError::NotReached`] with the result on the finest grid; those of `solve` and `finish`.
 pub(crate) fn resolve<S, O, E: Into<Reached>>(
     resolution: &Resolution,
     solve: impl Fn(usize, &dyn Fn(f64)) -> Result<OnGrid<S, O>, BemError>,
@@ -216,7 +224,7 @@ pub(crate) fn resolve<S, O, E: Into<Reached>>(
 
 /// The result, or [`BemError::NotReached`] with the result inside if a quantity missed the error asked for.
 ///
-/// `name` is that of a quantity by its index.
+/// `name(index)` is the description of a quantity by its index in the refinement.
 pub(crate) fn reached_or_error<E: Into<Reached>>(
     missed: Option<NotReached>,
     name: impl FnOnce(usize) -> &'static str,

@@ -14,14 +14,14 @@ const ELEMENTS_ON_COARSEST_GRID: f64 = 5.0;
 /// Largest edge of the coarsest elements in thicknesses of a layer: half of the edge that is refused, because nested
 /// iteration and error estimates also solve on elements of up to twice the edge.
 const MAX_SPACING_OVER_THICKNESS: f64 = 0.5 * MAX_EDGE_OVER_THICKNESS;
-/// Bound of [`GridPlan::kinks`] below which a surface converges like a smooth one. Chosen, so that the small kinks of
+/// Value of [`GridPlan::kinks`], without unit, up to which a surface is treated as smooth. Chosen, so that the small kinks of
 /// a tabulated profile are negligible (case of `evidence tuning`).
 pub(crate) const NEGLIGIBLE_KINKS: f64 = 0.01;
-/// Number of cells along the contact of a height map, plus one at either end, above which single cells and their
-/// edges are small. Chosen (case of `evidence tuning`).
+/// Number of cells of a height map along the contact up to which elements resolve single cells and their edges. Chosen (case of
+/// `evidence tuning`).
 const MAX_VISIBLE_CELLS: f64 = 8.0;
-/// Jump of the slope between two cells, as a fraction of the slope at the end of the contact, above which it is an
-/// edge. Chosen (case of `evidence tuning`).
+/// Smallest jump of the slope between two cells of a height map that counts as an edge, as a fraction of the slope at the end of the
+/// contact. Chosen (case of `evidence tuning`).
 const MIN_EDGE_JUMP: f64 = 0.3;
 /// Largest number of refinements by √2: a limit of the time. Most end earlier at the limit of unknowns.
 pub(crate) const MAX_REFINEMENTS: i32 = 24;
@@ -89,14 +89,15 @@ impl GridPlan {
         })
     }
 
-    /// The plan with elements for the longer contact on a layer, which piles up. They are not longer than
-    /// [`MAX_SPACING_OVER_THICKNESS`] allows, unless those for a half space are.
+    /// The `plan(depth)` for a half space, with the longer elements of the longer contact on a layer, which piles up. Elements longer
+    /// than [`MAX_SPACING_OVER_THICKNESS`] allows are taken only if those for a half space are as long.
     fn with_pile_up(
         surface: &dyn Surface,
         elastomer: &dyn Elastomer,
         depth: f64,
         plan: impl Fn(f64) -> Result<Self, BemError>,
     ) -> Result<Self, BemError> {
+        // The spacing for the contact without pile-up, and that with it, limited by the thickness.
         let mut shortest = plan(depth)?;
         let with_pile_up =
             plan(Footprint::with_pile_up(surface, elastomer, depth)?)?.coarsest_spacing;
@@ -105,7 +106,7 @@ impl GridPlan {
         Ok(shortest)
     }
 
-    /// The plan for a body of revolution that sinks to a depth \[m], with a spacing that resolves its flank.
+    /// The plan for a body of revolution at a `depth` \[m] in the one-dimensional model, whose contact length determines the spacing.
     fn of_body(
         body: &dyn Axisymmetric,
         footprint: Footprint,
@@ -115,7 +116,7 @@ impl GridPlan {
         Ok(Self::smooth(footprint, spacing, body.profile_exponent()))
     }
 
-    /// The plan for a surface whose contact is about as long as the surface lies below `depth` \[m].
+    /// The plan for any surface at a `depth` \[m]; the length on which it lies below that depth determines the spacing.
     fn of_surface(surface: &dyn Surface, footprint: Footprint, depth: f64) -> Self {
         let [rear, front] = surface.extent_below(depth)[0];
         let radius = CONTACT_OVER_INTERSECTION_LENGTH * (0.5 * (front - rear));
@@ -123,7 +124,7 @@ impl GridPlan {
         Self::smooth(footprint, spacing, surface.apex_exponent())
     }
 
-    /// The plan for a surface without kinks and visible cells.
+    /// A plan for a surface without kinks and without visible cells of a height map.
     pub(crate) const fn smooth(
         footprint: Footprint,
         coarsest_spacing: f64,
@@ -148,14 +149,15 @@ impl GridPlan {
         whole_elements((self.length() / self.spacing(refinement)).ceil()).unwrap_or(usize::MAX)
     }
 
-    /// Approximate contact length, \[m].
+    /// Approximate contact length in sliding, \[m]: that of the one-dimensional model. Under a pressed body it is half the contact
+    /// length.
     pub(crate) fn length(&self) -> f64 {
         ELEMENTS_ON_COARSEST_GRID * self.coarsest_spacing
     }
 }
 
-/// True if a surface dips to a depth on a few cells, and its slope along x jumps between two of them away from the lowest point.
-/// Elements then resolve an edge like that of a flat end.
+/// True if a height map lies below a `depth` \[m] on at most [`MAX_VISIBLE_CELLS`] cells along x, and its slope along x jumps
+/// between two of them away from the lowest point. Elements then resolve an edge like that of a flat end.
 fn shows_cells(surface: &dyn Surface, depth: f64) -> bool {
     let Some(length) = surface.cell_length() else {
         return false;
@@ -164,6 +166,7 @@ fn shows_cells(surface: &dyn Surface, depth: f64) -> bool {
     if front - rear > MAX_VISIBLE_CELLS {
         return false;
     }
+    // Slopes at the centres of the cells; compare each with its neighbour.
     let slope = |cell: f64| surface.gradient([(cell + 0.5) * length, 0.0])[0];
     let largest = slope(rear).abs().max(slope(front - 1.0).abs());
     let inside = (1..).map(|step| rear + f64::from(step));
@@ -173,7 +176,8 @@ fn shows_cells(surface: &dyn Surface, depth: f64) -> bool {
         .any(|cell| (slope(cell) - slope(cell - 1.0)).abs() > MIN_EDGE_JUMP * largest)
 }
 
-/// Measure [`GridPlan::kinks`] of a body that dips to a depth, for the kinks inside its footprint.
+/// Measure [`GridPlan::kinks`] of a body at a `depth` \[m], for the kinks inside its footprint; 0 for surfaces other than bodies of
+/// revolution.
 pub(crate) fn kinks(
     surface: &dyn Surface,
     depth: f64,
@@ -182,6 +186,7 @@ pub(crate) fn kinks(
     let Some(body) = surface.as_axisymmetric() else {
         return Ok(0.0);
     };
+    // Squared jumps of the slope inside the footprint, relative to the squared slope at the end of the contact.
     let jumps: f64 = body
         .kinks()
         .into_iter()

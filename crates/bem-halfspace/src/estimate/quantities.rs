@@ -3,10 +3,15 @@
 /// Name of a quantity of a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Name {
+    /// Friction coefficient.
     Friction,
+    /// Normal force.
     Force,
+    /// Indentation depth.
     Depth,
+    /// Contact area.
     Area,
+    /// Largest pressure.
     Peak,
 }
 
@@ -20,7 +25,7 @@ impl Name {
         Self::Peak,
     ];
 
-    /// Index in a vector with one entry for each name.
+    /// Index in a vector with one entry for each name, in the order of [`ALL`](Self::ALL).
     pub(crate) const fn index(self) -> usize {
         self as usize
     }
@@ -30,7 +35,7 @@ impl Name {
         Self::ALL[index % Self::ALL.len()].description()
     }
 
-    /// The quantity in error messages, with its unit.
+    /// Words for the quantity in error messages, with its unit.
     const fn description(self) -> &'static str {
         match self {
             Self::Friction => "friction coefficient",

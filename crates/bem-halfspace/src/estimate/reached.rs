@@ -31,9 +31,11 @@ pub enum Reached {
     PeriodicTransient(PeriodicEstimate<PeriodicTransient>),
 }
 
+/// Conversions of results into the variants of [`Reached`].
 macro_rules! found {
     ($($found:ty => $variant:ident,)*) => {
         $(impl From<$found> for Reached {
+            /// Wraps the result of a function in its variant.
             fn from(found: $found) -> Self {
                 Self::$variant(found)
             }

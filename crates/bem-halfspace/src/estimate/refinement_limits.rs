@@ -2,15 +2,15 @@
 
 use numerics::{FIRST_ELEMENTS, Goal, Request};
 
-/// Exponent of the work of a contact as a function of the elements along it: transforms of all elements along x and y dominate, and finer
-/// grids need hardly more operator applications.
+/// Exponent of the work of a contact as a function of the elements along it: transforms of all elements along x and y dominate, and
+/// finer grids need hardly more operator applications.
 const CONTACT_WORK_EXPONENT: f64 = 2.0;
-/// Exponent of the work of a march as a function of the elements along the contact: that of one contact, times as many steps.
+/// Exponent of the work of a march as a function of the elements along the contact: the number of steps is proportional to them.
 pub(crate) const MARCH_WORK_EXPONENT: f64 = CONTACT_WORK_EXPONENT + 1.0;
-/// Convergence order of a march under a smooth body: that of a step with the load held.
+/// Convergence order of a march under a smooth body in the spacing: that of steps over which the load is held.
 pub(crate) const MARCH_ORDER: f64 = 1.0;
-/// Factor on the discretisation error if a relative error ends the refinement, whose last grid has an error that is small by chance.
-/// Chosen on the random scenes of docs/calibration.md.
+/// Factor on the discretisation error if the refinement ends because a relative error is met: grids are then selected whose estimated
+/// error is small by chance. Chosen on the random scenes of docs/calibration.md.
 const SELECTION_FACTOR: f64 = 2.0;
 
 /// Resolution policy of a refinement in elements along the contact.
@@ -19,7 +19,9 @@ pub(crate) struct RefinementLimits {
     initial_elements: usize,
     /// Number of elements from which on the refinement stops: a limit of the time, which decides no value.
     max_elements: usize,
+    /// Exponent of the work as a function of the elements along the contact.
     work_exponent: f64,
+    /// Factor on the discretisation error if a relative error ends the refinement.
     selection_factor: f64,
 }
 
@@ -56,7 +58,7 @@ pub(crate) const MOTION: RefinementLimits = RefinementLimits {
 };
 
 impl RefinementLimits {
-    /// The refinement that meets a request, with a convergence order.
+    /// The goal of a refinement for a request, with the convergence order of its quantities.
     pub(crate) const fn goal<'w>(&self, request: Request<'w>, order: f64) -> Goal<'w> {
         Goal {
             request,

@@ -6,7 +6,8 @@
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
-/// Smallest number of elements per chunk: fewer would take less time than handing them to another thread.
+/// Smallest number of elements per chunk. Chosen: the work on fewer takes about as long as handing them to another thread. Chunks
+/// determine the order of summation, so that another value changes results by rounding.
 pub(crate) const MIN_ELEMENTS: usize = 1 << 13;
 
 /// Division of a field into chunks.
@@ -19,7 +20,7 @@ pub(crate) enum Starts<'a> {
 }
 
 impl Starts<'_> {
-    /// First index of a chunk.
+    /// Index of the first value of a chunk in the field.
     fn first_index(self, chunk: usize) -> usize {
         match self {
             Self::Every(length) => chunk * length,
@@ -28,12 +29,12 @@ impl Starts<'_> {
     }
 }
 
-/// Fields, each with its division into chunks.
+/// Mutable fields, each with its division into chunks: an argument of [`fold_chunks`].
 pub(crate) type Chunked<'a, T, const N: usize> = [(&'a mut [T], Starts<'a>); N];
 
-/// Calls `work(chunk, parts)` for each chunk of a range with its parts of the fields, and combines the results.
+/// Calls `work(chunk, parts)` for each chunk of the range `chunks` with its parts of the fields, in parallel, and combines the results.
 ///
-/// The range is halved recursively, so that the order of the combinations is always the same.
+/// The fields begin with the first chunk. The range is halved recursively, so that results are always combined in the same order.
 pub(crate) fn fold_chunks<const N: usize, T: Send, R: Send>(
     chunks: Range<usize>,
     fields: Chunked<T, N>,
@@ -43,6 +44,7 @@ pub(crate) fn fold_chunks<const N: usize, T: Send, R: Send>(
     if chunks.len() <= 1 {
         return work(chunks.start, fields.map(|(field, _)| field));
     }
+    // Halve the range, and process both halves in parallel.
     let middle = chunks.start + chunks.len() / 2;
     let (before, behind) = split(fields, chunks.start, middle);
     let (left, right) = join(
@@ -52,7 +54,7 @@ pub(crate) fn fold_chunks<const N: usize, T: Send, R: Send>(
     combine(left, right)
 }
 
-/// Splits fields that begin with chunk `first` at the beginning of chunk `middle`.
+/// Splits fields, which begin with chunk `first`, at the beginning of chunk `middle`; returns the parts before and behind it.
 fn split<'a, T, const N: usize>(
     fields: Chunked<'a, T, N>,
     first: usize,
@@ -83,7 +85,7 @@ impl<T> PerThread<T> {
         Self((0..count).map(|_| Mutex::new(buffers())).collect())
     }
 
-    /// Calls `work` with the buffers of this thread; waits for them if a larger pool shares them.
+    /// Calls `work` with the buffers of this thread. If the pool has more threads than there are buffers, threads share them and wait.
     pub(crate) fn with<R>(&self, work: impl FnOnce(&mut T) -> R) -> R {
         let buffers = &self.0[thread_index() % self.0.len()];
         work(&mut buffers.lock().unwrap_or_else(PoisonError::into_inner))
@@ -91,6 +93,7 @@ impl<T> PerThread<T> {
 }
 
 impl<T: Clone> Clone for PerThread<T> {
+    /// Copies the buffers of all threads, and waits for those in use.
     fn clone(&self) -> Self {
         let copy = |buffers: &Mutex<T>| {
             let locked = buffers.lock().unwrap_or_else(PoisonError::into_inner);
@@ -100,8 +103,8 @@ impl<T: Clone> Clone for PerThread<T> {
     }
 }
 
-/// Runs `work` on `n_elements` elements on a thread of the current pool. From outside the pool, each of its loops would have to
-/// be handed in and waited for.
+/// Runs `work`, which concerns `n_elements` elements, on a thread of the current pool; small work on the calling thread. From outside
+/// the pool, each parallel loop would have to be handed in and waited for.
 pub(crate) fn in_pool<R: Send>(n_elements: usize, work: impl FnOnce() -> R + Send) -> R {
     if n_elements < MIN_ELEMENTS {
         return work();

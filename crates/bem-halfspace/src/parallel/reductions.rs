@@ -2,12 +2,14 @@
 
 use numerics::transforms::Real;
 
-/// Number of accumulators of a reduction; the order of its terms, and so its rounding, depends on it.
+/// Number of accumulators of a reduction. Chosen, so that an operation need not wait for the one before; another value changes sums by
+/// rounding.
 const ACCUMULATORS: usize = 8;
 
-/// Reduces `start` and `term(values)` for all indices of vectors of equal length by the operation `pick`.
+/// Reduction of `term(values)` over all indices of N vectors of equal length by the associative operation `pick`, a sum or an extreme.
 ///
-/// The order, and with it the rounding of a sum, depends on the length alone. `start` must be neutral.
+/// `start` must be the neutral element of `pick`. The order of the operations, and with it the rounding of a sum, depends on the length
+/// alone.
 pub(crate) fn reduce<const N: usize, T: Copy>(
     lists: [&[T]; N],
     start: T,
@@ -28,7 +30,7 @@ pub(crate) fn reduce<const N: usize, T: Copy>(
     accumulators.into_iter().chain(rest).fold(start, pick)
 }
 
-/// Sum of `term(values)` over all indices of vectors of equal length.
+/// Sum of `term(values)` over all indices of N vectors of equal length, in the order of [`reduce`].
 pub(crate) fn sum<const N: usize, T: Real>(lists: [&[T]; N], term: impl Fn([T; N]) -> T) -> T {
     reduce(lists, T::default(), term, |sum, term| sum + term)
 }
@@ -38,12 +40,12 @@ pub(crate) fn larger(left: f64, right: f64) -> f64 {
     if left > right { left } else { right }
 }
 
-/// Minimum of two numbers; `left` if `right` is NaN.
+/// Minimum of two numbers; `left` if `right` is NaN. Faster than `f64::min`.
 pub(crate) fn smaller(left: f64, right: f64) -> f64 {
     if right < left { right } else { left }
 }
 
-/// Scalar product, summed in the order of the vectors.
+/// Scalar product of two vectors, summed in their order.
 pub(crate) fn dot(left: &[f64], right: &[f64]) -> f64 {
     let pairs = left.iter().zip(right);
     pairs.map(|(left, right)| left * right).sum()

@@ -1,4 +1,6 @@
 //! Division of a grid into blocks of rows, which are processed in parallel with results that do not depend on the threads.
+//!
+//! A *coarse block* is a square of 2, 4 or 8 by as many elements, an element of a coarser grid; row blocks never divide one.
 
 use std::ops::Range;
 
@@ -9,13 +11,13 @@ use crate::parallel::chunks::{Chunked, MIN_ELEMENTS, Starts, fold_chunks};
 pub(crate) struct RowBlocks {
     /// Rows and columns of the grid.
     shape: [usize; 2],
-    /// A multiple of [`MAX_COARSE_BLOCK`](Self::MAX_COARSE_BLOCK).
+    /// Number of rows of a row block, except the last: a multiple of [`MAX_COARSE_BLOCK`](Self::MAX_COARSE_BLOCK).
     rows_per_block: usize,
 }
 
 impl RowBlocks {
-    /// Largest edge, in elements, of the square coarse blocks that must not be divided among row blocks; edges of a half, a quarter
-    /// and so on of it are safe too.
+    /// Largest edge, in elements, of coarse blocks that no row block divides. Chosen: the multilevel correction of contacts begins with
+    /// blocks of this size.
     pub(crate) const MAX_COARSE_BLOCK: usize = 8;
 
     /// Row blocks of at least [`MIN_ELEMENTS`] elements each, except the last, for a grid of `shape`.
@@ -27,7 +29,7 @@ impl RowBlocks {
         }
     }
 
-    /// Division of a field with one value per coarse block of `edge` by `edge` elements.
+    /// Division at the row blocks of a row-major field with one value per coarse block of `edge` by `edge` elements.
     pub(crate) const fn starts_of_coarse_blocks(&self, edge: usize) -> Starts<'static> {
         Starts::Every(self.rows_per_block / edge * self.shape[1].div_ceil(edge))
     }
@@ -49,9 +51,9 @@ impl RowBlocks {
         rows.start * self.shape[1]..rows.end * self.shape[1]
     }
 
-    /// Calls `work(block, parts)` for each row block with its parts of the fields, and combines the results pairwise.
+    /// Calls `work(block, parts)` for each row block with its parts of the fields, in parallel, and combines the results pairwise.
     ///
-    /// Fields may be divided in different ways.
+    /// Each field comes with its own division at the row blocks.
     pub(crate) fn fold<const N: usize, T: Send, R: Send>(
         &self,
         fields: Chunked<T, N>,
@@ -61,7 +63,7 @@ impl RowBlocks {
         fold_chunks(0..self.n_blocks(), fields, &work, &combine)
     }
 
-    /// Calls `work(block, parts)` for each row block with its parts of fields that may be divided in different ways.
+    /// Calls `work(block, parts)` for each row block, in parallel, with its parts of fields that each have their own division.
     pub(crate) fn for_each_part<const N: usize, T: Send>(
         &self,
         fields: Chunked<T, N>,
@@ -70,7 +72,7 @@ impl RowBlocks {
         self.fold(fields, work, |(), ()| ());
     }
 
-    /// Calls `work(block, parts)` for each row block with its parts of fields that have one value per element.
+    /// Calls `work(block, parts)` for each row block, in parallel, with its parts of fields that have one value per element.
     pub(crate) fn for_each<const N: usize, T: Send>(
         &self,
         fields: [&mut [T]; N],
@@ -82,7 +84,7 @@ impl RowBlocks {
         );
     }
 
-    /// Results of `work(block)` for all row blocks, combined pairwise.
+    /// Calls `work(block)` for each row block, in parallel, and combines the results pairwise.
     pub(crate) fn gather<R: Send>(
         &self,
         work: impl Fn(usize) -> R + Sync,

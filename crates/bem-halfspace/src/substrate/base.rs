@@ -6,6 +6,8 @@
 //! û = 2 p̂ M(|q|t) / (|q| E*)        with M = 1 on a half space.
 //! ```
 //!
+//! t is the thickness of the layer at the surface, E* the plane-strain modulus of its material and M the *compliance ratio*.
+//!
 //! Every half-space method therefore holds on another substrate when the potential 1/r of a point is replaced by
 //!
 //! ```text
@@ -38,10 +40,12 @@ pub trait Elastomer {
 }
 
 impl<M: Material + ?Sized> Elastomer for M {
+    /// The material itself.
     fn material(&self) -> Box<dyn Material + '_> {
         Box::new(self)
     }
 
+    /// A half space of the same material.
     fn base(&self) -> Base {
         Base::default()
     }
@@ -60,7 +64,8 @@ pub trait Substrate: Debug + Send + Sync {
     /// space of its material. It must tend to 1 for short waves like s² e^(−2s) or faster.
     fn compliance_ratio(&self, s: f64, poisson_ratio: f64) -> f64;
 
-    /// Excess M(s) − 1 of the compliance ratio. Implement it if the default, a difference, cancels and displacements are wanted to better than 1e-12.
+    /// Excess M(s) − 1 of the compliance ratio. Implement it if the default, a difference, cancels and displacements are wanted to
+    /// better than 1e-12.
     fn compliance_excess(&self, s: f64, poisson_ratio: f64) -> f64 {
         self.compliance_ratio(s, poisson_ratio) - 1.0
     }
@@ -80,7 +85,7 @@ pub trait Substrate: Debug + Send + Sync {
 
 /// Base of the material at the surface: a half space of the same material, which is the default, or a [`Substrate`].
 ///
-/// The table of the substrate's potential is computed at first use and shared by all clones.
+/// Lengths are in \[m]. The table of the substrate's potential is computed at first use and shared by all clones.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Base(Option<LayeredBase>);
 
@@ -105,6 +110,7 @@ struct TabulatedSubstrate {
 }
 
 impl PartialEq for LayeredBase {
+    /// True for the same thickness and the same substrate in memory: clones are equal, and substrates made alike are not.
     fn eq(&self, other: &Self) -> bool {
         let has_equal_thickness = self.thickness.total_cmp(&other.thickness).is_eq();
         has_equal_thickness && Arc::ptr_eq(&self.shared, &other.shared)
@@ -112,7 +118,7 @@ impl PartialEq for LayeredBase {
 }
 
 impl LayeredBase {
-    /// Compliance ratio M(s) to a wave of the wave number s/t.
+    /// Compliance ratio M(s) to a pressure wave of the wave number s/t, for the thickness t.
     fn compliance_ratio(&self, s: f64) -> f64 {
         self.shared
             .substrate
@@ -220,8 +226,8 @@ impl Base {
         })
     }
 
-    /// Like [`stiffness`](Self::stiffness), with wave numbers below 2/t replaced by 2/t: to longer waves an incompressible layer is stiff
-    /// because it must be squeezed aside, which depends on the load around.
+    /// Like [`stiffness`](Self::stiffness), with wave numbers below 2/t replaced by 2/t: to longer waves an incompressible layer is
+    /// stiff because it must be squeezed aside, which depends on the load around.
     pub(crate) fn local_stiffness(&self, wave_number: f64) -> f64 {
         let longest = self
             .0
@@ -237,21 +243,23 @@ impl Base {
         mean.filter(|mean| mean.is_finite()).unwrap_or(0.0)
     }
 
-    /// Estimated compliance ratio M under a load of about the given length, which has the unit of the thickness.
+    /// Estimated compliance ratio M under a load of about the given `length`, which has the unit of the thickness: M at the wave number
+    /// 4/(π length).
     pub(crate) fn compliance_ratio_under_punch(&self, length: f64) -> f64 {
-        // q = 4/(π length): at this q a Winkler foundation has the ratio of a flat punch of the radius `length`.
+        // At this wave number a Winkler foundation has the ratio of a flat punch of the radius `length`.
         let wave_number = FRAC_PI_4.recip() / length;
         wave_number / self.stiffness(wave_number)
     }
 
-    /// Factor on the height up to which a body h ∼ r^p may be touched, relative to a half space; p is the `exponent`.
+    /// Largest height of a body h ∼ r^p that may be in contact, over that on a half space; p is the `exponent`.
     ///
-    /// A thin, nearly incompressible layer piles up around the contact. If it is incompressible and thin compared with the contact
-    /// of the given half length, it meets the body up to the height (1 + p/2) d.
+    /// A thin, nearly incompressible layer piles up around the contact. If it is incompressible and thin compared with the contact,
+    /// it meets the body up to the height (1 + p/2) d at the depth d. `half_length` is half the length of the contact without
+    /// pile-up, in the unit of the thickness.
     pub(crate) fn pile_up_factor(&self, half_length: f64, exponent: f64) -> f64 {
         self.0.as_ref().map_or(1.0, |layered| {
             let slenderness = (half_length / layered.thickness / THIN_LAYER_RATIO).min(1.0);
-            // Weight of the compressible limit, from 0 at ν = 0.5 to 1 at ν ≤ 0.4.
+            // Weight of the compressible limit without pile-up, from 0 at ν = 0.5 to 1 at ν ≤ 0.4; chosen.
             let compressibility = (10.0 * (0.5 - layered.shared.poisson_ratio)).clamp(0.0, 1.0);
             1.0 + slenderness * (PILE_UP_MARGIN + 0.5 * exponent * (1.0 - compressibility))
         })
@@ -303,16 +311,17 @@ impl Base {
     }
 }
 
-/// Largest edge of an element over the thickness of the layer; a thinner layer is a Winkler foundation or, where it is
-/// incompressible, a film.
+/// Largest edge of an element over the thickness of the layer, a limit of the validity: a thinner layer acts as a Winkler
+/// foundation or, if it is incompressible, as a film.
 pub(crate) const MAX_EDGE_OVER_THICKNESS: f64 = 32.0;
-/// Half length of the contact over the thickness from which a layer counts as thin in [`Base::pile_up_factor`]. Measured by
+/// Half length of the contact over the thickness from which on a layer piles up fully in [`Base::pile_up_factor`]. Measured by
 /// `evidence tuning`.
 const THIN_LAYER_RATIO: f64 = 5.0;
 /// Margin that [`Base::pile_up_factor`] adds on a thin layer beyond the pile-up itself, as a fraction of the height. Measured by
 /// `evidence tuning`.
 const PILE_UP_MARGIN: f64 = 0.2;
-/// Distance from ρ = 0 to the nearest singularities of c(ρ), which lie on the imaginary axis: from 1 − M ∼ s² e^(−2s).
+/// Distance from ρ = 0 to the nearest singularities ρ = ±2i of c(ρ). Derived from 1 − M ∼ s² e^(−2s), whose transform with J₀(sρ) is
+/// analytic for |Im ρ| < 2.
 pub(super) const SINGULARITY_DISTANCE: f64 = 2.0;
 
 #[cfg(test)]

@@ -4,6 +4,9 @@
 //! c(ρ) = ∫_0^∞ [M(s) − 1] J₀(sρ) ds
 //! ```
 //!
+//! ρ is the distance from the point load in thicknesses t, s/t the wave number and M the compliance ratio of the substrate. The
+//! potential is 1/r + c(r/t)/t.
+//!
 //! Near the load the integral is computed by quadrature as it stands. Far from the load only the longest waves count. With
 //! u = sρ and any n
 //!
@@ -22,38 +25,43 @@ use numerics::{LobattoRule, lobatto_rule, whole_part};
 use crate::Substrate;
 use crate::substrate::base::SINGULARITY_DISTANCE;
 
-/// Influence radius of a load on a layer on a rigid base, in thicknesses: 1/ρ + c(ρ) is below 1e-15 beyond. On other substrates
-/// c is computed from long waves beyond it.
+/// Influence radius of a load on a layer on a rigid base, in thicknesses: 1/ρ + c(ρ), which decays exponentially, is below 1e-15
+/// beyond. On other substrates c is computed from long waves beyond it.
 pub(super) const RIGID_BASE_INFLUENCE_RADIUS: f64 = 44.0;
-/// Upper limit of the integral over s: on a layer on a rigid base 1 − M is below 1e-15 beyond.
+/// Upper limit of the integral over s, without unit: on a layer on a rigid base 1 − M ∼ s² e^(−2s) is below 1e-15 beyond.
 pub(super) const MAX_WAVE_NUMBER: f64 = 24.0;
-/// Panels of the integral over s from 0 to [`MAX_WAVE_NUMBER`]; with [`POINTS_PER_WAVE_PANEL`] each they resolve J₀(sρ) up to
-/// the influence radius.
+/// Number of panels of the integral over s from 0 to [`MAX_WAVE_NUMBER`]. With [`POINTS_PER_WAVE_PANEL`] points each they resolve
+/// J₀(sρ) up to the influence radius.
 const NEAR_WAVE_PANELS: u8 = 8;
-/// Lobatto points per panel of the integrals over the wave numbers s and u = sρ.
+/// Number of Lobatto points per panel of the integrals over s and u = sρ. A panel has up to 21 waves of J₀(sρ), with more than four
+/// points each.
 const POINTS_PER_WAVE_PANEL: usize = 96;
-/// Length of a long panel of ρ over the distance |ρ ± 2i| from its start to the singularities of c.
+/// Length of a long panel of ρ over the distance |ρ ± 2i| from its start to the singularities of c. Chosen together with
+/// [`LONG_PANEL_TERMS`], whose number decides the error.
 const PANEL_OVER_SINGULARITY_DISTANCE: f64 = 0.5;
-/// Polynomial coefficients on a long panel, with which the correction c(ρ) has an error of 1e-12.
+/// Number of polynomial coefficients on a long panel, with which the correction c(ρ) has an error of 1e-12.
 const LONG_PANEL_TERMS: usize = 16;
-/// Length of the short panels of ρ below the influence radius, in thicknesses; a power of two.
+/// Length of the short panels of ρ below the influence radius, in thicknesses; a power of two, so that a panel is found by an exact
+/// division. Chosen together with [`SHORT_PANEL_TERMS`].
 const SHORT_PANEL_LENGTH: f64 = 0.0625;
-/// Polynomial coefficients on a short panel, with which c has an error of 1e-12.
+/// Number of polynomial coefficients on a short panel, with which the correction c(ρ) has an error of 1e-12.
 const SHORT_PANEL_TERMS: usize = 6;
 
 /// End of the table, in thicknesses: the remainder of c beyond [M(0) − 1]/ρ falls like ρ^−3 and is below rounding from here on.
 const TABLE_END: f64 = 1e5;
-/// A, the width of the window exp(−(u/A)^n): with it the term O(A^−n ρ^−3) and the transform of the window are below 1e-12.
+/// Width A of the window exp(−(u/A)^n) in the integral over u: with it the term O(A^−n ρ^−3) and the transform of the window are below
+/// 1e-12.
 const WINDOW_WAVE_NUMBER: f64 = 120.0;
-/// n, the power in the window exp(−(u/A)^n).
+/// Power n of the window exp(−(u/A)^n) in the integral over u; chosen together with [`WINDOW_WAVE_NUMBER`].
 const WINDOW_POWER: i32 = 6;
-/// Panels of the integral over u from 0 to [`FAR_MAX_WAVE_NUMBER`], of [`POINTS_PER_WAVE_PANEL`] points each.
+/// Number of panels of the integral over u from 0 to [`FAR_MAX_WAVE_NUMBER`]. With [`POINTS_PER_WAVE_PANEL`] points each, a wave of
+/// J₀(u) has more than twenty.
 const FAR_WAVE_PANELS: u8 = 9;
-/// Upper limit of the integral over u, beyond which the window is below rounding.
+/// Upper limit of the integral over u, beyond which the window exp(−(u/A)^n) is below rounding: (220/120)^6 = 38.
 const FAR_MAX_WAVE_NUMBER: f64 = 220.0;
 
-/// Correction c(ρ) as piecewise polynomials: short panels of equal length up to the influence radius of a rigid base, then panels that grow
-/// with ρ, and the limit [M(0) − 1]/ρ beyond.
+/// Correction c(ρ) as piecewise polynomials: short panels of equal length up to the influence radius of a rigid base, then panels
+/// that grow with ρ, and the limit [M(0) − 1]/ρ beyond.
 #[derive(Debug)]
 pub(super) struct Correction {
     /// Panels of c(ρ) up to the influence radius of a rigid base.
@@ -65,7 +73,7 @@ pub(super) struct Correction {
 }
 
 impl Correction {
-    /// Tabulates c for a substrate and a Poisson ratio.
+    /// Tabulates c(ρ) for a substrate under a material with a Poisson ratio.
     pub(super) fn new(substrate: &dyn Substrate, poisson_ratio: f64) -> Self {
         // Quadrature of the integral over s.
         let waves: Vec<[f64; 2]> = wave_rule(NEAR_WAVE_PANELS, MAX_WAVE_NUMBER)
@@ -95,7 +103,7 @@ impl Correction {
         }
     }
 
-    /// The correction c at ρ, a distance in thicknesses.
+    /// The correction c(ρ) at a distance `rho` ≥ 0 in thicknesses, without unit.
     pub(super) fn value(&self, rho: f64) -> f64 {
         if let Some(panel) = self.near.get(whole_part(rho / SHORT_PANEL_LENGTH)) {
             return panel.value(rho);
@@ -129,7 +137,7 @@ fn far_panels(substrate: &dyn Substrate, poisson_ratio: f64) -> Vec<Panel<LONG_P
     })
 }
 
-/// Points and weights [s, w] of a composite Lobatto rule on [0, `end`].
+/// Points and weights [s, w] of a composite Lobatto rule on [0, `end`], with panels of equal length.
 fn wave_rule(panels: u8, end: f64) -> impl Iterator<Item = [f64; 2]> {
     let LobattoRule { nodes, weights } = lobatto_rule(POINTS_PER_WAVE_PANEL);
     let half = 0.5 * end / f64::from(panels);
@@ -140,7 +148,7 @@ fn wave_rule(panels: u8, end: f64) -> impl Iterator<Item = [f64; 2]> {
     })
 }
 
-/// Consecutive panels from `start` to at least `end`, whose lengths grow with the distance to the singularities of c.
+/// Consecutive panels of `function(ρ)` from `start` to at least `end`, whose lengths grow with the distance to the singularities of c.
 fn growing_panels(
     [mut start, end]: [f64; 2],
     function: impl Fn(f64) -> f64,
@@ -159,7 +167,7 @@ fn growing_panels(
 struct Panel<const N: usize> {
     /// Start of the interval, in thicknesses.
     start: f64,
-    /// 2 over the length of the interval.
+    /// Factor 2/length from ρ to x; see `coefficients`.
     scale: f64,
     /// Coefficients of the powers of x, the distance from the middle in half lengths, in increasing order.
     coefficients: [f64; N],

@@ -9,7 +9,7 @@
 use crate::substrate::rectangle::{PlaneKernel, distance, integrate, product_asinh};
 
 /// Distance from the centre, in units of the longer edge, beyond which monopole and multipoles of the orders 2 and 4 are exact
-/// to rounding: the next multipole is below 0.02 r⁻⁶ of the whole.
+/// to rounding. Derived: the next multipole is below 0.02 r⁻⁶ of the whole.
 const MULTIPOLE_DISTANCE: f64 = 256.0;
 
 /// Integral of 1/r over a rectangle, \[m].
@@ -29,8 +29,8 @@ pub fn influence(offset: [f64; 2], edges: [f64; 2]) -> f64 {
     unit * integrate::<Reciprocal>(offset, edges)
 }
 
-/// Multipole expansion of K up to order 4, from the means over the rectangle of the Legendre polynomials of the angle between
-/// field point and source point.
+/// Multipole expansion of K up to order 4 at the offset [x, y] from the centre of a rectangle with the edges [a, b], all in units
+/// of one length. Its terms are means over the rectangle of Legendre polynomials of the angle between field point and source point.
 fn multipoles([x, y]: [f64; 2], [a, b]: [f64; 2]) -> f64 {
     let square = x * x + y * y;
     // Squares of the direction cosines, and mean moments of the rectangle of the orders 2 and 4.
@@ -45,22 +45,26 @@ fn multipoles([x, y]: [f64; 2], [a, b]: [f64; 2]) -> f64 {
     a * b / square.sqrt() * (1.0 + correction)
 }
 
-/// The kernel 1/r.
+/// The kernel 1/r of the half space, with its integrals in closed form (Love 1929).
 struct Reciprocal;
 
 impl PlaneKernel for Reciprocal {
+    /// 1/√(x² + y²).
     fn value(x: f64, y: f64) -> f64 {
         1.0 / distance(x, y)
     }
 
+    /// ∫ dx'/r over the edge `a` around x.
     fn strip_along_x(x: f64, a: f64, y: f64) -> f64 {
         strip(x, a, y)
     }
 
+    /// ∫ dy'/r over the edge `b` around y.
     fn strip_along_y(x: f64, y: f64, b: f64) -> f64 {
         strip(y, b, x)
     }
 
+    /// Double antiderivative x asinh(y/|x|) + y asinh(x/|y|) of 1/r.
     fn corner(x: f64, y: f64) -> f64 {
         product_asinh(x, y) + product_asinh(y, x)
     }

@@ -52,10 +52,12 @@ impl<'a, M: Material + ?Sized> Layer<'a, M> {
 }
 
 impl<M: Material + ?Sized> Elastomer for Layer<'_, M> {
+    /// The material of the layer.
     fn material(&self) -> Box<dyn Material + '_> {
         Box::new(self.material)
     }
 
+    /// The substrate under the layer, with its thickness.
     fn base(&self) -> Base {
         self.base.clone()
     }
@@ -69,22 +71,27 @@ struct RigidBase {
 }
 
 impl Substrate for RigidBase {
+    /// Thickness of the layer, \[m].
     fn thickness(&self) -> f64 {
         self.thickness
     }
 
+    /// M(s) of a layer that is bonded to a rigid base and free of friction above.
     fn compliance_ratio(&self, s: f64, poisson_ratio: f64) -> f64 {
         layer_factor(s, poisson_ratio)
     }
 
+    /// M(s) − 1 without cancellation.
     fn compliance_excess(&self, s: f64, poisson_ratio: f64) -> f64 {
         -layer_deficit(s, poisson_ratio)
     }
 
+    /// Uniaxial compression: the compliance t (1 − 2ν)/(2 G (1 − ν)) to uniform pressure, times E*/2 with E* = 2 G/(1 − ν).
     fn uniform_compliance(&self, thickness: f64, poisson_ratio: f64) -> f64 {
         0.5 * thickness * (1.0 - 2.0 * poisson_ratio) / (1.0 - poisson_ratio).powi(2)
     }
 
+    /// Influence radius in thicknesses, beyond which displacements are below rounding.
     fn influence_radius(&self) -> f64 {
         RIGID_BASE_INFLUENCE_RADIUS
     }

@@ -1,13 +1,13 @@
 //! Distribution of a stationary, sliding pressure over the frequencies at which it strains the material.
 //!
 //! At a velocity v along x, the pressure wave of the wave vector q and the amplitude p̂ oscillates in the material at ω = |q_x| v.
-//! With J'' the loss compliance and M(|q|t) the stiffness of a layer of thickness t relative to a half space, the dissipated power is
+//! With J'' the loss compliance and M(|q|t) the compliance ratio of a layer of thickness t, the dissipated power is
 //!
 //! ```text
 //! F_h v = Σ_q |p̂(q)|² M(|q|t)/|q| · ω J''(ω),        M = 1 on a half space.
 //! ```
 //!
-//! The functions return Σ |p̂|² M/|q| per band of frequencies.
+//! The functions return Σ |p̂|² M/|q| per band of frequencies, up to a common factor.
 
 use rheology::{Material as _, StressBand};
 use rustfft::num_complex::Complex;
@@ -16,8 +16,8 @@ use crate::transform::fast_length::fast_length;
 use crate::transform::plane_transform::{PlaneTransform, ZERO};
 use crate::{Elastomer, PressureField};
 
-/// Period along x and y over the contact's bounding box, in place of an unbounded surface. A factor of 2 is enough
-/// for the square of the transform. With 8 along x, bands are an eighth of the contact's own wave number wide, which
+/// Period along x and y that replaces the unbounded surface, over the edges of the contact's bounding box. A factor of 2 is enough
+/// for the square of the transform. Chosen: with 8 along x, bands are an eighth of the contact's own wave number wide, which
 /// is the resolution of the dissipation over frequency.
 const PERIOD_OVER_CONTACT: [usize; 2] = [8, 4];
 
@@ -76,7 +76,8 @@ impl PressureField {
         [0, 1].map(|axis| std::f64::consts::TAU / (period[axis] as f64 * spacing[axis]))
     }
 
-    /// Sums Σ |p̂|² M/|q| over all waves along y, for the wave numbers 0, 1, 2, … along x of a period in elements.
+    /// Sums Σ |p̂|² M/|q| over all waves along y, one for each wave number 0, 1, 2, … along x, in units of the longest wave, of a
+    /// period given in elements.
     fn dissipation_weights(&self, period: [usize; 2], elastomer: &dyn Elastomer) -> Vec<f64> {
         let [rows, columns] = self.grid.shape();
         // Transform the rows of the contact, padded with zeros.
@@ -114,7 +115,8 @@ impl PressureField {
         squares
     }
 
-    /// Compliance M/|q| as a function of the wave numbers along x and y; for the zero wave with the mean of 1/|q| over its cell.
+    /// Compliance M/|q| \[m] as a function of the wave numbers along x and y, in units of the longest waves. At q = 0 the mean of 1/|q|
+    /// over the cell of the wave replaces 1/|q|.
     fn compliance(
         &self,
         period: [usize; 2],

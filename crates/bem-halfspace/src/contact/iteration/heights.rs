@@ -26,6 +26,7 @@ impl Heights {
         inside: [&[f64]; 2],
         depth: f64,
     ) -> Self {
+        // The minimum over the elements between the runs, and the sum over the runs.
         let first = active.row_blocks.elements(row_block).start;
         let height = |[separation, displacement]: [f64; 2]| separation + displacement;
         let lowest_in = |gap: Range<usize>| {

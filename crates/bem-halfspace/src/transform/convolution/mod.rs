@@ -4,7 +4,8 @@
 //! (K P)_ij = Σ K(x_i − x_k, y_j − y_l) P_kl
 //! ```
 //!
-//! The kernel is even along both axes, so its spectrum is real and one quarter of it is stored.
+//! K(x, y) \[m] is the displacement at the offset (x, y) from an element under unit pressure, times 4π over the compliance
+//! ([`influence`](crate::influence)). The kernel is even along both axes, so its spectrum is real and one quarter of it is stored.
 //!
 //! Theory: docs/theory/transient-half-space.md, "Elements and steps"; mirrors: docs/theory/contact.md, "Mirrors".
 
@@ -37,14 +38,14 @@ pub struct Convolution {
     pub(crate) mirrors: [Mirror; 2],
     /// Boundary conditions of the grid.
     pub(crate) surroundings: Surroundings,
-    /// Base under the elements, with lengths in the unit of the grid.
+    /// Base of the material under the elements, with lengths in the unit of the grid.
     pub(crate) base: Base,
     /// Plans of the Fourier transforms over the padded period.
     transform: PlaneTransform,
     /// Real spectrum of the kernel over the whole period, [column][0..=padded_x / 2], times the normalisation of the transforms.
     /// A `Vec`, because an `Arc` of a slice would have to be copied into.
     spectrum: Arc<Vec<f64>>,
-    /// Diagonal coefficient of K: displacement of an element by its own unit pressure, in the unit of the grid.
+    /// Diagonal coefficient of K, the displacement of an element under its own unit load, in the unit of the grid's spacing.
     pub(crate) self_influence: f64,
 }
 
@@ -52,7 +53,7 @@ pub struct Convolution {
 #[derive(Debug, Clone)]
 pub struct ConvolutionWorkspace(Workspace);
 
-/// Row ranges of a grid to which a product is limited.
+/// Row ranges of a grid to which a product K P is limited.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Rows {
     /// Rows that may have a pressure.
@@ -75,7 +76,7 @@ impl Convolution {
         Self::new_free(grid, elastomer.base())
     }
 
-    /// Convolution on a base without load outside the grid.
+    /// Convolution on a base without load outside the grid; grid and base have the same unit of length.
     pub(crate) fn new_free(grid: &Grid, base: Base) -> Self {
         let padded = grid.shape().map(|n| fast_length(2 * n - 1));
         let mut convolution = Self::with_plans(grid, Surroundings::Free, base, padded);
@@ -98,7 +99,7 @@ impl Convolution {
         Self::new_periodic(grid, elastomer.base())
     }
 
-    /// Convolution on a base under a periodic load.
+    /// Convolution on a base under a periodic load; grid and base have the same unit of length.
     fn new_periodic(grid: &Grid, base: Base) -> Self {
         let mut convolution = Self::with_plans(grid, Surroundings::Periodic, base, grid.shape());
         convolution.spectrum = Arc::new(convolution.periodic_spectrum());
@@ -106,9 +107,10 @@ impl Convolution {
         convolution
     }
 
-    /// A periodic convolution on the blocks of two by two elements with the `symbol` as a function of the wave vector \[rad/m].
+    /// A periodic convolution on the blocks of two by two elements that multiplies the wave of the wave vector q \[rad/m] by
+    /// `symbol(q)`.
     ///
-    /// The mean has the symbol of the longest wave; negative symbols count as zero.
+    /// The mean is multiplied by the symbol of the longest wave. Negative symbols are replaced by zero.
     pub(crate) fn on_blocks(&self, symbol: impl Fn([f64; 2]) -> f64 + Sync) -> Self {
         let mirrors = self.mirrors.map(Mirror::of_blocks);
         let blocks = self.grid.blocks().unfolded(mirrors);

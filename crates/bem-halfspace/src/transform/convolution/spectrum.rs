@@ -1,4 +1,7 @@
-//! Spectra of the influence coefficients.
+//! Spectra of the influence coefficients: the factors by which a product K P multiplies the waves of P.
+//!
+//! A spectrum has the layout [column][row], with the wave numbers 0, 1, 2 … along y for columns and 0 … n_x/2 along x for rows, in
+//! units of the longest waves. The other wave vectors follow by symmetry.
 
 use std::f64::consts::PI;
 
@@ -9,8 +12,8 @@ use crate::parallel::row_blocks::{copies, for_each_row};
 use crate::transform::plane_transform::ZERO;
 
 impl Convolution {
-    /// Samples a symbol, a function of the wave vector \[rad/m], at the discrete wave vectors of the period. The layout is that of the
-    /// spectrum of a [`Convolution`].
+    /// Spectrum of a `symbol`, a function of the wave vector \[rad/m], at the discrete wave vectors of the period, times the
+    /// normalisation of the transforms.
     fn spectrum_of(&self, symbol: impl Fn([f64; 2]) -> f64 + Sync) -> Vec<f64> {
         let [unit_x, unit_y] = self.wave_numbers();
         let normalisation = self.transform.normalisation();
@@ -25,13 +28,14 @@ impl Convolution {
         spectrum
     }
 
-    /// Wave numbers of the longest waves of the period along x and y, \[rad/m].
+    /// Wave numbers of the longest waves of the period along x and y, \[rad/m]; all others are multiples of them.
     fn wave_numbers(&self) -> [f64; 2] {
         [0, 1]
             .map(|axis| 2.0 * PI / (self.transform.padded[axis] as f64 * self.grid.spacing()[axis]))
     }
 
-    /// Spectrum 2π M(|q|t)/|q| of a periodic load on a layer of thickness t; zero for the mean on a base that is not rigid.
+    /// Spectrum 2π M(|q|t)/|q| of a periodic load on a layer of thickness t, with M = 1 on a half space. The mean has the compliance to
+    /// uniform pressure on a rigid base, and zero on others.
     pub(super) fn periodic_spectrum(&self) -> Vec<f64> {
         self.spectrum_of(|[q_x, q_y]| {
             let q = q_x.hypot(q_y);
@@ -58,7 +62,7 @@ impl Convolution {
         })
     }
 
-    /// Value of the kernel at the origin: the sum of its spectrum over the whole period.
+    /// Value of the kernel at the origin, the self-influence: the sum of its spectrum over the whole period.
     pub(super) fn sum_of_spectrum(&self) -> f64 {
         let length = self.transform.padded[0] / 2 + 1;
         let [twice_x, twice_y] = self.transform.padded.map(|n| n.div_ceil(2));
@@ -93,7 +97,8 @@ impl Convolution {
         spectrum
     }
 
-    /// Column number `column` of the row-transformed kernel as real parts, and the next one, or zero, as imaginary parts.
+    /// Columns number `column` and `column + 1` of the row-transformed kernel over the period, as real and imaginary parts; zero for a
+    /// column beyond the last. `rows` has the layout of [`transformed_kernel_rows`](Self::transformed_kernel_rows).
     fn kernel_columns(&self, rows: &[f64], column: usize) -> Vec<Complex<f64>> {
         let period = self.transform.padded[0];
         let mut values = vec![ZERO; period];
@@ -106,7 +111,7 @@ impl Convolution {
         values
     }
 
-    /// Splits a transformed pair of columns into the `spectrum` of both, with the normalisation.
+    /// Splits a transformed pair of columns into the spectra of both, one after the other in `spectrum`, times the normalisation.
     fn separate_columns(&self, values: &[Complex<f64>], spectrum: &mut [f64]) {
         let normalisation = self.transform.normalisation();
         let (first, second) = spectrum.split_at_mut(self.transform.padded[0] / 2 + 1);
@@ -118,7 +123,7 @@ impl Convolution {
         }
     }
 
-    /// Transforms of the kernel along y, [offset along x][column]; real, because the kernel is even.
+    /// Fourier transforms of the kernel along y, with the layout [offset along x][column]; real, because the kernel is even.
     fn transformed_kernel_rows(&self) -> Vec<f64> {
         let n_columns = self.transform.n_columns();
         let mut rows = copies(0.0, self.grid.shape()[0] * n_columns);
@@ -133,7 +138,7 @@ impl Convolution {
         rows
     }
 
-    /// Influence coefficients at the offset of `row` elements along x, over the period along y.
+    /// Influence coefficients at the offset of `row` elements along x and all offsets of the period along y.
     fn kernel_row(&self, row: usize) -> Vec<f64> {
         // Even along y: each offset stands for its negative too, at the end of the period.
         let [dx, dy] = self.grid.spacing();

@@ -29,7 +29,8 @@ use rustfft::num_complex::Complex;
 use crate::transform::plane_transform::real_rows::forward_real;
 use crate::transform::plane_transform::workspace::Buffers;
 
-/// Largest L for which L numbers are transformed instead of the period of 2 L; bounded by rounding, see above.
+/// Largest L for which L numbers are transformed instead of the period of 2 L. Chosen: the rounding error grows like L (head of this
+/// file); longer periods are transformed as a whole, which takes about twice as long.
 const MAX_FOLDED_LENGTH: usize = 512;
 
 /// Plan of the sums F_k of real numbers f_n.
@@ -42,7 +43,7 @@ pub(super) struct CosineTransform<T> {
 }
 
 impl<T: Real> CosineTransform<T> {
-    /// Plan for L = `length`.
+    /// Plan for values f_0 … f_L with L = `length`.
     pub(super) fn new(length: usize) -> Self {
         let sine = |n| T::rounded((PI * n as f64 / length as f64).sin());
         if length > MAX_FOLDED_LENGTH {
@@ -89,8 +90,9 @@ impl<T: Real> CosineTransform<T> {
     }
 }
 
-/// Computes y_0 … y_(L−1) from f_0 … f_L.
+/// Computes y_0 … y_(L−1) from f_0 … f_L (head of this file).
 fn fold<T: Real>(sines: &[T], numbers: &[T], folded: &mut [T]) {
+    // The pair n and L − n has one sum and one difference; n = L/2 is its own partner.
     let length = folded.len();
     for (n, &sine) in sines.iter().enumerate() {
         let [near, far] = [numbers[n], numbers[length - n]];
@@ -102,7 +104,7 @@ fn fold<T: Real>(sines: &[T], numbers: &[T], folded: &mut [T]) {
     }
 }
 
-/// Computes F_0 … F_L from Y_0 … Y_(L/2) and the `mean` of the F_k with odd k.
+/// Computes F_0 … F_L from Y_0 … Y_(L/2) and the `mean` of the F_k with odd k (head of this file).
 fn separate<T: Real>(coefficients: &[Complex<T>], mean: T, numbers: &mut [T]) {
     // Even sums directly, odd ones by cumulative differences up to a constant.
     let (mut odd, mut total) = (T::default(), T::default());
@@ -126,7 +128,7 @@ fn separate<T: Real>(coefficients: &[Complex<T>], mean: T, numbers: &mut [T]) {
     }
 }
 
-/// Extends f_0 … f_L by its mirror image to the whole period.
+/// Extends f_0 … f_L by its mirror image f_(L−1) … f_1 to the whole period of 2 L values.
 pub(super) fn unfold<T: Copy>(numbers: &[T], period: &mut [T]) {
     period[..numbers.len()].copy_from_slice(numbers);
     let images = numbers[1..].iter().rev().skip(1);

@@ -21,7 +21,7 @@ use rustfft::num_complex::Complex;
 
 use crate::transform::plane_transform::rounded;
 
-/// Twiddle factors w_k for k = 0 … L/2.
+/// Twiddle factors w_k = exp(−iπk/2L) for k = 0 … L/2, with L = `length`.
 pub(super) fn twiddles<T: Real>(length: usize) -> Vec<Complex<T>> {
     let twiddle = |k| {
         rounded(Complex::from_polar(
@@ -32,7 +32,7 @@ pub(super) fn twiddles<T: Real>(length: usize) -> Vec<Complex<T>> {
     (0..=length / 2).map(twiddle).collect()
 }
 
-/// Index of an element in the order x_0, x_2, x_4 … x_3, x_1 of the transform.
+/// Index of `element` in the order x_0, x_2, x_4 … x_3, x_1 of the transform, for L = `length`.
 pub(super) const fn ordered_index(element: usize, length: usize) -> usize {
     if element.is_multiple_of(2) {
         element / 2
@@ -41,7 +41,7 @@ pub(super) const fn ordered_index(element: usize, length: usize) -> usize {
     }
 }
 
-/// Writes `values`, padded with zeros, in the order of the transform.
+/// Writes `values` to `ordered` in the order of the transform, padded with zeros to its length L.
 pub(super) fn reorder<T: Real, F: Real>(values: &[F], ordered: &mut [T]) {
     ordered.fill(T::default());
     for (element, value) in values.iter().enumerate() {
@@ -49,14 +49,14 @@ pub(super) fn reorder<T: Real, F: Real>(values: &[F], ordered: &mut [T]) {
     }
 }
 
-/// Reads the first `values` from the order of the transform.
+/// Reads the first elements, as many as `values` has, from `ordered`, which is in the order of the transform.
 pub(super) fn restore_order<T: Real, F: Real>(ordered: &[T], values: &mut [F]) {
     for (element, value) in values.iter_mut().enumerate() {
         *value = F::rounded(ordered[ordered_index(element, ordered.len())].into());
     }
 }
 
-/// Computes U_0 … U_(L−1) of real x from V_0 … V_(L/2).
+/// Computes the real `numbers` U_0 … U_(L−1) of real x from `half` = V_0 … V_(L/2); V of real x is conjugate symmetric.
 pub(super) fn to_cosine_sums<T: Real>(
     twiddles: &[Complex<T>],
     half: &[Complex<T>],
@@ -72,7 +72,7 @@ pub(super) fn to_cosine_sums<T: Real>(
     }
 }
 
-/// Computes 2 V_0 … 2 V_(L/2) from real U_0 … U_(L−1).
+/// Computes `half` = 2 V_0 … 2 V_(L/2) from the real `numbers` U_0 … U_(L−1).
 pub(super) fn from_cosine_sums<T: Real>(
     twiddles: &[Complex<T>],
     numbers: &[T],

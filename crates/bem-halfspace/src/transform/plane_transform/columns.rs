@@ -23,8 +23,9 @@ pub(super) struct ColumnTransform<T> {
 }
 
 impl<T: Real> ColumnTransform<T> {
-    /// Plans for a period of `period` elements.
+    /// Plans for columns of a period of `period` elements.
     pub(super) fn new(period: usize, mirror: Mirror) -> Self {
+        // About a centre the whole period is transformed, about an edge half of it.
         let (length, twiddles) = match mirror {
             Mirror::None | Mirror::Centre => (period, Vec::new()),
             Mirror::Edge => (period / 2, about_edge::twiddles(period / 2)),
@@ -37,7 +38,7 @@ impl<T: Real> ColumnTransform<T> {
         }
     }
 
-    /// Number of elements of a column that are transformed.
+    /// Number of elements of a stored column: the period, or the part of it in front of a mirror.
     pub(super) fn len(&self) -> usize {
         match self.mirror {
             Mirror::None | Mirror::Edge => self.forward.len(),
@@ -45,7 +46,7 @@ impl<T: Real> ColumnTransform<T> {
         }
     }
 
-    /// Length of the scratch of both transforms.
+    /// Number of complex numbers of scratch that both transforms need.
     pub(super) fn scratch_len(&self) -> usize {
         let plans = [&self.forward, &self.inverse];
         let [forward, inverse] = plans.map(|plan| plan.get_inplace_scratch_len());
@@ -56,7 +57,7 @@ impl<T: Real> ColumnTransform<T> {
         period_len + forward.max(inverse)
     }
 
-    /// Position, within the stored column, of the element of a row: columns with a mirror on an edge are stored in another order.
+    /// Index in the stored column of the element of a row: columns with a mirror at an edge are stored in the order of [`about_edge`].
     pub(super) fn index_of_row(&self, row: usize) -> usize {
         match self.mirror {
             Mirror::None | Mirror::Centre => row,
@@ -64,9 +65,10 @@ impl<T: Real> ColumnTransform<T> {
         }
     }
 
-    /// Transforms a column in place.
+    /// Transforms a column in place, along x.
     pub(super) fn forward(&self, scratch: &mut [Complex<T>], column: &mut [Complex<T>]) {
         if self.mirror == Mirror::Centre {
+            // The half element in front of the mirror counts on both sides of it.
             column[0] *= T::rounded(2.0);
             return self.sum_of_period(scratch, column);
         }

@@ -1,4 +1,7 @@
 //! Products with the transform of a kernel that is even along both axes, and therefore real.
+//!
+//! With a mirror along y the coefficients of rows are real, and two of them form one complex number (`rows.rs`). A complex column
+//! then is a pair of real columns, each with factors of its own.
 
 use rustfft::num_complex::Complex;
 
@@ -6,8 +9,8 @@ use crate::elements::mirror::Mirror;
 use crate::transform::plane_transform::PlaneTransform;
 
 impl PlaneTransform {
-    /// Multiplies column number `column` of a transformed field by the `spectrum` of the kernel over the whole period, which has
-    /// the layout [column][0..=padded_x / 2].
+    /// Multiplies column number `column` of a transformed field, `values`, by the `spectrum` of the kernel over the whole period, which
+    /// has the layout [column][0..=padded_x / 2].
     pub(crate) fn multiply_even(
         &self,
         spectrum: &[f64],
@@ -36,7 +39,7 @@ impl PlaneTransform {
     }
 }
 
-/// Multiplies a whole complex column by real factors that are even in the row.
+/// Multiplies a whole complex column by real factors that are even in the row; `factors` are those of the rows 0 to n/2.
 fn multiply_whole(factors: &[f64], values: &mut [Complex<f64>]) {
     let (lower, upper) = values.split_at_mut(factors.len());
     for (value, factor) in lower.iter_mut().zip(factors) {
@@ -51,6 +54,7 @@ fn multiply_whole(factors: &[f64], values: &mut [Complex<f64>]) {
 ///
 /// With the values V_k and V_(−k), the transforms of both columns are (V_k ± V̄_(−k))/2, the second times i.
 fn multiply_pair([first, second]: [&[f64]; 2], values: &mut [Complex<f64>]) {
+    // V_k and V_(−k) together contain both columns, so that they change together.
     let length = values.len();
     for (k, (first, second)) in first.iter().zip(second).enumerate() {
         let opposite = (length - k) % length;

@@ -29,9 +29,10 @@ use rows::RowTransform;
 pub(crate) use workspace::Workspace;
 use workspace::{Buffers, for_each_chunk};
 
-/// Columns that are gathered together (a tile): eight complex numbers fill two cache lines.
+/// Number of columns of a tile, which are gathered together. Chosen: eight complex numbers fill two cache lines of 64 bytes. It changes
+/// the time only.
 const COLUMNS_PER_TILE: usize = 8;
-/// Rows (a strip) whose pieces of a tile are contiguous, so that columns are gathered from few places of memory. It
+/// Number of rows of a strip, whose pieces of a tile are contiguous, so that columns are gathered from few places of memory. Chosen; it
 /// changes the time only.
 const ROWS_PER_STRIP: usize = 8;
 /// The complex number 0.
@@ -49,6 +50,7 @@ pub(crate) struct PlaneTransform<T = f64> {
 }
 
 impl<T> fmt::Debug for PlaneTransform<T> {
+    /// Writes the period only, because plans have no readable form.
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter
             .debug_struct("PlaneTransform")
@@ -92,24 +94,24 @@ impl<T: Real> PlaneTransform<T> {
         self.n_columns().div_ceil(COLUMNS_PER_TILE)
     }
 
-    /// Distance of the buffers of neighbouring columns, padded because at a power of two they would compete for the same cache
-    /// lines.
+    /// Distance between the beginnings of neighbouring columns in their buffer, in numbers; padded, because at a power of two they
+    /// would compete for the same cache lines.
     fn column_stride(&self) -> usize {
         self.columns.len() + COLUMNS_PER_TILE
     }
 
-    /// Transforms a real row of the whole period; `row` is overwritten.
+    /// Transforms a real row of the whole period along y into its `transformed` half of the period; `row` is overwritten.
     pub(crate) fn transform_row(&self, row: &mut [T], transformed: &mut [Complex<T>]) {
         self.rows.forward_whole(row, transformed);
     }
 
-    /// Transforms columns of the whole period, without normalisation.
+    /// Transforms columns of the whole period along x in place, without normalisation; one or several, one after the other.
     pub(crate) fn column_forward(&self, columns: &mut [Complex<T>]) {
         let mut scratch = vec![Complex::default(); self.columns.scratch_len()];
         self.columns.forward(&mut scratch, columns);
     }
 
-    /// Transforms columns of the whole period back, without normalisation.
+    /// Transforms columns of the whole period back along x in place, without normalisation; one or several, one after the other.
     pub(crate) fn column_inverse(&self, columns: &mut [Complex<T>]) {
         let mut scratch = vec![Complex::default(); self.columns.scratch_len()];
         self.columns.inverse(&mut scratch, columns);
@@ -150,7 +152,9 @@ impl<T: Real> PlaneTransform<T> {
         });
     }
 
-    /// Transforms all columns, applies `multiply(column, values)` to them, transforms them back and keeps the rows `wanted`.
+    /// Transforms all columns along x, calls `multiply(column, values)` for each, transforms them back and keeps the rows `wanted`.
+    ///
+    /// Only the rows `loaded`, those of [`forward_rows`](Self::forward_rows), are read; others count as zero.
     pub(crate) fn filter_columns(
         &self,
         workspace: &mut Workspace<T>,
@@ -187,6 +191,7 @@ impl<T: Real> PlaneTransform<T> {
         tile: usize,
         loaded: &Range<usize>,
     ) {
+        // Strip by strip, because its pieces of the tile are contiguous.
         let stride = self.column_stride();
         buffers.columns.fill(Complex::default());
         for strip in loaded.start / ROWS_PER_STRIP..loaded.end.div_ceil(ROWS_PER_STRIP) {
@@ -202,7 +207,7 @@ impl<T: Real> PlaneTransform<T> {
         }
     }
 
-    /// Forward transform, product and inverse transform of the buffered columns.
+    /// Forward transform, product and inverse transform of the buffered columns, whose numbers are `columns`.
     fn multiply_columns(
         &self,
         buffers: &mut Buffers<T>,
@@ -246,7 +251,7 @@ impl<T: Real> PlaneTransform<T> {
     }
 }
 
-/// A complex number rounded to the precision of a transform.
+/// A complex number rounded to the precision `T` of a transform.
 pub(crate) fn rounded<T: Real>(value: Complex<f64>) -> Complex<T> {
     Complex::new(T::rounded(value.re), T::rounded(value.im))
 }

@@ -4,7 +4,7 @@ use numerics::transforms::Real;
 use realfft::{ComplexToReal, RealToComplex};
 use rustfft::num_complex::Complex;
 
-/// Transforms `reals`, which are overwritten, into `coefficients`.
+/// Transforms n `reals`, which are overwritten, into n/2 + 1 complex `coefficients`.
 pub(super) fn forward_real<T: Real>(
     plan: &dyn RealToComplex<T>,
     reals: &mut [T],
@@ -15,7 +15,7 @@ pub(super) fn forward_real<T: Real>(
     assert!(done.is_ok(), "the buffers fit the plan: {done:?}");
 }
 
-/// Transforms `coefficients`, which are overwritten, back into `reals`, without normalisation.
+/// Transforms n/2 + 1 complex `coefficients`, which are overwritten, back into n `reals`, without normalisation.
 pub(super) fn inverse_real<T: Real>(
     plan: &dyn ComplexToReal<T>,
     coefficients: &mut [Complex<T>],

@@ -32,7 +32,7 @@ pub(super) enum RowTransform<T> {
 }
 
 impl<T: Real> RowTransform<T> {
-    /// Plans for a period of `period` elements.
+    /// Plans for rows of a period of `period` elements.
     pub(super) fn new(period: usize, mirror: Mirror) -> Self {
         let half = period / 2;
         let (length, twiddles) = match mirror {
@@ -47,7 +47,7 @@ impl<T: Real> RowTransform<T> {
         }
     }
 
-    /// Number of elements of a row that are transformed.
+    /// Number of elements of a row that are transformed: the period, or the part of it in front of a mirror.
     pub(super) fn len(&self) -> usize {
         match self {
             Self::Fourier { forward, .. } => forward.len(),
@@ -55,7 +55,7 @@ impl<T: Real> RowTransform<T> {
         }
     }
 
-    /// True if the coefficients are real.
+    /// True if the row has a mirror, so that its coefficients are real and stored in pairs.
     pub(super) const fn has_mirror(&self) -> bool {
         !matches!(self, Self::Fourier { twiddles: None, .. })
     }
@@ -69,7 +69,7 @@ impl<T: Real> RowTransform<T> {
         }
     }
 
-    /// Length of the scratch of both transforms.
+    /// Number of complex numbers of scratch that both transforms need.
     pub(super) fn scratch_len(&self) -> usize {
         match self {
             Self::Fourier {
@@ -79,7 +79,7 @@ impl<T: Real> RowTransform<T> {
         }
     }
 
-    /// Length of the real Fourier transform that is used.
+    /// Number of reals of the underlying real Fourier transform.
     pub(super) fn n_reals(&self) -> usize {
         match self {
             Self::Fourier { forward, .. } => forward.len(),
@@ -161,7 +161,7 @@ impl<T: Real> RowTransform<T> {
     }
 }
 
-/// Copies `values` into `row` and pads with zeros.
+/// Copies `values` into `row`, rounds them to its precision and pads with zeros.
 fn fill<T: Real, F: Real>(row: &mut [T], values: &[F]) {
     for (place, value) in row.iter_mut().zip(values) {
         *place = T::rounded((*value).into());

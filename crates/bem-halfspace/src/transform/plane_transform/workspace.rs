@@ -12,9 +12,9 @@ use crate::transform::plane_transform::{COLUMNS_PER_TILE, PlaneTransform, ROWS_P
 pub(crate) struct Workspace<T = f64> {
     /// Rows and columns of the fields.
     pub(crate) shape: [usize; 2],
-    /// Transformed rows, `[strip][tile][row of the strip]`.
+    /// Coefficients of the transformed rows in pieces of a tile's columns, `[strip][tile][row of the strip]`.
     pub(super) strips: Vec<[Complex<T>; COLUMNS_PER_TILE]>,
-    /// Columns after the product in Fourier space, `[tile][row]`.
+    /// Columns after the product in Fourier space in the same pieces, `[tile][row]`, padded by one row per tile.
     pub(super) tiles: Vec<[Complex<T>; COLUMNS_PER_TILE]>,
     /// Buffers of each thread.
     pub(super) buffers: PerThread<Buffers<T>>,
@@ -50,7 +50,8 @@ impl<T: Real> Workspace<T> {
         }
     }
 
-    /// Number of pieces from one tile to the next, padded because at a power of two they would compete for the same cache lines.
+    /// Number of pieces from the beginning of one tile to that of the next; padded, because at a power of two tiles would compete
+    /// for the same cache lines.
     pub(super) const fn tile_stride(&self) -> usize {
         self.shape[0] + 1
     }
@@ -71,13 +72,15 @@ impl<T: Real> Buffers<T> {
 }
 
 /// Divides `values` into chunks of whole units of `unit` values, and processes them in parallel with the buffers of their threads.
-/// `work` takes the number of the first unit of a chunk, the buffers and the chunk.
+///
+/// Calls `work(number of the first unit of the chunk, buffers, chunk)`.
 pub(super) fn for_each_chunk<R: Real, T: Send>(
     buffers: &PerThread<Buffers<R>>,
     values: &mut [T],
     unit: usize,
     work: impl Fn(usize, &mut Buffers<R>, &mut [T]) + Sync,
 ) {
+    // As many units as make a chunk worth handing to another thread.
     let numbers_per_unit = unit * size_of::<T>() / size_of::<f64>();
     let units = MIN_ELEMENTS.div_ceil(numbers_per_unit);
     let n_chunks = values.len().div_ceil(units * unit);
