@@ -13,7 +13,8 @@ use crate::BemError;
 pub struct Change<T> {
     /// Change of the friction coefficient.
     pub friction_coefficient: T,
-    /// Change of the indentation depth under a given force, \[m]. `None` at a given depth, in plane strain, and on a half space that flows.
+    /// Change of the indentation depth under a given force, \[m]. `None` at a given depth, in plane strain, and on a half space
+    /// that flows.
     pub indentation_depth: Option<T>,
     /// Change of the normal force at a given depth, \[N]. `None` under a given force.
     pub normal_force: Option<T>,
@@ -34,7 +35,7 @@ pub struct ByModuli {
 }
 
 impl<T> Change<T> {
-    /// A function of the change of each quantity.
+    /// Applies a function to the change of each quantity; quantities without a change stay `None`.
     pub fn map<U>(&self, mut function: impl FnMut(&T) -> U) -> Change<U> {
         Change {
             friction_coefficient: function(&self.friction_coefficient),
@@ -46,9 +47,11 @@ impl<T> Change<T> {
 }
 
 impl Change<f64> {
-    /// The change at a constant depth, from the change under a constant force and the derivatives by the force.
+    /// The change at a constant depth, from this change under a constant force and the derivatives by the force (chain rule).
+    ///
+    /// The force of the result is NaN if the depth has no change, as in plane strain.
     pub(crate) fn at_constant_depth(&self, by_force: &Self) -> Self {
-        // The force that keeps the depth.
+        // Change of the force that keeps the depth.
         let depths = self.indentation_depth.zip(by_force.indentation_depth);
         let force = depths.map_or(f64::NAN, |(change, by_force)| -change / by_force);
         let areas = self.contact_area.zip(by_force.contact_area);
@@ -60,7 +63,7 @@ impl Change<f64> {
         }
     }
 
-    /// The derivatives by a given depth, from those by the force.
+    /// The derivatives by a given depth, per metre, from those by the force, per newton.
     pub(crate) fn by_depth(by_force: &Self) -> Self {
         // A change of the given depth acts like the opposite change of the depth under a constant force.
         let sinking = Self {
@@ -71,7 +74,9 @@ impl Change<f64> {
     }
 }
 
-/// The derivatives by the moduli in the bands between increasing frequencies, from those by storage and loss modulus in one band.
+/// The derivatives by the moduli in the bands between successive `frequencies` \[rad/s].
+///
+/// `in_band` returns the derivatives by the logarithms of [storage modulus, loss modulus] in one band.
 ///
 /// # Errors
 /// [`BemError::InvalidParameter`] for frequencies that are negative or not increasing, and those of a band.
@@ -79,6 +84,7 @@ pub(crate) fn by_moduli(
     frequencies: &[f64],
     in_band: impl Fn([f64; 2]) -> Result<[Change<Estimate>; 2], BemError>,
 ) -> Result<Vec<ByModuli>, BemError> {
+    // Check each band before its derivatives are computed.
     let bands = frequencies.windows(2).map(band);
     let by_moduli = bands.map(|valid_band| {
         let frequencies = valid_band?;
@@ -92,7 +98,7 @@ pub(crate) fn by_moduli(
     by_moduli.collect()
 }
 
-/// The band between two frequencies.
+/// The band between two frequencies \[rad/s]; fails unless the first is not negative and the second is larger.
 fn band(ends: &[f64]) -> Result<[f64; 2], InvalidParameter> {
     not_negative("frequency", ends[0])?;
     let is_increasing = ends[1] > ends[0];

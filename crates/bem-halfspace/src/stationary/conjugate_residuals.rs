@@ -1,5 +1,5 @@
 //! Generalised conjugate residuals, GCR (Eisenstat, Elman & Schultz 1983). The method minimises the residual of operators that need not
-//! be symmetric; solution and residual are known after every step.
+//! be symmetric; solution and residual are known after every step. The *image* of a direction p is A p.
 //!
 //! Theory: docs/theory/stationary-half-space.md, "The equations of one contact" and "Periodic surfaces".
 
@@ -13,7 +13,8 @@ use crate::parallel::row_blocks::{RowBlocks, copies};
 /// Relative drop of ‖r‖² below which a step stagnates: the next direction is then built from the last A p instead of r (Young & Jea
 /// 1980). Values up to 0.05 hardly matter.
 const STAGNATION_REDUCTION: f64 = 0.01;
-/// Breakdown: ratio of ‖A p‖ after to ‖A p‖ before orthogonalisation below which the rest is rounding error.
+/// Breakdown: ratio of ‖A p‖ after to ‖A p‖ before orthogonalisation below which the result is rounding error. Chosen near the rounding
+/// 6e-8 of single precision, in which the operators of periodic contacts are applied.
 const BREAKDOWN_TOLERANCE: f64 = 1e-7;
 
 /// Size of the Krylov basis and length of the iteration.
@@ -21,13 +22,13 @@ const BREAKDOWN_TOLERANCE: f64 = 1e-7;
 pub(crate) struct GcrLimits {
     /// Largest number of steps.
     pub(crate) max_steps: usize,
-    /// Directions against whose images A p a new one is orthogonalised; older directions are dropped.
+    /// Number of directions against whose images A p a new one is orthogonalised; older directions are dropped.
     pub(crate) truncation_depth: usize,
 }
 
 /// The state from which the next direction is built.
 pub(crate) struct GcrState<'a, T> {
-    /// Sum of squares of the residual.
+    /// Sum of squares of the residual, ‖r‖².
     pub(crate) residual_square: f64,
     /// Residual r.
     pub(crate) residual: &'a [T],
@@ -38,8 +39,8 @@ pub(crate) struct GcrState<'a, T> {
 
 /// Minimises the norm of `residual` = A `solution` − b over a Krylov space, and updates both.
 ///
-/// `find_direction` writes a direction p and its image A p, or returns `false` to end the iteration. The iteration
-/// also ends on breakdown, when A p depends linearly on the basis.
+/// `find_direction(state, direction, image)` writes a direction p and its image A p, or returns `false` to end the iteration. The
+/// iteration also ends on breakdown, when A p depends linearly on the basis.
 ///
 /// The residual is updated, not recomputed: relative to the first residual, it drifts from that of the solution by rounding.
 pub(crate) fn gcr<T: Real>(
@@ -123,7 +124,7 @@ struct BasisVector<T> {
     direction: Vec<T>,
     /// Image A p.
     image: Vec<T>,
-    /// Weighted sum of squares of the image, ‖A p‖².
+    /// Sum of squares of the image, ‖A p‖².
     image_square: f64,
 }
 
@@ -140,7 +141,7 @@ impl<T: Real> BasisVector<T> {
 
 /// Inner products of an orthogonalised image A p.
 struct ImageProducts {
-    /// Weighted sum of squares ‖A p‖².
+    /// Sum of squares ‖A p‖².
     square: f64,
     /// Inner product (A p, r) with the residual r.
     with_residual: f64,
@@ -148,8 +149,9 @@ struct ImageProducts {
     removed_square: f64,
 }
 
-/// Orthogonalises an image against those of the basis by modified Gram–Schmidt, and returns the factors of the basis vectors in
-/// the result.
+/// Orthogonalises an image A p against those of the basis by modified Gram–Schmidt, in place.
+///
+/// Returns the factors with which the images of the basis were added, and inner products of the result with itself and the residual.
 fn orthogonalise<T: Real>(
     image: &mut [T],
     residual: &[T],
@@ -204,7 +206,7 @@ pub(crate) fn norm<T: Real>(vector: &[T]) -> f64 {
     inner_product(vector, vector).sqrt()
 }
 
-/// Inner product of two vectors.
+/// Inner product of two vectors of equal length, in parallel with a fixed order of summation.
 fn inner_product<T: Real>(left: &[T], right: &[T]) -> f64 {
     let bands = blocks_of(left);
     bands.sum(|band| {
@@ -213,12 +215,12 @@ fn inner_product<T: Real>(left: &[T], right: &[T]) -> f64 {
     })
 }
 
-/// The contribution of one band to an inner product.
+/// The contribution of one row block to an inner product.
 fn product_of_parts<T: Real>(left: &[T], right: &[T]) -> f64 {
     sum([left, right], |[left, right]| left * right).into()
 }
 
-/// Row blocks of a vector, seen as a column of elements, for the threads.
+/// Division of a vector among threads, as the row blocks of a grid with one column.
 const fn blocks_of<T>(vector: &[T]) -> RowBlocks {
     RowBlocks::new([vector.len(), 1])
 }

@@ -1,4 +1,5 @@
-//! Stationary sliding, solved directly: single bodies and profiles ([`mod@steady`]), and periodic surfaces ([`periodic`](crate::periodic)).
+//! Stationary sliding, solved directly: single bodies and profiles ([`mod@steady`]), and periodic surfaces
+//! ([`periodic`](crate::periodic)).
 //!
 //! Theory: docs/theory/stationary-half-space.md.
 
@@ -10,7 +11,7 @@ pub mod steady;
 
 pub use steady::steady;
 
-/// Smallest relative tolerance of a solution on a coarser grid that is only the initial guess of a nested iteration.
+/// Smallest relative tolerance of the contact on a coarser grid whose solution is only the initial guess of a nested iteration.
 ///
 /// Chosen; from 1e-6 to 1e-3 no answer of `evidence tuning` changes by more than 1e-6 of its bar.
 const INITIAL_GUESS_TOLERANCE: f64 = 1e-4;

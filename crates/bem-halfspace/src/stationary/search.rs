@@ -11,8 +11,8 @@
 //! 3. exchanges all violating elements, or fewer while the search does not improve (`contact/exchange_rule.rs`);
 //! 4. projects the pressure onto p ≥ 0, and tests for convergence.
 //!
-//! The gaps of step 2 are those of the solution with its tension. Projecting the tension away moves soft waves, and with them everything
-//! far from the contact.
+//! The gaps of step 2 are those of the solution with its tension. Projecting the tension away moves soft waves, and with them
+//! everything far from the contact.
 //!
 //! The operator K of a moving contact is not symmetric, so that there is no energy to descend; that the search ends rests on the
 //! exchange rule.
@@ -36,11 +36,11 @@ const MAX_TENSILE_FRACTION: f64 = 0.2;
 /// Largest residual of the inner solution, as a fraction of the largest gap that counts as closed: below 1, so that
 /// room is left for the projection. Chosen (case of `evidence tuning`).
 const INNER_SHARE_OF_TOLERANCE: f64 = 0.5;
-/// Residual that is always allowed, in units of the last place of the depth. After a long memory a line has sunk a million times as
-/// deep as it touches.
+/// Residual that is always allowed, in units of the last place of the depth d: the rounding of a few operations. The depth of a
+/// line on a material of long memory may exceed the heights in contact a million times.
 const DEPTH_ROUNDING_ULPS: f64 = 16.0;
-/// Number of times that the residual of an unchanged active set may grow before the search gives up, because such
-/// growth is rounding error: a limit of the time.
+/// Number of times that the residual of an unchanged active set may grow before the search ends with an error, because such growth is
+/// rounding error: a limit of the time.
 const MAX_STAGNATIONS: usize = 5;
 
 /// Forcing terms of the inexact Newton method: inner residual over the residual that the last exchange left.
@@ -119,7 +119,7 @@ pub(crate) struct Search<'a, P> {
 }
 
 impl<'a, P: FixedSetSolver> Search<'a, P> {
-    /// Starts from a pressure of which some is positive; the initial active set is where it is.
+    /// A search that starts from a `pressure` with positive values; these are the initial active set, and others are set to zero.
     pub(crate) fn new(
         problem: &'a mut P,
         heights: Vec<f64>,
@@ -142,7 +142,7 @@ impl<'a, P: FixedSetSolver> Search<'a, P> {
         }
     }
 
-    /// Finds the active set, the pressure and the depth.
+    /// Finds the active set, the pressure and the depth, and leaves them in the fields.
     ///
     /// # Errors
     /// [`BemError::ContactNotConverged`]; [`BemError::SingularContact`].
@@ -216,7 +216,7 @@ impl<'a, P: FixedSetSolver> Search<'a, P> {
                 return Ok(());
             }
 
-            // Give up when the budget is used or rounding error prevails.
+            // End with an error when the budget is used or rounding error prevails.
             if self.problem.budget_is_exhausted() || stagnations > MAX_STAGNATIONS {
                 return Err(BemError::ContactNotConverged {
                     iterations: self.problem.iterations(),
@@ -262,12 +262,13 @@ impl<'a, P: FixedSetSolver> Search<'a, P> {
         self.residual * self.scale <= allowed && !self.gap.iter().zip(&self.active).any(penetrates)
     }
 
-    /// Elements of the active set under tension, and elements outside it whose penetration reaches its threshold.
+    /// KKT violations: elements of the active set under tension, and elements outside it whose penetration reaches its threshold. Sizes
+    /// are in the unit of the heights.
     fn violations(&self, thresholds: &PenetrationThresholds) -> Vec<Violation> {
         let self_influence = self.problem.self_influence();
         let next_to_set = thresholds.next_to_set.max(self.allowed_gap());
         let far = thresholds.far.max(self.allowed_gap());
-        // Size of the violation of an element, and its threshold.
+        // Size of the violation of an element, and its threshold. Far from the set, gaps have the error of the whole solution.
         let violation = |element: usize| {
             let [pressure, gap] = [self.pressure[element], self.gap[element]];
             let (size, threshold) = if self.active[element] {
@@ -286,7 +287,7 @@ impl<'a, P: FixedSetSolver> Search<'a, P> {
         (0..self.active.len()).filter_map(violation).collect()
     }
 
-    /// Updates gaps, depth, scale and residual to the pressure.
+    /// Recomputes gaps, depth, scale and residual from the pressure, with one operator application.
     fn update_gaps(&mut self) {
         self.scale = self.problem.displace(&self.pressure, &mut self.gap);
         for (gap, height) in self.gap.iter_mut().zip(&self.heights) {

@@ -1,15 +1,16 @@
 //! Coarse-space correction of the preconditioner on blocks of elements, for contacts of many patches.
 //!
 //! The inverse S of the influence, restricted to the active set, finds the pressure for the gaps of a patch as if no other patch
-//! were loaded (as for static contacts, `contact/multilevel_correction.rs`). Let w = S 1 be the response to the unit
-//! gap, and W its mean over a block. For a gap r with the mean pressures s of S r over the blocks, the displacement d of the
-//! blocks by other patches is
+//! were loaded (as for static contacts, `contact/multilevel_correction.rs`). Let w = S 1 be the pressures under the unit gap, and W
+//! their mean over a block. Let s be the means over the blocks of the pressures S r under a gap r, and K the influence between blocks.
+//! The displacement d of the blocks by other patches then satisfies
 //!
 //! ```text
 //! d + K W d = K s,        M r = S r − w d.
 //! ```
 //!
-//! and S is replaced by M. The blocks are eight elements long along x and one across. Modes with q_x = 0 are
+//! and S is replaced by M. Pressures and displacements are in units in which an element is displaced by 1 under its own unit pressure.
+//! The blocks are eight elements long along x and one across. Modes with q_x = 0 are
 //! relaxed at every speed, so that they are the most compliant by far, and short ones among them matter.
 //!
 //! Theory: docs/theory/stationary-half-space.md, "Periodic surfaces", and docs/theory/contact.md, "Other patches".
@@ -25,11 +26,11 @@ use crate::stationary::conjugate_residuals::{GcrLimits, GcrState, gcr, norm};
 use crate::stationary::periodic::kernel::{PeriodicKernel, Sliding};
 use crate::{BemError, Grid};
 
-/// Length of a block along x, in elements.
+/// Length of a block along x, in elements: the largest that row blocks do not divide.
 const BLOCK_LENGTH: usize = RowBlocks::MAX_COARSE_BLOCK;
-/// Weight of an element in the mean over a block.
+/// Weight of an element in the mean over a block, 1/[`BLOCK_LENGTH`].
 const INVERSE_BLOCK_LENGTH: f32 = 1.0 / BLOCK_LENGTH as f32;
-/// Initial tolerance of the block equation, relative to its right side.
+/// Initial tolerance of the block equation, relative to its right side. Measured on rough contacts:
 ///
 /// On 1024² elements a contact takes an eighth to a third more operator applications with 1e-2, and as much less with 1e-3, of
 /// which each takes longer.
@@ -43,11 +44,11 @@ const TOLERANCE_REDUCTION: f64 = 0.3;
 /// Lower bound of the tolerance of the block equation, relative to its right side. Chosen above the rounding of
 /// single precision, 6e-8; from 1e-7 to 1e-4 no digit of an answer changes.
 const MIN_TOLERANCE: f64 = 1e-5;
-/// Constant weight of the preconditioner of the block equation, as a fraction of the mean of W. With 1 a contact takes a tenth
-/// longer, with 0.1 as long.
+/// Constant weight that replaces W in the preconditioner of the block equation, as a fraction of the mean of W. Measured: with 1 a
+/// contact takes a tenth longer, with 0.1 as long.
 const MEAN_WEIGHT_FRACTION: f64 = 0.4;
-/// Limits of GCR for the block equation. Up to 2048² elements 40 and 80 steps lead to about as many operator applications, and so
-/// do truncation depths of one, two and eight.
+/// Limits of GCR for the block equation. Measured: up to 2048² elements 40 and 80 steps lead to about as many operator applications,
+/// and so do truncation depths of one, two and eight.
 const GCR_LIMITS: GcrLimits = GcrLimits {
     max_steps: 80,
     truncation_depth: 2,
@@ -55,31 +56,32 @@ const GCR_LIMITS: GcrLimits = GcrLimits {
 
 /// The correction on one grid, with the weights of the present active set.
 pub(super) struct BlockCorrection {
-    /// Columns of the grid, and of the blocks.
+    /// Number of columns of the grid, and of the grid of blocks.
     columns: usize,
-    /// K on the grid of the blocks.
+    /// Kernel K on the grid of blocks.
     kernel: PeriodicKernel,
     /// Displacement of an element under its own unit pressure, the unit of K, \[m/Pa].
     self_influence: f64,
-    /// Response W of each block to the unit gap, 0 for a block with a mean tension.
+    /// Mean pressure W of each block under the unit gap, row-major; 0 for a block with a mean tension.
     weights: Vec<f32>,
-    /// Constant weight in the preconditioner of the block equation.
+    /// Constant weight w̄ that replaces W in the preconditioner of the block equation.
     mean_weight: f32,
-    /// Symbols of that preconditioner.
+    /// Symbols K (1 + w̄ K)⁻¹ of that preconditioner.
     preconditioner: Vec<Complex<f32>>,
-    /// Displacement d of the blocks for s = W: the first guess for the next active set.
+    /// Displacement d of the blocks for s = W, row-major: the first guess for the next active set.
     unit_gap_displacement: Vec<f32>,
-    /// Tolerance of the residual, relative to the right side.
+    /// Tolerance of the residual of the block equation, relative to the right side.
     tolerance: f64,
 }
 
 impl BlockCorrection {
-    /// `None` if the rows of the grid are not a multiple of the block length.
+    /// The correction on a grid, for an empty active set; `None` if the number of rows is not a multiple of [`BLOCK_LENGTH`].
     pub(super) fn new(
         sliding: &Sliding,
         grid: &Grid,
         self_influence: f64,
     ) -> Result<Option<Self>, BemError> {
+        // The blocks form a grid of their own, with the same kernel on longer elements.
         let ([rows, columns], [dx, dy]) = (grid.shape(), grid.spacing());
         if !rows.is_multiple_of(BLOCK_LENGTH) {
             return Ok(None);
@@ -100,13 +102,13 @@ impl BlockCorrection {
         }))
     }
 
-    /// Reduces the tolerance, because GCR stagnates.
+    /// Reduces the tolerance of the block equation, for a GCR iteration on the elements that stagnates.
     pub(super) fn tighten_tolerance(&mut self) {
         self.tolerance = (TOLERANCE_REDUCTION * self.tolerance).max(MIN_TOLERANCE);
     }
 
-    /// Sets w = S 1 of another active set, and corrects `unit_depth_response`, which is a copy of it. Blocks with a mean tension
-    /// take no part.
+    /// Sets the packed `weights` w = S 1 of another active set, and replaces `unit_depth_response`, a copy of them, by M 1. Blocks with
+    /// a mean tension take no part.
     pub(super) fn set_weights(
         &mut self,
         near: &ActiveSet,
@@ -127,17 +129,17 @@ impl BlockCorrection {
         self.unit_gap_displacement = displacement;
     }
 
-    /// Corrects a packed vector of pressures S r for the load on other patches; `weights` is the packed w.
+    /// Replaces a packed vector of pressures S r by M r; `weights` is the packed w.
     pub(super) fn correct(&mut self, near: &ActiveSet, weights: &[f32], pressures: &mut [f32]) {
         let mut displacement = copies(0.0, self.weights.len());
         self.solve(&self.means(near, pressures), &mut displacement);
         self.subtract(near, weights, &displacement, pressures);
     }
 
-    /// Subtracts w d on the blocks that take part.
+    /// Subtracts w d from packed pressures, on the blocks that take part, those with W > 0; `displacement` has d of each block.
     ///
-    /// What is subtracted must be what the block equation contains, since the softest waves multiply any difference by the ratio
-    /// of the moduli.
+    /// The other blocks must be left out as in the block equation, because the most compliant waves multiply any difference by the
+    /// ratio of the moduli.
     fn subtract(
         &self,
         near: &ActiveSet,
@@ -169,7 +171,7 @@ impl BlockCorrection {
             });
     }
 
-    /// Means of a packed vector over the blocks; elements outside count as zero.
+    /// Means of a packed vector over the blocks, row-major; elements outside the active set count as zero.
     fn means(&self, near: &ActiveSet, list: &[f32]) -> Vec<f32> {
         let columns = self.columns;
         let mut means = copies(0.0, self.weights.len());
@@ -193,9 +195,10 @@ impl BlockCorrection {
         means
     }
 
-    /// Solves the block equation for d from a guess of it, given the means s.
+    /// Solves the block equation d + K W d = K s by GCR; `means` is s, and `displacement` a guess of d that becomes the solution.
     ///
-    /// The preconditioner is the inverse for a constant weight; it turns the residual of the equation into a displacement.
+    /// The equation is multiplied by (1 + w̄ K)⁻¹ from the left, its inverse for a constant weight w̄. The residual of the result is a
+    /// displacement.
     fn solve(&mut self, means: &[f32], displacement: &mut [f32]) {
         let Self {
             kernel,
@@ -209,7 +212,7 @@ impl BlockCorrection {
         let [mut residual, mut load] = [(); 2].map(|()| copies(0.0, means.len()));
         kernel.apply_single_precision(preconditioner, means, &mut residual);
         let target = *tolerance * norm(&residual);
-        // Change of the residual by a displacement.
+        // Change of the residual by a change of the displacement.
         let mut find_image = |from: &[f32], image: &mut [f32]| {
             row_blocks.for_each([&mut load], |row_block, [load]| {
                 let elements = row_blocks.elements(row_block);

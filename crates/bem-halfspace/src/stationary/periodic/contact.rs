@@ -11,7 +11,8 @@ use crate::stationary::periodic::{PeriodicControl, PeriodicOptions};
 use crate::stationary::search::{FixedSetSolver, ForcingTerms, Search};
 use crate::{BemError, Grid};
 
-/// Loosest tolerance on every active set: root mean square of the residual as a fraction of that of the heights.
+/// Loosest tolerance of the equations on every active set: root mean square of the residual as a fraction of that of the heights.
+/// Chosen.
 ///
 /// Without it the contact of a solid whose moduli differ by 1000 takes up to twice as many operator applications on 1024²
 /// elements.
@@ -24,9 +25,11 @@ pub(super) struct PeriodicContact<'a> {
     pub(super) sliding: &'a Sliding,
     /// Grid of one period.
     pub(super) grid: &'a Grid,
-    /// Heights at the centres of the elements, \[m].
+    /// Heights at the centres of the elements, row-major, \[m].
     pub(super) heights: &'a [f64],
+    /// Prescribed mean pressure or depth.
     pub(super) control: PeriodicControl,
+    /// Stopping criteria.
     pub(super) options: PeriodicOptions,
 }
 
@@ -40,15 +43,20 @@ pub(super) struct PeriodicSolution {
     pub(super) residual: f64,
 }
 
-/// Solves the problem from a first guess of the pressure, which is replaced by the solution.
+/// Solves the problem from a first guess of the `pressure` \[Pa], row-major, which is replaced by the solution.
 ///
-/// Outside the contact the solution is minus the gap over the self-influence, a negative pressure. Without a positive pressure the
-/// first active set is all elements not above the mean height, or those below a prescribed depth. Without any nothing touches.
+/// Outside the contact the solution is minus the gap over the self-influence, a negative pressure. Without a positive pressure in the
+/// guess, the first active set is all elements not above the mean height, or those below a prescribed depth. If there are none below
+/// that depth, there is no contact.
+///
+/// # Errors
+/// [`BemError::ContactNotConverged`]; `pressure` then is the best that was reached.
 pub(super) fn solve(
     problem: PeriodicContact,
     equations: &mut Equations,
     pressure: &mut Vec<f64>,
 ) -> Result<PeriodicSolution, BemError> {
+    // Heights at the points where gaps are evaluated, and their variance.
     let mut heights = vec![0.0; problem.grid.n_elements()];
     equations.kernel.shifted(problem.heights, &mut heights);
     let mean_height = mean(&heights);
@@ -81,7 +89,7 @@ pub(super) fn solve(
         overlaps()
     };
 
-    // Search, and write gaps as negative pressures.
+    // Search the active set and its pressures.
     let mut contact = PeriodicFixedSetSolver {
         depth,
         problem,
@@ -122,7 +130,7 @@ impl PeriodicContact<'_> {
         }
     }
 
-    /// Fails if a prescribed depth is not allowed.
+    /// Fails if a depth of the mean plane \[m] is prescribed that `is_allowed` refuses.
     pub(super) fn check_depth(
         &self,
         is_allowed: impl Fn(f64) -> bool,
@@ -157,20 +165,23 @@ impl FixedSetSolver for PeriodicFixedSetSolver<'_> {
         after_growth: 0.06,
     };
 
+    /// Rows and columns of the grid of one period.
     fn shape(&self) -> [usize; 2] {
         self.problem.grid.shape()
     }
 
+    /// Row and column of an element, whose index is row-major over the whole period.
     fn row_and_column(&self, element: usize) -> [usize; 2] {
         let columns = self.shape()[1];
         [element / columns, element % columns]
     }
 
+    /// Displacement of an element under its own unit pressure, \[m/Pa].
     fn self_influence(&self) -> f64 {
         self.equations.self_influence
     }
 
-    /// Returns the largest displacement from the mean.
+    /// Writes the displacement K p \[m]; returns the largest displacement from the mean \[m], the scale of the tolerance.
     fn displace(&mut self, pressure: &[f64], displacement: &mut [f64]) -> f64 {
         self.equations.displace(pressure, displacement);
         let mean = mean(displacement);
@@ -179,31 +190,38 @@ impl FixedSetSolver for PeriodicFixedSetSolver<'_> {
             .fold(0.0, |top, moved| larger(top, (moved - mean).abs()))
     }
 
+    /// Prescribed value of h + u in the contact, \[m]; `None` under a mean pressure.
     fn depth(&self, _: &[f64]) -> Option<f64> {
         self.depth
     }
 
+    /// Passes the active set, with fields of pressure \[Pa] and gap \[m], to the equations.
     fn set_active_set(&mut self, contact: &[bool], pressure: &[f64], gap: &[f64]) {
         self.equations.set_active_set(contact, pressure, gap);
     }
 
+    /// Root mean square of the gap on the active set, \[m].
     fn residual_rms(&self) -> f64 {
         self.equations.residual_rms()
     }
 
+    /// Solves until the root mean square of the gap is below `mean`, or its maximum below `largest`, \[m].
     fn solve(&mut self, mean: f64, largest: f64) -> Result<(), BemError> {
         self.equations.solve(mean, largest);
         Ok(())
     }
 
+    /// Copies the pressures of the active set \[Pa] into a field of the period.
     fn copy_pressure_to(&self, pressure: &mut [f64]) {
         self.equations.copy_pressure_to(pressure);
     }
 
+    /// True if one of the eight periodic neighbours of an element is active.
     fn is_next_to_active_set(&self, element: usize) -> bool {
         self.equations.has_active_neighbour(element)
     }
 
+    /// Scales a pressure field to the prescribed mean; at a prescribed depth nothing changes.
     fn scale_to_force(&self, pressure: &mut [f64]) {
         if let PeriodicControl::MeanPressure(prescribed) = self.problem.control {
             let factor = prescribed / mean(pressure);
@@ -211,10 +229,12 @@ impl FixedSetSolver for PeriodicFixedSetSolver<'_> {
         }
     }
 
+    /// Number of operator applications so far.
     fn iterations(&self) -> usize {
         self.equations.products
     }
 
+    /// True from [`PeriodicOptions::max_products`] operator applications on.
     fn budget_is_exhausted(&self) -> bool {
         self.equations.products >= self.problem.options.max_products
     }

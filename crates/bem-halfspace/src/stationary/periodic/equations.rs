@@ -4,14 +4,16 @@
 //! h + K p − d = 0  on the active set,   p = 0 outside,   mean of p or depth d given
 //! ```
 //!
-//! If the depth is free, it is eliminated: gaps count less their mean over the active set, and directions have no mean.
+//! for the heights h, the pressures p, the kernel K and the depth d of h + u in the contact. If the depth is free, it is
+//! eliminated: the mean over the active set is subtracted from gaps, and search directions have no mean.
 //!
 //! GCR (Eisenstat, Elman & Schultz 1983) keeps pressure and gap known after every step. The preconditioner is the inverse S of K
 //! on the whole grid, restricted to the active set, less a coarse-space correction (`block_correction.rs`). Problems with few
 //! unknowns are solved directly (`elimination.rs`), once the steps have cost as much as that, or some times as much on all
 //! active sets together.
 //!
-//! All vectors of one active set are in single precision, in units of its gaps. The search computes the gaps anew in double
+//! All packed vectors of one active set are in single precision. Gaps are in units of the largest one, pressures in units that displace
+//! their own element by that gap. The search computes the gaps anew in double
 //! precision between active sets, so that no digit of the result is lost.
 //!
 //! Theory: docs/theory/stationary-half-space.md, "Periodic surfaces".
@@ -33,31 +35,31 @@ use crate::{BemError, Grid};
 
 /// Largest number of GCR steps if the basis has to be truncated to fit into memory: a limit of the time.
 const MAX_STEPS_IF_TRUNCATED: usize = 80;
-/// Maximum number of steps, if the whole basis fits into memory.
+/// Largest number of GCR steps if the whole basis fits into memory. Chosen.
 ///
 /// A dense contact of moduli that differ by some thousand does not converge in 80: its residual falls after a hundred steps with
 /// an untruncated basis.
 const MAX_STEPS: usize = 400;
 /// Memory budget of the basis on a large grid, in single-precision numbers per element of the grid; older directions are truncated.
+/// Chosen.
 ///
 /// With 57 per cent of 2048² elements in contact and moduli that differ by 1000 there are 146 operator applications, with 12
 /// numbers 274 and with 24 of them 136.
 const BASIS_FLOATS_PER_ELEMENT: usize = 16;
-/// Memory budget of the basis on a small grid, in single-precision numbers per element, up to
-/// [`MAX_BASIS_FLOATS_ON_SMALL_GRID`]: a limit of the memory.
+/// Memory budget of the basis on a small grid, in single-precision numbers per element of the grid: a limit of the memory. All together
+/// are at most [`MAX_BASIS_FLOATS_ON_SMALL_GRID`].
 pub(super) const BASIS_FLOATS_PER_ELEMENT_ON_SMALL_GRID: usize = 256;
 /// Largest basis that may exceed [`BASIS_FLOATS_PER_ELEMENT`], in single-precision numbers: a limit of the memory, 64
 /// MiB.
 pub(super) const MAX_BASIS_FLOATS_ON_SMALL_GRID: usize = 1 << 24;
-/// Ratio of two successive residuals above which the coarse-space correction is solved more accurately. Chosen; from
+/// Ratio of two successive residuals of GCR above which the coarse-space correction is solved more accurately. Chosen; from
 /// 0.5 to 0.99 no answer changes by more than 1e-9 of its bar.
 const STAGNATION_RATIO: f64 = 0.9;
-/// Break-even of direct solve and iteration: cost of a direct solve with n unknowns on a grid of N elements, in GCR steps, divided by
-/// n³/N; measured on one thread. With faer it is 2e-4 to
-/// 7e-4 from 300 to 4000 unknowns.
+/// Cost of a direct solve with n unknowns on a grid of N elements, in GCR steps, divided by n³/N. Measured on one thread: with faer
+/// it is 2e-4 to 7e-4 from 300 to 4000 unknowns. It decides the time, not the solution.
 const DIRECT_SOLVE_COST: f64 = if cfg!(feature = "dense") { 5e-4 } else { 5e-3 };
 /// Ratio of the operator applications on one grid so far to the cost of a direct solve, in the same unit, beyond which active sets are
-/// solved directly.
+/// solved directly. Chosen.
 ///
 /// Of 5000 contacts and more, each of moduli that differ by up to a million on some 700 elements, one in 800 is not found in 2000
 /// operator applications without it.
@@ -67,26 +69,28 @@ const ITERATIONS_IN_DIRECT_SOLVES: f64 = 4.0;
 pub(super) struct Equations {
     /// Kernel K on the grid.
     pub(super) kernel: PeriodicKernel,
-    /// `None` if the grid cannot be divided into blocks.
+    /// Coarse-space correction of the preconditioner; `None` if the grid cannot be divided into blocks.
     correction: Option<BlockCorrection>,
+    /// The elements in contact.
     active: ActiveSet,
     /// True if the mean pressure is given, false if the depth is.
     depth_is_free: bool,
-    /// Pressure on the active set and its neighbours, \[Pa].
+    /// Pressure on the active set, packed, \[Pa].
     pressure: Vec<f64>,
-    /// Unit of the gaps, \[m]. The unit of the pressures displaces its own element by this unit.
+    /// Unit of the packed gaps, \[m]: the largest gap when the active set was set. The unit of packed pressures displaces its own
+    /// element by this unit.
     unit: f64,
-    /// Gap, less its mean if the depth is free, in `unit`.
+    /// Packed gap, less its mean if the depth is free, in `unit`.
     gap: Vec<f32>,
-    /// Response S 1 of S to the unit gap on the active set.
+    /// Packed pressures S 1 under the unit gap on the active set, without coarse-space correction.
     weights: Vec<f32>,
-    /// Response of the preconditioner, with its correction, to the unit gap on the active set.
+    /// Packed pressures M 1 under the unit gap on the active set, with coarse-space correction.
     unit_depth_response: Vec<f32>,
     /// Sum of that response over the active set.
     total_unit_depth_response: f64,
-    /// Symbols of K on the whole grid.
+    /// Symbols of K over the self-influence on the whole grid.
     influence_symbols: Vec<Complex<f32>>,
-    /// Symbols of the inverse of K on the whole grid.
+    /// Symbols of S, the inverse of K over the self-influence, on the whole grid.
     inverse_symbols: Vec<Complex<f32>>,
     /// Field of the grid that carries packed vectors into transforms; zero outside the active set.
     scattered: Vec<f32>,
@@ -94,7 +98,7 @@ pub(super) struct Equations {
     image: Vec<f32>,
     /// Diagonal coefficient of K: displacement of an element under its own unit pressure, \[m/Pa].
     pub(super) self_influence: f64,
-    /// Largest cost of a direct solve so far, in steps; active sets that cost less are solved directly.
+    /// Largest cost of a direct solve so far, in GCR steps; active sets that cost less are solved directly.
     largest_direct_cost: f64,
     /// Operator applications on this grid so far.
     pub(super) products: usize,
@@ -107,6 +111,7 @@ impl Equations {
         grid: &Grid,
         control: PeriodicControl,
     ) -> Result<Self, BemError> {
+        // The kernel, and its diagonal coefficient from the response to a unit pressure.
         let mut kernel = PeriodicKernel::new(sliding, grid)?;
         let self_influence =
             unit_response(&mut kernel, PeriodicKernel::displace, grid.n_elements())[0];
@@ -133,7 +138,7 @@ impl Equations {
         })
     }
 
-    /// Applies K to a pressure field of the whole grid, in double precision.
+    /// Applies K to a pressure field \[Pa] of the whole grid, in double precision; writes displacements \[m].
     pub(super) fn displace(&mut self, pressure: &[f64], result: &mut [f64]) {
         self.products += 1;
         self.kernel.displace(pressure, result);
@@ -147,6 +152,7 @@ impl Equations {
         // Gather pressure and gap.
         self.pressure = self.gather(pressure);
         self.set_gap(self.gather(gap));
+        // Responses of the preconditioner to the unit gap.
         let mut weights = copies(1.0, self.active.len());
         self.apply_inverse(&mut weights);
         self.weights = weights;
@@ -157,7 +163,7 @@ impl Equations {
         self.total_unit_depth_response = self.total(&self.unit_depth_response);
     }
 
-    /// Sets the packed gap. In its own unit single precision suffices, however small the residual is.
+    /// Sets the packed gap from values in \[m], and its unit. In its own unit single precision suffices, however small the gap is.
     fn set_gap(&mut self, mut gap: Vec<f64>) {
         if self.depth_is_free {
             let mean = mean(&gap);
@@ -181,9 +187,11 @@ impl Equations {
         self.rms(norm(&self.gap)) * self.unit
     }
 
-    /// Solves until the root mean square of the residual is below `rms`, or its maximum below `max`, \[m].
+    /// Solves the equations until the root mean square of the gap is below `rms`, or its maximum below `max`, \[m]; may end earlier at
+    /// the limits of GCR.
     ///
-    /// At a depth on a half space no pressure closes the gaps of all elements. A tension on all of them then has them leave the set.
+    /// At a depth on a half space no pressure closes the gaps of all elements. If all are active, all get a tension, so that they leave
+    /// the set.
     pub(super) fn solve(&mut self, rms: f64, max: f64) {
         let is_full = self.active.len() == self.scattered.len();
         if is_full && !self.depth_is_free && self.kernel.mean_compliance == 0.0 {
@@ -258,7 +266,7 @@ impl Equations {
         }
     }
 
-    /// The gaps, less their mean if the depth is free, that a packed vector of pressures causes.
+    /// Computes the packed `gaps` under packed `pressures`, less their mean if the depth is free: the operator of GCR.
     fn apply_influence(&mut self, pressures: &[f32], gaps: &mut [f32]) {
         self.active.scatter(pressures, &mut self.scattered);
         self.products += 1;
@@ -279,8 +287,8 @@ impl Equations {
         norm / (self.active.len().max(1) as f64).sqrt()
     }
 
-    /// Preconditioned direction that closes the gaps approximately and keeps the prescribed quantity, and the gaps `image` that it
-    /// causes.
+    /// Writes the preconditioned `direction`, pressures that close the packed `gap` approximately and keep the prescribed quantity, and
+    /// the gaps `image` that they cause.
     fn find_direction(&mut self, gap: &[f32], direction: &mut [f32], image: &mut [f32]) {
         // S and its correction, applied to minus the gap.
         for (value, gap) in direction.iter_mut().zip(gap) {
@@ -299,7 +307,7 @@ impl Equations {
         self.apply_influence(direction, image);
     }
 
-    /// Applies S to a packed vector, restricted to the active set.
+    /// Applies S, the inverse on the whole grid restricted to the active set, to a packed vector in place.
     fn apply_inverse(&mut self, vector: &mut [f32]) {
         self.active.scatter(vector, &mut self.scattered);
         self.kernel
@@ -335,7 +343,8 @@ impl Equations {
     }
 }
 
-/// Result of a linear map of the grid for 1 on its first element and 0 on all others.
+/// Result of a linear `map` of the fields of a grid for 1 on the first element and 0 on all others; it determines a
+/// translation-invariant map.
 fn unit_response(
     kernel: &mut PeriodicKernel,
     map: fn(&mut PeriodicKernel, &[f64], &mut [f64]),

@@ -19,9 +19,9 @@ use crate::stationary::periodic::{
 };
 use crate::{BemError, ContactOptions, Elastomer, PressureField};
 
-/// Relative error of a request for the first grid, which is the same for any error.
+/// Relative error of the request for a first grid, which does not depend on its value.
 const ANY_RELATIVE_ERROR: f64 = 0.1;
-/// Fewest steps of a march on the first grid; chosen.
+/// Smallest number of steps of a march on the first grid. Chosen; it makes steps shorter than elements over short distances.
 const MIN_FIRST_STEPS: f64 = 4.0;
 
 /// Results for a periodic surface with error bars.
@@ -149,6 +149,7 @@ fn on_coarse_grid(
     control: PeriodicControl,
     finer: usize,
 ) -> Result<PeriodicSliding, BemError> {
+    // The waves that this grid resolves, without an error bar.
     let first = first_shape(surface, &Request::from(ANY_RELATIVE_ERROR))?;
     let shape = first.map(|edge| finer * edge);
     let SampledSurface { grid, heights, .. } = SampledSurface::new(surface, shape)?;
@@ -171,8 +172,8 @@ fn on_coarse_grid(
 /// the first order in the spacing, and the work grows with its inverse third power, so that errors below some per cent take long.
 ///
 /// # Errors
-/// Those of [`slide_on_grid`](crate::periodic::slide_on_grid), and [`BemError::NotReached`] and [`BemError::GridTooLarge`] as for [`steady`],
-/// also if a march that is fine enough would take longer than about half an hour.
+/// Those of [`slide_on_grid`](crate::periodic::slide_on_grid), and [`BemError::NotReached`] and [`BemError::GridTooLarge`] as for
+/// [`steady`], also if a march that is fine enough would take longer than about half an hour.
 pub fn slide<'w>(
     surface: &PeriodicSurface,
     elastomer: &dyn Elastomer,
@@ -219,7 +220,7 @@ pub fn slide<'w>(
     })
 }
 
-/// Refines the stationary state of a surface.
+/// Refines the stationary state of a surface on a `sliding` material to the error asked for; errors as for [`steady`].
 fn solve(
     surface: &PeriodicSurface,
     sliding: &Sliding,
@@ -233,6 +234,7 @@ fn solve(
         area: AREA_RATE,
         steps_per_row: None,
     };
+    // Each grid starts from the pressure on the grid before.
     let mut guess = Vec::new();
     refine(surface, &goal, |sampled, tolerance, _| {
         let problem = PeriodicContact {
@@ -261,7 +263,7 @@ fn solve(
     })
 }
 
-/// Number of elements in contact.
+/// Number of elements with a positive pressure.
 fn in_contact(field: &PressureField) -> usize {
     let pressures = field.pressure.iter();
     pressures.filter(|pressure| **pressure > 0.0).count()

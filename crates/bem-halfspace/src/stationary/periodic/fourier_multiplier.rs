@@ -1,4 +1,4 @@
-//! Fourier multipliers on a periodic grid, in double and in single precision.
+//! Fourier multipliers on a periodic grid, in double and in single precision: each wave of a field is multiplied by its *symbol*.
 
 use std::f64::consts::PI;
 
@@ -9,7 +9,7 @@ use crate::parallel::row_blocks::{copies, for_each_row};
 use crate::transform::plane_transform::{PlaneTransform, Workspace, rounded};
 use crate::{Base, Grid};
 
-/// Plans and wave numbers of a grid, for products with symbols by the waves that it resolves.
+/// Transform plans and wave numbers of a periodic grid, for products of fields with symbols.
 pub(crate) struct FourierMultiplier {
     /// Rows and columns of the grid.
     shape: [usize; 2],
@@ -19,12 +19,12 @@ pub(crate) struct FourierMultiplier {
     single: Option<Transforms<f32>>,
     /// Wave number q_x of each row of a transformed field, \[rad/m]; positive for the shortest wave.
     pub(crate) along_x: Vec<f64>,
-    /// Stiffness |q|/M of all waves by column and row of the transform, \[rad/m]; for the mean that of the longest wave.
+    /// Stiffness |q|/M of all waves, `[column][row]` of the transform, \[rad/m]; for the mean that of the longest wave.
     stiffness: Vec<f64>,
 }
 
 impl FourierMultiplier {
-    /// The waves of a grid on a half space or a layer.
+    /// Wave numbers of a grid, and their stiffness on a `base` with lengths in \[m].
     pub(crate) fn new(grid: &Grid, base: &Base) -> Self {
         let [rows, columns] = grid.shape();
         let [dx, dy] = grid.spacing();
@@ -75,8 +75,8 @@ impl FourierMultiplier {
         });
     }
 
-    /// Trigonometric interpolation of a field at a distance from the centres, in elements along both axes. The field must not
-    /// contain the shortest wave of the grid.
+    /// Trigonometric interpolation of a field at the points that lie at `offset` from the centres, in elements along x and y. The field
+    /// must not contain the shortest wave of the grid.
     #[cfg(feature = "rough")]
     pub(crate) fn shift(&mut self, field: &[f64], result: &mut [f64], offset: [f64; 2]) {
         let turns = [0, 1].map(|axis| 2.0 * PI * offset[axis] / self.shape[axis] as f64);
@@ -95,8 +95,9 @@ impl FourierMultiplier {
         });
     }
 
-    /// Symbols of all waves for [`apply_single_precision`](Self::apply_single_precision). That of the mean is `mean`; `None` for that of
-    /// the longest wave.
+    /// Symbols of all waves for [`apply_single_precision`](Self::apply_single_precision), `[column][row]`, from `symbol(row, |q|/M)`.
+    ///
+    /// The symbol of the mean is `mean`, or that of the longest wave for `None`. Symbols contain the normalisation of the transforms.
     pub(crate) fn symbols(
         &self,
         mean: Option<f64>,
@@ -117,7 +118,8 @@ impl FourierMultiplier {
         symbols
     }
 
-    /// Multiplies every wave by its symbol, in single precision. Allocates only at the first call.
+    /// Multiplies every wave of a field by its symbol, in single precision; `symbols` are those of [`symbols`](Self::symbols).
+    /// Allocates only at the first call.
     pub(crate) fn apply_single_precision(
         &mut self,
         field: &[f32],
@@ -154,7 +156,8 @@ impl<T: Real> Transforms<T> {
         })
     }
 
-    /// Transforms a whole field, multiplies the columns of its transform, and transforms back.
+    /// Transforms a whole field, calls `multiply(column, values)` for each column of its transform, and transforms back without
+    /// normalisation.
     fn multiply(
         &mut self,
         field: &[T],

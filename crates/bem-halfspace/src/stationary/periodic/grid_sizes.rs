@@ -12,7 +12,8 @@ use crate::stationary::periodic::equations::{
 };
 use crate::transform::fast_length::fast_length;
 
-/// Elements per shortest wave along an axis on the first grid; how well the bars hold with four is in docs/rough-surfaces.md.
+/// Number of elements per shortest wave along an axis on the first grid. Chosen; docs/rough-surfaces.md has how often bars hold
+/// with four.
 const FIRST_ELEMENTS_PER_WAVE: usize = 4;
 /// Largest finest grid, in elements, for three grids that begin with [`FIRST_ELEMENTS_PER_WAVE`]: a limit of the
 /// time, 2048².
@@ -22,17 +23,20 @@ pub(super) const MAX_USUAL_GRID: f64 = (1_u64 << 22) as f64;
 /// The edges of a first grid with one element per shortest wave are multiples of this number of elements, so that
 /// nested iteration can coarsen them. From 2 to 32 no digit of an answer changes.
 const COARSE_EDGE_MULTIPLE: usize = 8;
-/// Memory per element without the GCR basis, at most, \[bytes].
+/// Upper bound of the memory per element without the GCR basis, \[bytes]; a test compares memory stated and taken (tests/it/memory.rs).
 const BYTES_PER_ELEMENT: f64 = 186.0;
 /// Memory of the GCR basis per element on a small grid, \[bytes].
 const BASIS_BYTES_PER_ELEMENT: f64 =
     (size_of::<f32>() * BASIS_FLOATS_PER_ELEMENT_ON_SMALL_GRID) as f64;
 /// Largest memory of the GCR basis on a small grid, \[bytes].
 const MAX_SMALL_BASIS_BYTES: f64 = (size_of::<f32>() * MAX_BASIS_FLOATS_ON_SMALL_GRID) as f64;
-/// Ratio of the elements along an edge on the last of three grids to those on the first.
+/// Ratio of the elements along an edge on the last of three grids to those on the first: two doublings.
 pub(super) const FINEST_OVER_COARSEST: usize = 4;
 
-/// The shape of the first grid. For a number of elements it is proportional to the smallest first grid of the surface.
+/// The shape [n_x, n_y] of the first of three grids for a request.
+///
+/// For a number of elements, that of the last grid along its longer edge, the shape is proportional to the smallest first grid of the
+/// surface. Fails with [`BemError::PeriodTooCoarse`] for fewer elements.
 pub(super) fn first_shape(
     surface: &PeriodicSurface,
     request: &Request,
@@ -57,7 +61,7 @@ pub(super) fn first_shape(
     Ok(first.map(|edge| edge.saturating_mul(elements).div_ceil(needed)))
 }
 
-/// Elements along an edge of the usual first grid, for the largest number of waves along it.
+/// Number of elements along an edge of the usual first grid, for the largest number of waves along it: a power of two.
 fn first_elements(number: usize) -> usize {
     match number {
         0 => 2,
@@ -67,7 +71,8 @@ fn first_elements(number: usize) -> usize {
     }
 }
 
-/// The coarsest first grid: its refinement resolves all waves. If it resolves no wave itself, that refinement.
+/// The shape of the coarsest first grid, with one element per shortest wave: its refinement by two resolves all waves. If it
+/// resolves no wave itself, the shape is that of this refinement.
 fn coarsest(surface: &PeriodicSurface) -> [usize; 2] {
     let first = surface.largest_numbers().map(|number| match number {
         0 => 2,

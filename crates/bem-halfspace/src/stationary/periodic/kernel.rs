@@ -4,10 +4,11 @@
 //! û(q) = 2 p̂(q) M / (|q| E*(−q_x v)) = (1 − ν) [J'(q_x v) + i J''(q_x v)] p̂(q) M / |q|,        q_x ≥ 0
 //! ```
 //!
-//! with the creep compliance in shear J* = J' − i J''. In the frame that moves with the surface a wave has the angular frequency
-//! −q_x v. The gap of an element is evaluated at the distance θ Δx from its centre (shifted collocation), θ = −δ/π, with the loss angle
-//! δ of the shortest wave along x. There displacement and pressure of this wave are in phase, and those of all other waves differ by
-//! less than a quarter period, so that the symmetric part of the operator is positive definite: the exchange rule then ends.
+//! with the complex creep compliance in shear J* = J' − i J'', the wave vector q, the sliding speed v and the compliance ratio M of
+//! a layer (1 on a half space). In the frame that moves with the surface a wave has the angular frequency −q_x v. The gap of an
+//! element is evaluated at the distance θ Δx from its centre (shifted collocation), θ = −δ/π, with the loss angle δ of the shortest
+//! wave along x. There displacement and pressure of this wave are in phase, and those of all other waves differ by less than a
+//! quarter period, so that the symmetric part of the operator is positive definite: the exchange rule then ends.
 //!
 //! Theory: docs/theory/stationary-half-space.md, "Periodic surfaces" and "Where the gap is evaluated".
 
@@ -21,7 +22,7 @@ use crate::parallel::reductions::mean;
 use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
 use crate::{Base, BemError, Elastomer, Grid};
 
-/// A material under a surface that slides.
+/// A material under a surface that slides at a constant speed.
 #[derive(Debug, Clone)]
 pub(crate) struct Sliding {
     /// Creep spectrum of the material in shear.
@@ -88,12 +89,14 @@ impl Sliding {
         (q_x * self.velocity).abs()
     }
 
-    /// Displacement of a layer at rest per mean pressure, \[m/Pa]; 0 for a half space, whose displacements are measured from their mean.
+    /// Displacement of a layer at rest per mean pressure, \[m/Pa]; 0 for a half space, whose displacements are measured from their
+    /// mean.
     pub(super) fn mean_compliance(&self) -> Result<f64, BemError> {
         Ok(self.compliances(&[0.0])?[0].re * self.base.uniform_compliance())
     }
 
-    /// (1 − ν) (J' + i J'') for each q_x \[rad/m], \[1/Pa].
+    /// Complex compliances (1 − ν) [J'(|q_x| v) + i sign(q_x) J''(|q_x| v)], one for each wave number q_x \[rad/m] in `along_x`,
+    /// \[1/Pa].
     pub(crate) fn compliances(&self, along_x: &[f64]) -> Result<Vec<Complex<f64>>, BemError> {
         let compliance = |q_x: &f64| {
             let compliance = self.creep.complex_compliance(self.frequency(*q_x))?;
@@ -105,11 +108,11 @@ impl Sliding {
     }
 }
 
-/// The kernel K on one grid, with symbols by row of the transform.
+/// The kernel K on one grid: a Fourier multiplier with a complex compliance for each row of the transform, that is each q_x.
 ///
 /// A mean pressure compresses a layer, and leaves the mean of a half space where it is.
 pub(super) struct PeriodicKernel {
-    /// Waves of the grid.
+    /// Transforms of the grid, with the stiffness |q|/M of each wave.
     waves: FourierMultiplier,
     /// Displacement per mean pressure, \[m/Pa]; 0 for a half space.
     pub(super) mean_compliance: f64,
@@ -153,14 +156,14 @@ impl PeriodicKernel {
         })
     }
 
-    /// Displacements at the points where the gaps are evaluated.
+    /// Displacements \[m] under a pressure field \[Pa], at the points where the gaps are evaluated.
     pub(super) fn displace(&mut self, pressure: &[f64], result: &mut [f64]) {
         let symbol = |row: usize, [_, q]: [f64; 2]| self.at_gap[row] / q;
         self.waves.apply(pressure, result, symbol);
         set_mean(result, self.mean_compliance * mean(pressure));
     }
 
-    /// Displacements at the centres of the elements.
+    /// Displacements \[m] under a pressure field \[Pa], at the centres of the elements; the mean has no meaning.
     #[cfg(feature = "rough")]
     pub(super) fn displace_centres(&mut self, pressure: &[f64], result: &mut [f64]) {
         let symbol = |row: usize, [_, q]: [f64; 2]| self.at_centre[row] / q;
@@ -180,20 +183,20 @@ impl PeriodicKernel {
         ]
     }
 
-    /// The pressure without mean that displaces all points where the gaps are evaluated by a field less its mean.
+    /// The pressure without mean \[Pa] under which the points where gaps are evaluated are displaced by a field \[m] less its mean.
     pub(super) fn invert(&mut self, field: &[f64], result: &mut [f64]) {
         let symbol = |row: usize, [_, q]: [f64; 2]| self.at_gap[row].inv() * q;
         self.waves.apply(field, result, symbol);
         set_mean(result, 0.0);
     }
 
-    /// The pressure that displaces the centres of all elements.
+    /// The pressure \[Pa] under which the centres of all elements are displaced by a field \[m]; its mean has no meaning.
     pub(super) fn invert_at_centre(&mut self, field: &[f64], result: &mut [f64]) {
         let symbol = |row: usize, [_, q]: [f64; 2]| self.at_centre[row].inv() * q;
         self.waves.apply(field, result, symbol);
     }
 
-    /// Symbols of K (1 + w K)⁻¹ at the centres, with one weight w for all elements, for K over `self_influence`.
+    /// Symbols of K (1 + w K)⁻¹ at the centres, with K over `self_influence` and one `weight` w for all elements.
     pub(super) fn relaxation(&self, weight: f64, self_influence: f64) -> Vec<Complex<f32>> {
         let mean = self.mean_compliance / self_influence;
         self.waves
@@ -203,7 +206,7 @@ impl PeriodicKernel {
             })
     }
 
-    /// Multiplies every wave by its symbol, in single precision.
+    /// Multiplies every wave of a field by its symbol, in single precision.
     pub(super) fn apply_single_precision(
         &mut self,
         symbols: &[Complex<f32>],
@@ -213,12 +216,12 @@ impl PeriodicKernel {
         self.waves.apply_single_precision(field, result, symbols);
     }
 
-    /// Heights at the points where the gaps are evaluated, by trigonometric interpolation.
+    /// Heights at the points where the gaps are evaluated, by trigonometric interpolation of those at the centres.
     pub(super) fn shifted(&mut self, heights: &[f64], result: &mut [f64]) {
         self.waves.apply(heights, result, |row, _| self.shift[row]);
     }
 
-    /// Slopes ∂h/∂x at the centres of the elements.
+    /// Slopes ∂h/∂x at the centres of the elements, of the trigonometric polynomial through the heights.
     pub(super) fn slopes(&mut self, heights: &[f64], result: &mut [f64]) {
         let rows = self.shift.len();
         self.waves.apply(heights, result, |row, [q_x, _]| {
@@ -227,7 +230,8 @@ impl PeriodicKernel {
         });
     }
 
-    /// The field whose mean product with the pressure is the dissipated power per area and velocity.
+    /// The field −∂u/∂x of the displacement u under a pressure field, of which only the dissipative part is kept. Its mean product with
+    /// the pressure is the dissipated power per area and velocity, \[Pa].
     pub(super) fn dissipate(&mut self, pressure: &[f64], result: &mut [f64]) {
         let symbol =
             |row: usize, [q_x, q]: [f64; 2]| Complex::from(q_x * self.at_centre[row].im / q);
@@ -235,7 +239,7 @@ impl PeriodicKernel {
     }
 }
 
-/// Shifts a field to the given mean.
+/// Adds a constant to a field so that its mean is `prescribed`.
 fn set_mean(field: &mut [f64], prescribed: f64) {
     let shift = prescribed - mean(field);
     field.iter_mut().for_each(|value| *value += shift);

@@ -7,8 +7,9 @@
 //! gap = h + u − d ≥ 0,  p ≥ 0,  p · gap = 0,  mean of p given,      û(q) = 2 p̂(q) M / (|q| E*(ω)),  ω = −q_x v
 //! ```
 //!
-//! with the complex contact modulus E* = 2 G*/(1 − ν), the factor M of a layer (1 on a half space), and a kernel that is translation-invariant and not symmetric. It is solved by nested iteration on grids of twice the spacing,
-//! four times and so on, from the coarsest to the one asked for. The discretisation is trigonometric collocation: pressures and gaps
+//! with the complex contact modulus E* = 2 G*/(1 − ν) and the compliance ratio M of a layer (1 on a half space). The kernel is
+//! translation-invariant and not symmetric. The problem is solved by nested iteration, from the coarsest grid to the one asked for, each
+//! with half the spacing of the one before. The discretisation is trigonometric collocation: pressures and gaps
 //! are values at points, with the exact symbol of the kernel for each resolved wave. The friction is computed in two ways,
 //!
 //! ```text

@@ -16,19 +16,19 @@ use crate::stationary::periodic::{PeriodicControl, PeriodicOptions};
 use crate::transform::plane_transform::ZERO;
 use crate::{Base, BemError, Grid};
 
-/// Largest number of operator applications for an initial guess: a limit of the time.
+/// Largest number of operator applications on a coarser grid, for an initial guess: a limit of the time.
 const COARSE_MAX_PRODUCTS: usize = 300;
-/// Largest number of active elements per active element of twice the edges after prolongation; above it the set is restricted to
-/// their children.
+/// Largest number of active elements per active coarse element after prolongation to half the edges; above it the set is restricted to
+/// the children of active elements, four per element. Chosen.
 ///
 /// Of 300 contacts of a hundred-thousandth to all of the area one takes 154 operator applications without it and none more than
 /// 103 with it, and all of them 5 per cent less. If all sets are restricted, contacts of a tenth of the area take 5 per cent more.
 const MAX_GROWTH_ON_PROLONGATION: usize = 6;
 
-/// Solves the problem with the equations of its grid.
+/// Solves the problem with the equations of its grid: in closed form in full contact, else from a guess.
 ///
-/// The guess may be on this grid, on elements of twice the edges, or of any other length for none. It becomes the pressure, which
-/// outside the contact is negative and stands for the gap.
+/// `guess` may be a pressure field on this grid, or on elements of twice the edges; with any other length there is none, and nested
+/// iteration finds it. It becomes the pressure \[Pa], which outside the contact is minus the gap over the self-influence.
 pub(super) fn solve(
     problem: PeriodicContact,
     equations: &mut Equations,
@@ -37,6 +37,7 @@ pub(super) fn solve(
     if let Some(solved) = full_contact(&problem, equations, guess) {
         return Ok(solved);
     }
+    // Otherwise bring the guess to this grid, or find one by nested iteration.
     if 4 * guess.len() == problem.heights.len() {
         *guess = prolong(guess, problem.grid.blocks().shape());
     } else if guess.len() != problem.heights.len() {
@@ -46,8 +47,8 @@ pub(super) fn solve(
     contact::solve(problem, equations, guess)
 }
 
-/// Prolongs the solution on elements of twice the edges, found by nested iteration; leaves the pressure as it is if the grid cannot
-/// be coarsened.
+/// Replaces `pressure` by the prolonged solution on elements of twice the edges, which nested iteration finds; leaves it as it is
+/// if the grid cannot be coarsened.
 fn solve_on_coarser_grids(
     problem: &PeriodicContact,
     pressure: &mut Vec<f64>,
@@ -80,7 +81,7 @@ fn solve_on_coarser_grids(
     Ok(())
 }
 
-/// Restriction: the modes resolved on elements of twice the edges, at the centres of these.
+/// Restriction of heights \[m] to elements of twice the edges: the waves that these resolve, at their centres, row-major.
 fn restrict(grid: &Grid, heights: &[f64]) -> Vec<f64> {
     let (columns, [dx, dy]) = (grid.shape()[1], grid.spacing());
     let cut_off = 0.5 * PI * (1.0 - f64::EPSILON.sqrt());
@@ -104,7 +105,7 @@ fn restrict(grid: &Grid, heights: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// Prolongation of a first guess from elements of twice the edges, bilinear between their centres.
+/// Prolongation of a first guess from a grid of the given `shape` to elements of half the edges, bilinear between the centres.
 ///
 /// If the active set grows too much, because the pressures of few elements are far larger than the gaps around them, only children
 /// of active elements stay active. If half of the set would be lost, because it is a few elements next to wide gaps, each element
@@ -129,7 +130,7 @@ fn prolong(field: &[f64], shape: [usize; 2]) -> Vec<f64> {
     (0..fine.len()).map(parent).collect()
 }
 
-/// A periodic field on another number of elements, bilinear between the centres of its own.
+/// A periodic, row-major field of the shape `from` on a grid of the shape `to`, bilinear between the centres of its elements.
 pub(crate) fn interpolated(field: &[f64], from: [usize; 2], to: [usize; 2]) -> Vec<f64> {
     // The two nearest elements along an axis, and the weight of the second.
     let neighbours = |axis: usize| -> Vec<([usize; 2], f64)> {
@@ -155,7 +156,8 @@ pub(crate) fn interpolated(field: &[f64], from: [usize; 2], to: [usize; 2]) -> V
     (0..to[0] * to[1]).map(value).collect()
 }
 
-/// Full contact: the pressure under which the half space follows the surface everywhere; `None` if it is a tension anywhere.
+/// Full contact in closed form: writes the `pressure` under which the material follows the surface everywhere, with the prescribed
+/// mean. `None`, with `pressure` unchanged, if it is a tension anywhere.
 fn full_contact(
     problem: &PeriodicContact,
     equations: &mut Equations,

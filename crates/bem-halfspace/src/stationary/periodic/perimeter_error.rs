@@ -14,7 +14,7 @@ use numerics::Estimate;
 use crate::elements::area::{self, EXCESS_PER_EDGE};
 use crate::{Grid, PressureField};
 
-/// Remaining error of the area of a rough contact, as a fraction of the perimeter correction.
+/// Remaining error of the area of a rough contact, as a fraction of the perimeter correction. Measured:
 ///
 /// Of 821 contacts, with four to 16 elements per shortest wave on the coarsest of three grids, two differ by more than this and
 /// the changes on refinement, and 93 without it.
@@ -34,10 +34,12 @@ pub(super) fn area_fraction(field: &PressureField, surface: &PeriodicSurface) ->
     Estimate::new(found.area, error)
 }
 
-/// Elements along x and y, without a common factor, that the lines of unidirectional roughness pass.
+/// Direction of the lines of unidirectional roughness, as the numbers [a, b] of elements along x and y, without a common factor, that a
+/// line passes (head of this file).
 ///
 /// `None` if other waves displace the contact boundary by more than [`MAX_WAVINESS`].
 fn grooves(surface: &PeriodicSurface, grid: &Grid) -> Option<[usize; 2]> {
+    // The grooves are the waves with the direction of the steepest one.
     let slope = |wave: &Wave| {
         let [x, y] = surface.wave_vector(wave);
         wave.amplitude.abs() * x.hypot(y)
@@ -60,6 +62,7 @@ fn grooves(surface: &PeriodicSurface, grid: &Grid) -> Option<[usize; 2]> {
     let [n, m] = steepest
         .numbers
         .map(|number| number.unsigned_abs() as usize);
+    // Elements passed over whole periods, divided by their greatest common divisor (Euclid).
     let passed = [m * rows, n * columns];
     let (mut divisor, mut remainder) = (passed[0], passed[1]);
     while remainder > 0 {

@@ -17,32 +17,33 @@ use crate::stationary::periodic::subgrid_gaps::SubgridGapBound;
 use crate::stationary::periodic::{PeriodicControl, PeriodicEstimate, check_surface};
 use crate::{BemError, Grid, Reached};
 
-/// Convergence rate of each stationary friction: the error is at most the last change, or a fraction of the change before it, in
-/// case the last one is small by chance.
+/// Assumed convergence of the stationary friction, from slopes or from dissipation. The error bar is the last change, or 0.15 of the
+/// change before it if the last one is small by chance.
 ///
-/// The fraction covers the active set, which jumps from grid to grid; how often the bars hold is in docs/rough-surfaces.md.
+/// Chosen on rough contacts, whose active set jumps from grid to grid; docs/rough-surfaces.md has how often the bars hold.
 pub(super) const FRICTION_RATE: ConvergenceRate = ConvergenceRate {
     safety: 1.0,
     min_reduction: 0.15,
     expected_reduction: 0.25,
 };
-/// Convergence rate of the stationary area.
+/// Assumed convergence of the stationary area; chosen like [`FRICTION_RATE`].
 pub(super) const AREA_RATE: ConvergenceRate = ConvergenceRate {
     min_reduction: 0.3,
     ..FRICTION_RATE
 };
-/// Convergence rate of all other quantities: the first order, with a safety factor of 2.
+/// Assumed convergence of all other quantities: of the first order, so that changes halve, with a safety factor of 2.
 pub(super) const FIRST_ORDER_RATE: ConvergenceRate = ConvergenceRate {
     safety: 2.0,
     min_reduction: 0.5,
     expected_reduction: 0.5,
 };
-/// Floor of the error of a friction that is mostly that from slopes, as a fraction of the difference of both frictions.
+/// Lower bound of the error of a mean friction in which that from slopes prevails, as a fraction of the difference of both frictions.
+/// Chosen.
 ///
 /// Of 1135 results the worst erred by 4.2 bars without it, and by 2.6 with it.
 const MIN_ERROR_OVER_DIFFERENCE: f64 = 0.25;
-/// Fewest elements in contact on the coarsest grid of an error estimate for the bars to hold. With fewer, the active
-/// set decides the friction, and two grids may agree by chance. Chosen; from 0 to 30 no digit of an answer changes.
+/// Smallest number of elements in contact, on the coarsest grid of an error estimate, for bars to hold. With fewer, the active set
+/// decides the friction, and two grids may agree by chance. Chosen; from 0 to 30 no digit of an answer changes.
 pub(crate) const MIN_CONTACT_ELEMENTS: usize = 30;
 /// Relative tolerance of the contact on the first grid, halved on each of the next, whatever error is asked for.
 /// Chosen; from 1e-7 to 1e-4 no answer changes by more than 3 % of its bar.
@@ -58,9 +59,9 @@ const MAX_ELEMENT_STEPS: f64 = 2e9;
 pub(super) struct ConvergenceRate {
     /// Factor from the change to the error bar.
     safety: f64,
-    /// Lower bound of the ratio of two successive changes.
+    /// Smallest ratio of the last change to the change before it that an error bar uses.
     min_reduction: f64,
-    /// Expected ratio of the errors on two successive grids.
+    /// Expected ratio of the errors on two successive grids, for the forecast of the work.
     expected_reduction: f64,
 }
 
@@ -90,7 +91,7 @@ pub(super) struct GridResult {
     pub(super) in_contact: usize,
     /// True if the grid resolves all waves of the surface.
     pub(super) has_all_waves: bool,
-    /// Bound of the effect of gaps between elements that are all in contact.
+    /// Bounds of the effect of gaps between the centres of elements, if all elements are in contact.
     pub(super) subgrid_gaps: SubgridGapBound,
     /// Mean pressure, \[Pa].
     pub(super) mean_pressure: f64,
@@ -100,7 +101,7 @@ pub(super) struct GridResult {
     pub(super) residual: f64,
 }
 
-/// A surface sampled on one grid.
+/// A periodic surface sampled on one grid, with the waves that the grid resolves.
 pub(super) struct SampledSurface {
     /// Grid of one period.
     pub(super) grid: Grid,
@@ -111,7 +112,7 @@ pub(super) struct SampledSurface {
 }
 
 impl SampledSurface {
-    /// Samples the waves that a grid of this shape resolves; fails if it resolves none.
+    /// Samples the waves of a surface that a grid of this `shape` resolves; fails if it resolves none.
     pub(super) fn new(surface: &PeriodicSurface, shape: [usize; 2]) -> Result<Self, BemError> {
         let spacing = [0, 1].map(|axis| surface.period()[axis] / shape[axis] as f64);
         let grid = Grid::new(shape, spacing)?;
@@ -138,6 +139,7 @@ pub(super) fn refine<S>(
 where
     PeriodicEstimate<S>: Into<Reached>,
 {
+    // The first grid, and the work of the first three.
     let asked = goal.request.accuracy.relative_error();
     if let Some(error) = asked {
         between_zero_and_one("relative_error", error)?;
@@ -149,7 +151,7 @@ where
         + goal.work_on(shape.map(|n| 4 * n));
     let (mut results, mut tolerance) = (Vec::new(), FIRST_TOLERANCE);
     let finest = refine_levels(goal.request.watch, initial_work, |last, progress| {
-        // Solve on the next grid. If that does not converge, what coarser grids know is the answer.
+        // Solve on the next grid. If that does not converge, the result is that of the coarser grids.
         let sampled = SampledSurface::new(surface, shape)?;
         let solved = progress.run(goal.work_on(shape), |tell| solve(&sampled, tolerance, tell));
         let failed = matches!(solved, Err(BemError::ContactNotConverged { .. }));
@@ -168,7 +170,7 @@ where
             return Ok(None);
         };
 
-        // Give up if the next grid is too large, or too large for what it may reach.
+        // End if the next grid is too large, or cannot be expected to reach the error.
         let missed = asked.and_then(|asked| found.missed(asked, shape[0].max(shape[1]) / 2));
         let unfinished = missed.filter(|missed| goal.may_refine_to(shape, missed.error_ratio()));
         if let Some(missed) = unfinished {
@@ -185,13 +187,13 @@ where
 }
 
 impl RefinementGoal<'_> {
-    /// Work on a grid: elements, or elements times steps of a march.
+    /// Work on a grid of a shape, in elements, or in elements times steps of a march.
     fn work_on(&self, shape: [usize; 2]) -> f64 {
         let [rows, columns] = shape.map(|n| n as f64);
         rows * columns * self.steps_per_row.map_or(1.0, |steps| steps * rows)
     }
 
-    /// The grids from this shape on, if the friction converges as expected.
+    /// Forecast of work and error on the grids from this shape on, if the friction converges as expected.
     fn forecast(&self, shape: [usize; 2]) -> LevelForecast {
         LevelForecast {
             work: self.work_on(shape),
@@ -201,7 +203,7 @@ impl RefinementGoal<'_> {
         }
     }
 
-    /// Fails if a grid with `finer` times the elements of a shape along both axes is too large.
+    /// Fails with [`BemError::GridTooLarge`] if a grid with `finer` times the elements of a shape along both axes is too large.
     fn check_size(&self, shape: [usize; 2], finer: f64) -> Result<(), BemError> {
         let [rows, columns] = shape.map(|n| n as f64);
         let elements = finer.powi(2) * rows * columns;
@@ -225,7 +227,8 @@ impl RefinementGoal<'_> {
             && self.request.watch.may_refine(shape[0].max(shape[1]))
     }
 
-    /// Fails if a march that reaches the error would take too long even at the second order, which no error exceeds.
+    /// Fails if a march that reaches the error, too large by the factor `excess`, would take too long even at the second order,
+    /// which no error exceeds.
     fn check_march(&self, excess: f64, shape: [usize; 2]) -> Result<(), BemError> {
         if self.steps_per_row.is_none() {
             return Ok(());
@@ -300,16 +303,17 @@ impl RefinementGoal<'_> {
     }
 }
 
-/// The mean of both frictions, which err by different things, weighted by the inverse of their bars.
+/// The mean of both frictions, whose errors have different causes, weighted by the inverse of their bars.
 ///
-/// If one of them is much sharper, it is that one; if both are alike, the bar is halved. A negative friction from slopes is ignored.
+/// If one bar is much smaller, the mean is nearly that friction; if both are equal, the bar of the mean is half of them. A negative
+/// friction from slopes is ignored.
 fn weighted_mean(slopes: Estimate, dissipation: Estimate) -> Estimate {
     if slopes.value < 0.0 || dissipation.error == 0.0 {
         return dissipation;
     }
     let weight = dissipation.error / (slopes.error + dissipation.error);
     let difference = slopes.value - dissipation.value;
-    // Slopes change little by chance more often than the power, which is the better one of a contact that is nearly elastic.
+    // Two grids agree by chance in the slopes more often than in the power, which is the more accurate one in nearly elastic contacts.
     let floor = if slopes.error < dissipation.error {
         MIN_ERROR_OVER_DIFFERENCE * difference.abs()
     } else {
@@ -329,8 +333,8 @@ const TARGETS: [&str; 3] = [
 ];
 
 impl<S> PeriodicEstimate<S> {
-    /// The one of [`TARGETS`] whose relative error is too large: the friction, or the area without friction, or the mean pressure if
-    /// its relative error is larger.
+    /// The quantity of [`TARGETS`] whose relative error exceeds `relative_error`, on a grid with a number of `elements`; `None` if
+    /// there is none. It is the friction, or the area without friction, or the mean pressure if its relative error is larger.
     fn missed(&self, relative_error: f64, elements: usize) -> Option<NotReached> {
         let (friction, pressure) = (self.friction_coefficient, self.mean_pressure);
         let has_friction = friction.value != 0.0;

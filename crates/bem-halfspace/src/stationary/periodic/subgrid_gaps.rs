@@ -19,7 +19,7 @@ const GAP_TO_TENSION_RATIO: f64 = 2.0;
 /// tenths of the mean. Chosen; from 2 to 8 no digit of an answer changes.
 const SUBSAMPLES_PER_AXIS: usize = 4;
 
-/// Upper bounds of what sub-grid gaps change; zero if there are none.
+/// Upper bounds of the changes by sub-grid gaps; zero if there are none.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct SubgridGapBound {
     /// Bound of the change of the friction coefficient.

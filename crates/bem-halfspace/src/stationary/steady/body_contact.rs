@@ -15,7 +15,7 @@ const INNER_TOLERANCE_OVER_OPENING: f64 = 1e-3;
 
 /// A solved contact, in the units of the mesh.
 pub(super) struct Solution {
-    /// Elements in contact with their loads, all greater than zero.
+    /// Indices of the candidates in contact with their loads, all greater than zero.
     pub(super) loads: Vec<(usize, f64)>,
     /// Indentation depth δ, in units of the depth scale.
     pub(super) depth: f64,
@@ -30,7 +30,7 @@ pub(super) struct Solution {
     pub(super) gap_difference: f64,
 }
 
-/// Solves the complementarity problem from an initial active set with its loads.
+/// Solves the complementarity problem on a mesh from an initial active set, given as indices of candidates with their loads.
 pub(super) fn solve(
     mesh: &Mesh,
     plans: &mut Plans,
@@ -54,6 +54,7 @@ pub(super) fn solve(
     let tolerance = mesh.options.tolerance;
     let mut search = Search::new(&mut contact, heights, inner_tolerance, tolerance, loads);
     search.run()?;
+    // The gaps next to the contact are part of the friction from dissipation.
     let [residual, depth] = [search.residual, search.depth];
     let gap_difference = mesh.mean_gap_difference(&search.pressure, &search.gap);
     let loads = search.pressure.into_iter().enumerate();
@@ -67,8 +68,8 @@ pub(super) fn solve(
     })
 }
 
-/// Loosest RMS residual on active sets of about `n_elements` elements, in units of the depth scale. Over one element at the front the gap
-/// opens like the power 3/2 of the ratio of its length to the contact length.
+/// Loosest RMS residual on active sets of about `n_elements` elements, in units of the depth scale. Over one element at the front
+/// the gap opens like the power 3/2 of the ratio of its length to the contact length.
 fn inner_tolerance(n_elements: usize) -> f64 {
     let along = (n_elements as f64).sqrt().max(1.0);
     INNER_TOLERANCE_OVER_OPENING * along.powf(-1.5)

@@ -28,7 +28,8 @@ const MAX_DISSIPATION_ERROR_RATIO_ON_ELEMENTS: f64 = 0.2;
 /// Largest number of footprints: a limit of the time. Each is 1.5 times as long as the one before, so that the last
 /// is 11 times as long as the first.
 const MAX_FOOTPRINTS: usize = 7;
-/// Memory per footprint element that is solved for, most of it for kernel and transforms, \[bytes].
+/// Upper bound of the memory per footprint element that is solved for, most of it for kernel and transforms, \[bytes]. A test compares
+/// memory stated and taken (tests/it/memory.rs).
 const STEADY_BYTES_PER_ELEMENT: f64 = 1000.0;
 
 /// Largest memory of [`steady`] for a number of elements along the contact, \[bytes]. Where the contact is longer than expected, its
@@ -51,8 +52,8 @@ pub fn steady_memory(
     Ok(STEADY_BYTES_PER_ELEMENT * solved_fraction * options.footprint.n_elements(options.spacing))
 }
 
-/// Solves in the footprint of a plan, and in larger ones while the contact reaches the boundary. The length of the contact does not follow
-/// from heights alone under a long surface, or one that rises in steps.
+/// Calls `solve` with a plan, and with larger footprints while the contact reaches the boundary. Under a long surface, or one that
+/// rises in steps, the length of the contact does not follow from heights alone.
 fn in_growing_footprint<T>(
     mut plan: GridPlan,
     solve: impl Fn(&GridPlan) -> Result<T, BemError>,
@@ -72,6 +73,7 @@ fn plan_of_grids(
     elastomer: &dyn Elastomer,
     load: &SlidingLoad,
 ) -> Result<GridPlan, BemError> {
+    // Drop the sliding distance, keep the track.
     let without_distance = SlidingLoad::with(load.control(), load.velocity())?;
     let stationary = match load.track() {
         None => without_distance,
@@ -94,14 +96,14 @@ pub fn steady_grid(
     Ok(grid(&plan_of_grids(surface, elastomer, load)?, elements))
 }
 
-/// The grid with about `elements` elements along the contact in the footprint of a plan.
+/// The grid with about `elements` elements along the contact, half as wide as long, in the footprint of a plan.
 fn grid(plan: &GridPlan, elements: usize) -> SteadyOptions {
     let dx = plan.length() / elements as f64;
     SteadyOptions::new([dx, DEFAULT_ASPECT * dx], plan.footprint.widened(dx))
 }
 
-/// Solves the stationary sliding of `surface` on a linear viscoelastic half space, under a force or at a depth. The
-/// request is a relative error of the friction coefficient, and of the normal force where that is not given, or an approximate number of
+/// Solves the stationary sliding of `surface` on a linear viscoelastic half space, under a force or at a depth. The request is a
+/// relative error of the friction coefficient, and of the normal force where that is not given, or an approximate number of
 /// elements along the contact.
 ///
 /// A sliding distance of the load has an effect on a material that flows only. The depth is that after the distance, up to terms of the
@@ -131,7 +133,8 @@ fn grid(plan: &GridPlan, elements: usize) -> SteadyOptions {
 /// [`BemError::NotReached`] with the result on the finest grid allowed;
 /// [`BemError::GridTooLarge`] where a body is so steep that the grids allowed give no error estimate;
 /// [`BemError::InvalidParameter`] for a relative error that is not between 0 and 1, an apex as sharp as √r, whose
-/// friction is infinite, or a surface that nowhere reaches the height needed; on a track [`BemError::NoCycle`] for a material that flows, and
+/// friction is infinite, or a surface that nowhere reaches the height needed; on a track [`BemError::NoCycle`] for a material that
+/// flows, and
 /// [`BemError::TrackTooShort`]; and the errors of [`steady_on_grid`].
 pub fn steady<'w>(
     surface: &dyn Surface,
@@ -157,7 +160,8 @@ pub fn steady_refined(
     estimate(surface, elastomer, load, options, request)
 }
 
-/// The state with the requested relative error instead of that of the options, or on a requested number of elements.
+/// The stationary state to the relative error of the `request`, which replaces that of the options, or on its number of elements; in a
+/// footprint that grows with the contact.
 fn estimate(
     surface: &dyn Surface,
     elastomer: &dyn Elastomer,

@@ -4,7 +4,9 @@
 //! h + K x − δ = 0  on the active set,      α δ + β Σ x = γ
 //! ```
 //!
-//! The second equation prescribes the force or the depth. Small systems are solved directly, large ones by preconditioned GCR.
+//! x are loads and δ is the depth, both in the units of the mesh (`mesh.rs`). The second equation, with the coefficients of
+//! [`ControlEquation`](super::loading::ControlEquation), prescribes the force or the depth. Small systems are solved directly, large
+//! ones by preconditioned GCR.
 //!
 //! Theory: docs/theory/stationary-half-space.md, "The equations of one contact".
 
@@ -19,10 +21,10 @@ use crate::stationary::steady::plans::Plans;
 use crate::stationary::steady::region::Region;
 use crate::stationary::steady::wiener_hopf::WienerHopf;
 
-/// Largest n³/N for a direct solve of n unknowns in a box of N elements, on which the transforms of an iteration work. The limit is
-/// about 120 unknowns for a compact contact and far more for a thin crescent. Up to it the direct solve is faster, and exact to
-/// rounding. Beyond it the few steps from a good guess are faster: 0.1 to 0.3 ms against 0.4 ms at 145 unknowns, 0.4 to 0.7 ms against 7 ms
-/// at 557.
+/// Largest n³/N for a direct solve of n unknowns in a box of N elements, on which the transforms of an iteration work. Measured:
+/// the limit is about 120 unknowns for a compact contact and far more for a thin crescent. Up to it the direct solve is faster, and
+/// exact to rounding. Beyond it the few steps from a good guess are faster: 0.1 to 0.3 ms against 0.4 ms at 145 unknowns, 0.4 to
+/// 0.7 ms against 7 ms at 557.
 const DIRECT_SOLVE_WORK_PER_ELEMENT: f64 = 5e3;
 /// Largest number of GCR steps, and truncation depth of the basis: a limit of time and memory. A preconditioned
 /// contact needs some tens.
@@ -39,11 +41,11 @@ pub(super) struct ContactEquations<'mesh> {
     mesh: &'mesh Mesh,
     /// Spectra of the kernel and of its inverse factors.
     plans: &'mesh mut Plans,
-    /// All elements that may touch.
+    /// All candidates, the elements that may touch, in their bounding box.
     candidates: Region,
     /// K on all candidates.
     operator: KernelOperator,
-    /// Elements of the active set; loads and gaps are in this order.
+    /// Indices of the candidates of the active set; loads and gaps are in this order.
     active: Vec<usize>,
     /// Loads x on the active set, of either sign.
     loads: Vec<f64>,
@@ -65,30 +67,35 @@ impl FixedSetSolver for ContactEquations<'_> {
         after_growth: 0.006,
     };
 
+    /// Rows and columns of the footprint.
     fn shape(&self) -> [usize; 2] {
         self.mesh.shape()
     }
 
+    /// Row and column of a candidate in the footprint.
     fn row_and_column(&self, element: usize) -> [usize; 2] {
         self.mesh.indices(element)[0]
     }
 
+    /// Creep of an element under its own unit load, which is positive also where displacements have an undetermined constant.
     fn self_influence(&self) -> f64 {
         self.mesh.self_creep()
     }
 
-    /// Displacements in units of the depth scale, to which residuals are relative.
+    /// Writes the displacements K x of all candidates, in units of the depth scale; residuals are relative to that scale.
     fn displace(&mut self, pressure: &[f64], displacement: &mut [f64]) -> f64 {
         displacement.copy_from_slice(&self.operator.apply(0, pressure, &self.candidates));
         1.0
     }
 
+    /// Depth δ from the control equation, in units of the depth scale; `None` under a given force.
     fn depth(&self, pressure: &[f64]) -> Option<f64> {
         let control = self.mesh.loading.control;
         let total = self.mesh.total_load(pressure.iter().copied().enumerate());
         (control.depth != 0.0).then(|| (control.right - control.load * total) / control.depth)
     }
 
+    /// Collects the active candidates with their loads and gaps, and counts the active set.
     fn set_active_set(&mut self, active: &[bool], pressure: &[f64], gap: &[f64]) {
         let elements = (0..active.len()).filter(|element| active[*element]);
         self.active = elements.collect();
@@ -97,10 +104,12 @@ impl FixedSetSolver for ContactEquations<'_> {
         self.n_active_sets += 1;
     }
 
+    /// Root mean square of the gaps of the active set, in units of the depth scale.
     fn residual_rms(&self) -> f64 {
         norm(&self.gaps) / (self.active.len() as f64).sqrt()
     }
 
+    /// Solves directly if that is cheaper, else by GCR until the gaps are below `rms` or `max`.
     fn solve(&mut self, rms: f64, max: f64) -> Result<(), BemError> {
         let region = self.mesh.region(self.active.iter().copied());
         self.solved_directly = prefers_direct_solve(self.active.len(), region.n_box_elements());
@@ -111,6 +120,7 @@ impl FixedSetSolver for ContactEquations<'_> {
         Ok(())
     }
 
+    /// Writes the loads of the active set, of either sign, into a vector over all candidates.
     fn copy_pressure_to(&self, pressure: &mut [f64]) {
         for (element, load) in self.active.iter().zip(&self.loads) {
             pressure[*element] = *load;
@@ -122,6 +132,7 @@ impl FixedSetSolver for ContactEquations<'_> {
         false
     }
 
+    /// Scales loads to the given force; at a given depth nothing changes.
     fn scale_to_force(&self, pressure: &mut [f64]) {
         self.mesh.scale_to_force(pressure);
     }
@@ -131,6 +142,7 @@ impl FixedSetSolver for ContactEquations<'_> {
         self.n_active_sets
     }
 
+    /// True from [`SteadyOptions::max_iterations`](super::SteadyOptions::max_iterations) active sets on.
     fn budget_is_exhausted(&self) -> bool {
         self.n_active_sets >= self.mesh.options.max_iterations
     }
@@ -153,7 +165,7 @@ impl<'mesh> ContactEquations<'mesh> {
         }
     }
 
-    /// Solves the equations with the depth as the last unknown.
+    /// Solves the equations by LU factorisation, with the depth as the last unknown. Fails with [`BemError::SingularContact`].
     fn solve_directly(&mut self) -> Result<(), BemError> {
         let (mesh, active) = (self.mesh, &self.active);
         let n = active.len();
@@ -218,7 +230,7 @@ struct Directions<'a> {
     operator: KernelOperator,
     /// Approximate inverse of K on the active set.
     preconditioner: WienerHopf,
-    /// Preconditioned loads of a unit depth.
+    /// Preconditioned loads under unit displacements of all elements of the active set.
     unit_depth_response: Vec<f64>,
 }
 
@@ -239,8 +251,8 @@ impl<'a> Directions<'a> {
         }
     }
 
-    /// Writes loads that nearly close the gaps, and the gaps K x − δ that they add. The depth change δ keeps the prescribed force or
-    /// depth.
+    /// Writes a `direction` of loads x that nearly close the `gaps`, up to the sign, and its `image`, the gaps K x − δ that they
+    /// add. The change δ of the depth keeps the prescribed force or depth.
     fn write(&mut self, gaps: &[f64], direction: &mut [f64], image: &mut [f64]) {
         let control = self.mesh.loading.control;
         // Preconditioned loads, and the depth that restores the control.

@@ -1,7 +1,7 @@
 //! The depth scale of sliding on any material.
 //!
-//! A body at the depth D has a contact of about the length a, the distance at which its height is D. The material stays in it for about the time
-//! a/v, and the one-dimensional model carries about the force 4 a D/J(a/v). Hence
+//! A body at the depth D has a contact of about the length a, the distance at which its height is D. The material stays in it for
+//! about the time a/v, and the one-dimensional model carries about the force 4 a D/J(a/v). Hence
 //!
 //! ```text
 //! D = h(a) = 2 (1 − ν) F_N J(a/v)/(4 a)
@@ -26,7 +26,7 @@ use numerics::{in_range, positive};
 use crate::stationary::steady::sliding_creep::SlidingCreep;
 use crate::{BemError, Elastomer};
 
-/// Bisections of the logarithm of the length, enough for all digits of a number: 2⁻⁶⁰ of an octave.
+/// Number of bisections of the logarithm of the length, enough for all digits of a number: 2⁻⁶⁰ of an octave.
 const BISECTIONS: usize = 60;
 /// Largest number of doublings or halvings of the length in the search of an interval: beyond 2^±900 heights and
 /// forces leave the range of numbers.
@@ -80,6 +80,7 @@ pub(super) fn profile_scale(
     let allowed =
         "0 under a line load: a surface that flows sinks the faster the longer the line is";
     in_range("fluidity", fluidity, fluidity <= 0.0, allowed)?;
+    // The length at which the mean height of both sides equals the depth.
     let height = |distance: f64| {
         let [rear, front] = [-distance, distance].map(|x| profile.height([x, 0.0]));
         0.5 * (rear + front)
@@ -94,7 +95,8 @@ pub(super) fn profile_scale(
     })
 }
 
-/// The length at which the height of a body equals the depth of a contact of that length, or `max_length` if that is shorter.
+/// The length a \[m] with `height(a)` = `depth(a)`, the depth of a contact of that length, or `max_length` if that is shorter; by
+/// bisection.
 fn contact_length(
     height: impl Fn(f64) -> f64,
     depth: impl Fn(f64) -> Result<f64, BemError>,
@@ -152,7 +154,7 @@ pub(crate) fn depth_scale_of_surface(
     depth_scale(&creep, force, height, max_length, sliding_distance)
 }
 
-/// Mean height at a distance from the lowest point, \[m].
+/// Mean height of a surface at a `distance` \[m] from its lowest point, over [`HEIGHT_DIRECTIONS`], \[m].
 pub(super) fn mean_height(surface: &dyn Surface, distance: f64) -> f64 {
     let height_along = |direction: u8| {
         let (sine, cosine) = (FRAC_PI_4 * f64::from(direction)).sin_cos();

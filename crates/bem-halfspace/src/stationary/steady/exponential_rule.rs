@@ -12,10 +12,10 @@
 
 use numerics::{LobattoRule, legendre_values, lobatto_rule, whole_part};
 
-/// Largest number of points of a rule.
+/// Largest number of points of a rule: that of the most accurate panels (`retarded_potential.rs`).
 pub(super) const MAX_POINTS: usize = 12;
-/// Argument z of the Bessel functions above which their recurrence runs upwards, stable for degrees up to z; below it
-/// runs downwards. From 30 to 120 no answer changes by more than 1e-10 of its bar.
+/// Argument z = rate/2 of the Bessel functions above which their recurrence runs upwards in the degree, stable for degrees up to z;
+/// up to it the recurrence runs downwards. From 30 to 120 no answer changes by more than 1e-10 of its bar.
 const UPWARD_RECURRENCE_ARGUMENT: f64 = 60.0;
 /// Degrees by which the downward recurrence starts above the largest degree plus 2 z, so that its truncation is below
 /// rounding error. From 20 to 80 no digit of an answer changes.
@@ -54,7 +54,8 @@ impl ExponentialRule {
         }
     }
 
-    /// The rule of 2 to [`MAX_POINTS`] integer points around [0, 1], as many on either side, for functions that are smooth over all of them.
+    /// The rule of 2 to [`MAX_POINTS`] integer points around [0, 1], as many on either side, for functions that are smooth over all
+    /// of them.
     pub(super) fn on_integers(n_points: usize) -> Self {
         // Lagrange interpolation at the Gauss–Lobatto points, then their projection.
         let lobatto = Self::new(n_points);
@@ -71,7 +72,7 @@ impl ExponentialRule {
         Self { nodes, projection }
     }
 
-    /// Weights W_j(rate); 0 beyond the points of the rule.
+    /// Weights W_j of the rule for a `rate` ≥ 0, one for each of its points; 0 beyond them.
     pub(super) fn weights(&self, rate: f64) -> [f64; MAX_POINTS] {
         let moments = legendre_moments(rate, self.nodes.len());
         let mut weights = [0.0; MAX_POINTS];
@@ -84,14 +85,15 @@ impl ExponentialRule {
     }
 }
 
-/// Value at x of the Lagrange polynomial that is 1 at one of the nodes and 0 at the other_nodes.
+/// Value at x of the Lagrange polynomial that is 1 at the node of number `index` and 0 at the other nodes.
 fn lagrange(nodes: &[f64], index: usize, x: f64) -> f64 {
     let other_nodes = nodes[..index].iter().chain(&nodes[index + 1..]);
     let factors = other_nodes.map(|node| (x - node) / (nodes[index] - node));
     factors.product()
 }
 
-/// Moments rate · ∫_0^1 e^(−rate·s) P_n(2s − 1) ds = (−1)ⁿ 2z e^(−z) i_n(z), z = rate/2.
+/// Moments rate · ∫_0^1 e^(−rate·s) P_n(2s − 1) ds = (−1)ⁿ 2z e^(−z) i_n(z) for n = 0 … count − 1, with z = rate/2, the Legendre
+/// polynomials P_n and the modified spherical Bessel functions i_n.
 fn legendre_moments(rate: f64, count: usize) -> [f64; MAX_POINTS] {
     let z = 0.5 * rate;
     let first = -(-rate).exp_m1();

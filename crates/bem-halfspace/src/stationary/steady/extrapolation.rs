@@ -4,22 +4,22 @@
 
 use numerics::Estimate;
 
-/// Convergence order at the singular front, where the pressure begins like the root of the distance.
+/// Convergence order that the front of the contact causes (docs/theory/stationary-half-space.md, "Scatter, order, error bar").
 pub(super) const FRONT_ORDER: f64 = 1.5;
-/// Convergence order at the edge of a flat end just inside the contact, where the elements resolve a punch only: its pressure grows like
-/// the inverse root of the distance.
+/// Convergence order at the edge of a flat end just inside the contact, where the elements resolve a punch only: its pressure grows
+/// like the inverse root of the distance.
 pub(super) const FLAT_END_ORDER: f64 = 0.5;
 /// Range of observed convergence orders under edges: from that of a hidden flat end to that of a front without edges.
 pub(super) const OBSERVED_ORDERS: [f64; 2] = [FLAT_END_ORDER, FRONT_ORDER];
 /// Range of orders where elements hide an edge. No observed order counts, because values may turn around once the edge is resolved.
 pub(super) const HIDDEN_EDGE_ORDERS: [f64; 2] = [FLAT_END_ORDER; 2];
 
-/// Convergence orders that are observed for the friction on any material but a dashpot: 2 from the dissipated power, and under cones, up to
-/// 5/2 from slopes.
+/// Convergence orders that are observed for the friction on any material but a dashpot: 2 from the dissipated power, and under
+/// cones, up to 5/2 from slopes.
 pub(super) const CREEPING_ORDERS: [f64; 2] = [2.0, 2.5];
-/// Another limit is accepted if its error is below this fraction of the error before: of a higher order, with a second elimination, or of the
-/// friction from dissipation. The smallest of several error estimates holds less often than each of them. With it all of 104 hold on 60
-/// random scenes under r, r^1.5, r² and r⁴, as without higher orders, and the median is 0.6 of that.
+/// Another limit is accepted if its error is below this fraction of the error before: of a higher order, with a second elimination,
+/// or of the friction from dissipation. The smallest of several error estimates holds less often than each of them. With it all of
+/// 104 hold on 60 random scenes under r, r^1.5, r² and r⁴, as without higher orders, and the median is 0.6 of that.
 pub(super) const ACCEPTED_ERROR_RATIO: f64 = 0.5;
 /// Weight of the last but one change of the limit in its error; measured by `evidence tuning`. The last change has the weight 1.
 const EARLIER_CHANGE_WEIGHT: f64 = 0.5;
@@ -28,9 +28,10 @@ const ELIMINATION_WEIGHT: f64 = 0.25;
 
 /// Extrapolates values on grids of which each has √2 times as many elements along a length as the one before.
 ///
-/// The error of a grid is of the order `order` in the spacing, with a term of the next order after that. Each order is eliminated over a
-/// factor of two in the spacing. One elimination is enough, unless the order is below 1 or the second one reduces the error to less than
-/// half. Where elements resolve the creep in the contact, errors may fall with one of the `faster_orders`, each of which is tried.
+/// The error of a grid is of the order `order` in the spacing, with a term of the next order after that. Each order is eliminated
+/// over a factor of two in the spacing. One elimination is enough, unless the order is below 1 or the second one reduces the error
+/// to less than half. Where elements resolve the creep in the contact, errors may fall with one of the `faster_orders`, each of
+/// which is tried.
 pub(super) fn extrapolate(values: &[f64], order: f64, faster_orders: &[f64]) -> Estimate {
     // Limits after one and after two eliminations.
     let once = eliminate_order(values, order);
@@ -72,7 +73,7 @@ pub(super) fn change_at_observed_order(values: &[f64], order: f64, range: [f64; 
     windows.take(2).map(change).fold(0.0, f64::max)
 }
 
-/// Order of the error that remains when that of `order` is eliminated: 1 from the apex, 3/2 from the front, then 2 from the smooth part.
+/// Order of the error that remains when that of `order` is eliminated: 1 for cusps, 3/2 from the front, then 2.
 const fn next_order(order: f64) -> f64 {
     if order < 1.0 {
         1.0
@@ -83,8 +84,9 @@ const fn next_order(order: f64) -> f64 {
     }
 }
 
-/// The last limit, with an error from the changes by the last two refinements and by the last elimination. `None` for fewer than three
-/// limits. Two limits may agree by accident, three seldom do: with two the error held in three of four cases, with three in 97 of 100.
+/// The last of the `limits`, with an error from the changes by the last two refinements and from its difference to the last of
+/// `eliminated`, the values before the last elimination. `None` for fewer than three limits. Two limits may agree by accident,
+/// three seldom do: with two the error held in three of four cases, with three in 97 of 100.
 fn estimate_limit(limits: &[f64], eliminated: &[f64]) -> Option<Estimate> {
     let [.., earlier, before, last] = limits else {
         return None;
@@ -99,7 +101,8 @@ fn estimate_limit(limits: &[f64], eliminated: &[f64]) -> Option<Estimate> {
     ))
 }
 
-/// Eliminates the error of one order from a sequence, which gets two values shorter.
+/// Eliminates the error of one order from values on grids with spacings in the ratio √2, over a factor of two (Richardson); the
+/// result is two values shorter.
 fn eliminate_order(values: &[f64], order: f64) -> Vec<f64> {
     // 2^order − 1, which is small for the sharpest cusps.
     let gain = (order * std::f64::consts::LN_2).exp_m1();

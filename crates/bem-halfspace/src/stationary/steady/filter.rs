@@ -1,4 +1,6 @@
 //! Convolutions with kernels that are even along y, but not along x, by Fourier transforms on the bounding box of a region.
+//!
+//! A region is a set of elements with its bounding box (`region.rs`); values on it are packed vectors in its order.
 
 use std::sync::Arc;
 
@@ -7,7 +9,7 @@ use rustfft::num_complex::Complex;
 use crate::stationary::steady::region::Region;
 use crate::transform::plane_transform::{PlaneTransform, Workspace, ZERO};
 
-/// Fourier transform of a kernel, by column, multiplied by the normalisation of the transforms.
+/// Fourier transform of a kernel, `[column][row]`, multiplied by the normalisation of the transforms.
 pub(super) type Spectrum = Vec<Complex<f64>>;
 
 /// Spectra of several kernels with one period.
@@ -52,8 +54,10 @@ impl<const N: usize> RegionFilter<N> {
 }
 
 impl PlaneTransform {
-    /// Spectrum of a kernel that is even along y. `kernel(row, column)` is evaluated on the whole period along x, where offsets above half of
-    /// it are negative, and on half of the period along y. `column_step` may change each column of the transform before it is stored.
+    /// Spectrum of a kernel that is even along y.
+    ///
+    /// `kernel(row, column)` is evaluated on the whole period along x, where offsets above half of it are negative, and on half of the
+    /// period along y. `column_step` may change each column of the transform before it is normalised and stored.
     pub(super) fn spectrum(
         &self,
         kernel: impl Fn(usize, usize) -> f64,

@@ -37,7 +37,7 @@ const STRIP_PHASES: [[f64; 2]; 4] = [[0.0, 0.0], [0.5, 0.0], [0.25, 0.0], [-0.25
 /// and the extrapolated limit contains the scatter of all values that it eliminates. With 1 the bar of the cylinder
 /// is 0.15 times as wide.
 const STRIP_SCATTER_WINDOW: usize = 4;
-/// Convergence order of the area of the elements in contact.
+/// Convergence order that is assumed for the area of the elements in contact in sliding: a boundary that follows the elements.
 const AREA_ORDER: f64 = 1.0;
 /// Safety factor on the error of the friction on any material but a dashpot. There the whole contact boundary scatters, and the last
 /// refinement has a scatter that is small by chance. Without it 95.8 of 100 error estimates hold on random solids and cylinders, with
@@ -72,7 +72,7 @@ const RESIDUAL_SHARE: f64 = 1e-4;
 /// It is larger than [`RESIDUAL_SHARE`], because the constant potential of the whole strip, which is absorbed in the
 /// depth, leaves more rounding error. Chosen; from 1e-4 to 1e-2 no answer changes by more than 0.3 % of its bar.
 const STRIP_RESIDUAL_SHARE: f64 = 1e-2;
-/// Smallest tolerance of a contact, relative to the depth scale, that rounding error permits.
+/// Smallest tolerance of a contact, relative to the depth scale. Chosen above the rounding error of the transforms.
 const MIN_TOLERANCE: f64 = 1e-12;
 /// Error of the friction over the mean slope below which the friction of an elastic material counts as known: the
 /// tolerances of the contacts and their sums leave as much. Chosen.
@@ -175,12 +175,12 @@ struct ShiftedGrids<'a> {
     refinements: Vec<Refinement>,
     /// Fraction of the friction that may be lost on the last level, because the surface relaxes within one element.
     subgrid_friction_fraction: f64,
-    /// True if the contact on the last level ends within a few elements of an edge of the body, so that the elements do not resolve whether
-    /// it ends at that edge.
+    /// True if the contact on the last level ends within a few elements of an edge of the body, so that the elements do not resolve
+    /// whether it ends at that edge.
     hides_edge: bool,
 }
 
-/// Relative work of a level, which has twice as many elements as the one before.
+/// Work of a level, in units of that of level 0: each has twice as many elements as the one before.
 fn work_of_level(index: i32) -> f64 {
     f64::from(index).exp2()
 }
@@ -191,7 +191,7 @@ impl ShiftedGrids<'_> {
         &mut self,
         progress: &mut WorkProgress,
     ) -> Result<Level<SteadyEstimate>, BemError> {
-        // A patch that coarser grids do not resolve makes their values worthless.
+        // Solve the next level that resolves the contact. If it does not resolve a patch, coarser levels do not either: drop them.
         let (state, options) = loop {
             if self.refinements.is_empty() {
                 self.check_first_level()?;
@@ -205,8 +205,7 @@ impl ShiftedGrids<'_> {
             }
         };
 
-        // Choose the quantity that decides. Without friction the contact is known as well as its depth; finer grids would only
-        // show rounding error.
+        // Choose the quantity that decides whether to refine: the friction, or depth or force if the friction is only rounding error.
         let [friction, force] = [self.friction(), self.force()];
         let is_elastic = self.problem.loading.creep.is_elastic();
         let rounding = if is_elastic {
@@ -245,7 +244,7 @@ impl ShiftedGrids<'_> {
             && watch.may_refine(plan.elements(self.next))
     }
 
-    /// The levels that follow, if the error falls with the order of the averages.
+    /// Forecast of the work of the levels that follow, if the error falls with the order of the averages.
     fn forecast(&self) -> LevelForecast {
         let unknowns = self.last_unknowns().max(1);
         LevelForecast {
@@ -267,7 +266,7 @@ impl ShiftedGrids<'_> {
         self.refinements.last().map_or(0, |last| last.unknowns)
     }
 
-    /// Extrapolated limit of the averages of a quantity. The error contains the scatter of the last level.
+    /// Extrapolated limit of the averages of a `quantity` of all levels. The error contains the scatter of the last level.
     fn limit(&self, order: f64, quantity: impl Fn(&Refinement) -> Average) -> Estimate {
         self.limit_of(
             &Vec::from_iter(self.refinements.iter().map(quantity)),
@@ -277,8 +276,8 @@ impl ShiftedGrids<'_> {
         )
     }
 
-    /// Extrapolated limit of averages that converge with the order `order` or one of the `faster_orders`. The error contains the largest
-    /// scatter of some last levels, and under a body with edges the change of the limit if the observed order is assumed.
+    /// Extrapolated limit of averages that converge with the order `order` or one of the `faster_orders`. The error contains the
+    /// largest scatter of some last levels, and under a body with edges the change of the limit if the observed order is assumed.
     fn limit_of(
         &self,
         averages: &[Average],
@@ -297,11 +296,12 @@ impl ShiftedGrids<'_> {
         limit.widened(change_at_observed_order(&values, order, range))
     }
 
-    /// Friction from the slopes, or from the dissipated power where its error is much smaller. The error contains the sub-grid friction.
+    /// Friction from the slopes, or from the dissipated power where its error is much smaller. The error contains the sub-grid
+    /// friction.
     ///
-    /// A small friction on any material but a dashpot may converge faster than front and apex allow on a dashpot. Higher orders are then
-    /// tried for bodies of finite width without edges. On a dashpot the scatter is not added, because it falls as fast as the rest of the
-    /// error.
+    /// A small friction on any material but a dashpot may converge faster than front and apex allow on a dashpot. Higher orders are
+    /// then tried for bodies of finite width without edges. On a dashpot the scatter is not added, because it falls as fast as the
+    /// rest of the error.
     fn friction(&self) -> Estimate {
         let loading = &self.problem.loading;
         // Choose the convergence orders that are tried.
@@ -418,8 +418,8 @@ impl ShiftedGrids<'_> {
         (ELEMENTS_PER_UNKNOWN * n_unknowns).clamp(MIN_GRID_LIMIT, large_limit)
     }
 
-    /// Solves all shifted grids of the next level, each from the active set of the one before, and averages. Returns the last solution with
-    /// its grid.
+    /// Solves all shifted grids of the next level, each from the active set of the one before, and averages. Returns the last
+    /// solution with its grid.
     fn solve_level(
         &mut self,
         progress: &mut WorkProgress,
@@ -441,6 +441,7 @@ impl ShiftedGrids<'_> {
         // Average. Forces and areas of a strip become those per unit length.
         let loading = &self.problem.loading;
         let per_length = loading.strip.map_or(1.0, f64::recip);
+        // A quantity of the state on one grid.
         type Quantity<'q> = &'q dyn Fn(&SteadySliding) -> f64;
         let over_pairs = |of: Quantity| Average::over_interleaved_shifts(&states, of);
         let average = |of: Quantity| Average::over_shifts(&states, of);
@@ -504,9 +505,11 @@ impl ShiftedGrids<'_> {
         solution
     }
 
-    /// Tolerance of a contact that disturbs the friction by less than the requested error. It is proportional to the ratio of friction to
-    /// mean slope, which is 1 at most and assumed so on the first grid, because a small friction is a difference of large slopes.
+    /// Tolerance of a contact that disturbs the friction by less than the requested error. It is proportional to the ratio of
+    /// friction to mean slope, which is 1 at most and assumed so on the first grid, because a small friction is a difference of
+    /// large slopes.
     fn tolerance(&self) -> f64 {
+        // From the last solution, on another grid.
         let last = self.reuse.solution.as_ref();
         let friction_ratio = last.map_or(1.0, |last| {
             last.friction_coefficient.abs() / last.mean_slope

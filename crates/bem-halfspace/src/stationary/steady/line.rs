@@ -1,6 +1,7 @@
 //! Line contact: a profile that is infinite along y slides in plane strain.
 //!
-//! One element along y is so long that its ends are beyond the influence radius. Up to a constant, its potential is that of a line load,
+//! One element along y is so long that its ends are beyond the influence radius. Up to a constant, its potential is that of a line
+//! load,
 //!
 //! ```text
 //! V(x) = 2 Δx ln(L/|x|) + O(x²/L²)
@@ -69,7 +70,7 @@ pub struct LineSliding {
 /// A stationary state in plane strain with the error of every quantity.
 pub type LineEstimate = ContactEstimate<LineSliding, LineOptions>;
 
-/// Elements of the coarsest grid along the half contact of a cylinder on an elastic half space. Chosen; from 2 to 12
+/// Number of elements of the coarsest grid along half the contact of a cylinder on an elastic half space. Chosen; from 2 to 12
 /// bars are 0.05 to 3.8 times as wide (case of `evidence tuning`).
 const COARSEST_PER_HALF_LENGTH: f64 = 4.0;
 /// Rear of the footprint, in half lengths of the contact of a cylinder on an elastic half space: no contact reaches
@@ -83,14 +84,15 @@ const FOOTPRINT_FRONT: f64 = 2.5;
 /// Chosen; from 0.1 to 2 no answer changes by more than 1e-8 of its bar.
 const FOOTPRINT_FRONT_PER_LOG_MEMORY: f64 = 0.5;
 
-/// Convergence order that is assumed under a smooth profile, which has no boundary that follows the elements (docs/calibration.md).
+/// Convergence order that is assumed under a smooth profile on a given number of elements; docs/calibration.md has how often the bars
+/// hold. It is higher than that of bodies, whose contact boundary follows the elements.
 const PROFILE_ORDER: f64 = 1.2;
 
-/// Largest number of unknown pressures: systems of this size are solved directly.
+/// Largest number of unknown pressures in plane strain: a limit of the time, since systems of this size are solved directly.
 const MAX_UNKNOWNS_OF_LINE: usize = 2000;
 
-/// Solves the stationary sliding of a smooth `profile` that is infinite along y, under a load whose normal force is per
-/// length, \[N/m]. The request is a relative error of the friction coefficient, or a number of elements along the contact of a cylinder on
+/// Solves the stationary sliding of a smooth `profile` that is infinite along y, under a load whose normal force is per length,
+/// \[N/m]. The request is a relative error of the friction coefficient, or a number of elements along the contact of a cylinder on
 /// an elastic half space.
 ///
 /// Only the heights of the profile at y = 0 matter.
@@ -172,7 +174,7 @@ pub fn steady_line<'w>(
     bars::resolve(&resolution, solve, finish)
 }
 
-/// The scale of a line contact, and where it may occur.
+/// Length scale of a line contact, and the interval along x in which contact may occur.
 struct LineScale {
     /// Half the contact of a cylinder on an elastic half space, \[m].
     half_length: f64,
@@ -323,6 +325,7 @@ impl<'a> Strip<'a> {
 }
 
 impl Surface for Strip<'_> {
+    /// Height of the profile within the length of the strip, infinite beyond its ends.
     fn height(&self, [x, y]: [f64; 2]) -> f64 {
         if y.abs() > 0.5 * self.length {
             f64::INFINITY
@@ -331,10 +334,12 @@ impl Surface for Strip<'_> {
         }
     }
 
+    /// Slopes of the profile at y = 0.
     fn gradient(&self, [x, _]: [f64; 2]) -> [f64; 2] {
         self.profile.gradient([x, 0.0])
     }
 
+    /// Symmetry of the profile about x = 0; every strip is symmetric about y = 0.
     fn mirrors(&self) -> [bool; 2] {
         let [along_x, _] = self.profile.mirrors();
         [along_x, true]

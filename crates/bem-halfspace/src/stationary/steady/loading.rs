@@ -15,7 +15,7 @@ use crate::{BemError, Elastomer, Footprint};
 /// Why a depth on a material that flows requires a sliding distance, for an error message.
 const SINKS_WITHOUT_LIMIT: &str =
     "on a material that flows the body sinks without limit, so that a depth belongs to a distance";
-/// Sliding distance in lengths of the footprint that is assumed on a solid, where it has no effect.
+/// Sliding distance, in lengths of the footprint, that is assumed for a depth on a solid, where it has no effect on the solution.
 const DISTANCE_ON_SOLID: f64 = 100.0;
 
 /// The equation `depth · δ + load · Σ x = right` that prescribes depth or force, in the units of the mesh.
@@ -98,6 +98,7 @@ impl Loading {
     ) -> Result<Self, BemError> {
         let creep = SlidingCreep::for_load(elastomer, load)?;
         let force = load.require_normal_force()?;
+        // A strip so long that its ends have no influence on the contact; it carries the force per length times its length.
         let depth_scale = profile_scale(profile, &creep, force)?.depth_scale;
         let length = STRIP_LENGTH_RATIO * (front - rear + creep.memory_length());
         let strip = positive("length of a strip", length)?;
@@ -209,7 +210,7 @@ impl GridLoading {
         self.creep.collocation_shift > -0.25
     }
 
-    /// Normal force of a total load, \[N].
+    /// Normal force \[N] of a total load, the sum of the loads in the units of the grid.
     pub(super) fn force_of(&self, total_load: f64) -> f64 {
         self.force_scale * (PI * (self.spacing[1] / self.spacing[0]) * total_load)
     }
@@ -220,7 +221,8 @@ impl GridLoading {
     }
 }
 
-/// Sinking ln(2s/L): the depth after the sliding distance s in units of F_N/(4πηv), for a kernel with lengths in units of L.
+/// Depth ln(2s/L) by which the surface sinks after the sliding distance s, in units of F_N/(4πηv), for a kernel with lengths in
+/// units of L; s and L are in \[m].
 pub(super) fn sinking_in_e_folds(sliding_distance: f64, unit_length: f64) -> f64 {
     (2.0 * (sliding_distance / unit_length)).ln()
 }

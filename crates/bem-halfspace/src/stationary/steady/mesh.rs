@@ -22,8 +22,8 @@ use crate::stationary::steady::region::Region;
 use crate::stationary::steady::wake_table::WakeTable;
 use crate::{BemError, Grid};
 
-/// Height below which elements are in the initial active set, in units of the depth scale: about the height at the sides of the contact of
-/// a paraboloid.
+/// Height below which elements are in the initial active set, in units of the depth scale. Chosen: about the height at the sides of the
+/// contact of a paraboloid. It decides the number of active sets, not the solution.
 const GUESSED_HEIGHT: f64 = 0.5;
 
 /// A candidate: an element that may touch.
@@ -116,7 +116,7 @@ impl Mesh {
         Ok(mesh)
     }
 
-    /// Refuses a track shorter than twice the rows of the candidates.
+    /// Fails with [`BemError::TrackTooShort`] for a track shorter than twice the `rows` of the candidates.
     fn check_track(&self, rows: usize) -> Result<(), BemError> {
         let needed = 2.0 * rows as f64;
         let dx = self.options.spacing[0];
@@ -139,7 +139,7 @@ impl Mesh {
         self.elements.len()
     }
 
-    /// The region of some candidates.
+    /// The region of some candidates, given by their indices.
     pub(super) fn region(&self, elements: impl Iterator<Item = usize> + Clone) -> Region {
         Region::around(elements.map(|element| self.indices(element)))
     }
@@ -155,7 +155,7 @@ impl Mesh {
         [self.centre(0, row), self.centre(1, column)]
     }
 
-    /// Collects the candidates and the walls.
+    /// Samples the surface at all elements of the footprint, and collects the candidates and the walls.
     fn sample(&mut self, surface: &dyn Surface) -> Result<(), BemError> {
         let dx = self.options.spacing[0];
         for row in 0..self.shape[0] {
@@ -225,14 +225,15 @@ impl Mesh {
         }
     }
 
-    /// Influence coefficient: displacement of one element by the unit load of another and of its mirror image.
+    /// Influence coefficient K: displacement of the candidate `to` by the unit load of the candidate `from` and of its mirror image, in
+    /// units of the depth scale.
     pub(super) fn influence(&self, to: usize, from: usize) -> f64 {
         let [to, from] = [&self.elements[to], &self.elements[from]];
         let rows = to.row.cast_signed() - from.row.cast_signed();
         self.influence_at_offset(rows, to, from)
     }
 
-    /// Influence coefficient at an offset along x.
+    /// Influence coefficient of two candidates as if their offset along x were `rows`, positive ahead of the load.
     fn influence_at_offset(&self, rows: isize, to: &Element, from: &Element) -> f64 {
         let columns = to.column.abs_diff(from.column);
         let direct = self.table.displacement(rows, columns);
@@ -245,8 +246,8 @@ impl Mesh {
                 .displacement(rows, to.column - self.image(from.column))
     }
 
-    /// Creep under the unit load of an element within the element. It is greater than zero, while the displacement itself has an undetermined
-    /// constant on a material that flows.
+    /// Creep under the unit load of an element within the element. It is greater than zero, while the displacement itself has an
+    /// undetermined constant on a material that flows.
     pub(super) fn self_creep(&self) -> f64 {
         self.table.creep_within_element(0, 0)
     }
@@ -260,7 +261,7 @@ impl Mesh {
         self.table.displacement(0, 0) - neighbours
     }
 
-    /// Influence coefficient of the reversed motion, an entry of Kᵀ.
+    /// Influence coefficient of two candidates for the reversed motion, an entry of Kᵀ.
     pub(super) fn reversed_influence(&self, to: usize, from: usize) -> f64 {
         let [to, from] = [&self.elements[to], &self.elements[from]];
         let rows = from.row.cast_signed() - to.row.cast_signed();
@@ -329,7 +330,7 @@ impl Mesh {
         }
     }
 
-    /// Sum of the loads, mirror images included.
+    /// Sum of loads, given with the indices of their candidates; mirror images are included.
     pub(super) fn total_load(&self, loads: impl IntoIterator<Item = (usize, f64)>) -> f64 {
         let weighted = |(element, load)| self.n_images(element) * load;
         loads.into_iter().map(weighted).sum()
@@ -358,9 +359,9 @@ impl Mesh {
         }
     }
 
-    /// Central difference of the heights of the two neighbours along x, under a body with edges. Friction from the slope in the element
-    /// itself is too low, by a term of the order of √Δx where the contact ends near the edge. `None` under a body without edges, and where a
-    /// neighbour is not covered by the body.
+    /// Central difference of the heights of the two neighbours along x, under a body with edges. Friction from the slope in the
+    /// element itself is too low, by a term of the order of √Δx where the contact ends near the edge. `None` under a body without
+    /// edges, and where a neighbour is not covered by the body.
     fn dissipating_slope(&self, surface: &dyn Surface, [x, y]: [f64; 2]) -> Option<f64> {
         if !self.loading.has_edges {
             return None;
@@ -400,7 +401,7 @@ impl Mesh {
         loads.iter().flat_map(with_image).collect()
     }
 
-    /// True if a box lies inside the footprint, away from its boundary.
+    /// True if a box of rows and columns lies inside the footprint, not at its boundary.
     pub(super) fn contains_inside(&self, bounds: &Bounds) -> bool {
         (0..2).all(|axis| {
             let [first, last] = self.inner_limits[axis];
@@ -408,7 +409,8 @@ impl Mesh {
         })
     }
 
-    /// True if the element ahead of a loaded one ends in a vertical wall, or the one behind it, unless only rising elements are candidates.
+    /// True if the element ahead of a loaded one ends in a vertical wall, or the one behind it, unless only rising elements are
+    /// candidates.
     pub(super) fn faces_wall(&self, [row, column]: [usize; 2]) -> bool {
         let is_wall = |row: usize| {
             let wall = self.walls.get(row * self.shape[1] + column);

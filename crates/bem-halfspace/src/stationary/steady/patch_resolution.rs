@@ -9,11 +9,11 @@ use crate::error::check_contact_elements;
 /// Fraction of the load below which a patch needs not be resolved, because the error estimates of a contact contain
 /// it. Chosen; from 0 to 1 no digit of an answer changes: it decides which grids are refused as too coarse.
 const NEGLIGIBLE_LOAD_FRACTION: f64 = 0.01;
-/// Smallest number of elements across the sliding direction in the widest row of a patch. On one to three of them, several grids may agree
-/// by chance.
+/// Smallest number of elements across the sliding direction in the widest row of a patch. Chosen: on one to three of them, several
+/// grids may agree by chance.
 pub(super) const MIN_ELEMENTS_ACROSS: usize = 4;
 
-/// A loaded element, by row and column, and its load.
+/// A loaded element as ([row, column], load).
 type Loaded = ([usize; 2], f64);
 
 /// Refuses a contact with a patch that carries load on too few elements along x or across it.
@@ -44,7 +44,7 @@ pub(super) fn check_patches(loaded: &[Loaded], bounds: &Bounds) -> Result<(), Be
     Ok(())
 }
 
-/// The sets of loaded elements that are connected by edges or corners.
+/// The sets of loaded elements that are connected by edges or corners; `bounds` encloses all of them.
 fn connected_patches(loaded: &[Loaded], bounds: &Bounds) -> Vec<Vec<Loaded>> {
     // Loads in the box of the elements that do not belong to a patch yet.
     let mut remaining = vec![0.0; bounds.n_elements()];
@@ -72,7 +72,7 @@ fn connected_patches(loaded: &[Loaded], bounds: &Bounds) -> Vec<Vec<Loaded>> {
     patches
 }
 
-/// Moves an element to a patch if its load remains.
+/// Moves an element [row, column] from the loads `remaining` in the box to a patch, if it has a load there.
 fn move_to_patch(
     element: [usize; 2],
     remaining: &mut [f64],

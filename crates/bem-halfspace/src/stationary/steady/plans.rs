@@ -32,7 +32,7 @@ impl Plans {
         aspect: f64,
         shape: [usize; 2],
     ) -> Arc<WakeTable> {
-        // Nothing of another creep or aspect ratio can be used again.
+        // Tables and spectra of another creep or aspect ratio are of no use.
         let is_other_aspect = self.table.aspect.total_cmp(&aspect).is_ne();
         if is_other_aspect || self.table.creep != *creep {
             *self = Self::default();
@@ -62,7 +62,8 @@ impl Plans {
     }
 }
 
-/// The cached filters of a period, or new ones in place of the oldest.
+/// The filters of the period `padded` from the cache `kept`, or new ones from `spectra(transform)`, which replace the oldest if the
+/// cache is full.
 fn cached<const N: usize>(
     kept: &mut Vec<Arc<Filters<N>>>,
     padded: [usize; 2],

@@ -51,7 +51,7 @@ const ROW_RULES: [DistanceRule; 3] = [
     from_distance(41.0, 8),
     from_distance(29.0, 10),
 ];
-/// Rows that are stored on either side of an element: half the points of the longest of [`ROW_RULES`].
+/// Number of rows that are stored on either side of an element: half the points of the longest of [`ROW_RULES`].
 const ROWS_PER_SIDE: usize = 5;
 /// Shortest panel in Δx: a panel next to a singularity on its own line is not divided below this length, 2⁻²⁶, the
 /// root of rounding. With 1e-12 no answer changes by more than 1e-10 of its bar.
@@ -59,8 +59,8 @@ const MIN_PANEL_LENGTH: f64 = 1.0 / (1_u64 << 26) as f64;
 /// Smallest distance ahead of the load, in Δx, at which the recursion along rows starts. Chosen; from 4 to 64 no
 /// answer changes by more than 2e-10 of its bar.
 const MIN_START_DISTANCE: f64 = 16.0;
-/// Ratio of the distances of the end and the start of a panel from the load, where the panels lie further
-/// ahead than the start of the recursion. They then are shorter than their distance from the load, as the rule of most points requires.
+/// Ratio of the distances of the end and the start of a panel from the load, for panels further ahead than the start of the recursion.
+/// Derived: below 2 they are shorter than their distance from the load, as the rule of most points requires.
 const PANEL_GROWTH: f64 = 1.9;
 
 /// An interval along x, with lengths in Δx.
@@ -88,7 +88,8 @@ struct RetardationRule {
     row_weights: [[f64; MAX_POINTS]; ROW_RULES.len()],
 }
 
-/// Displacements by all retardation elements on one row of the table.
+/// Displacements by all retardation elements on one row of the table, the current row; [`step`](Self::step) moves it back along x.
+/// Lengths are in Δx.
 pub(super) struct RetardedPotential {
     /// Retardation elements of the material.
     retardations: Vec<RetardationRule>,
@@ -102,7 +103,7 @@ pub(super) struct RetardedPotential {
     n_columns: usize,
     /// Position along x of the current row.
     position: f64,
-    /// Displacements at the current row, by retardation element and column.
+    /// Displacements at the current row, `[retardation element][column]`.
     values: Vec<f64>,
     /// Parts of the values that come from the element between the current row and the row ahead.
     increments: Vec<f64>,
@@ -262,7 +263,7 @@ impl RetardedPotential {
         potentials
     }
 
-    /// Goes back to the row at `x`, one element behind the current one.
+    /// Moves to the row at `x`, one element behind the current one: one step of the recursion.
     pub(super) fn step(&mut self, x: f64) {
         self.push_row(x + 1.0 - ROWS_PER_SIDE as f64);
         for column in 0..self.n_columns {
@@ -337,7 +338,7 @@ impl RetardedPotential {
         self.values[column..].iter().step_by(self.n_columns).sum()
     }
 
-    /// Displacement by one retardation element at the current row, by column.
+    /// Displacements by the retardation element of an index at the current row, one for each column.
     pub(super) fn retardation_part(&self, index: usize) -> &[f64] {
         &self.values[index * self.n_columns..][..self.n_columns]
     }
@@ -361,8 +362,8 @@ fn fewest_points(rules: &[DistanceRule], distance: f64) -> Option<usize> {
     rules.iter().position(|rule| distance >= rule.min_distance)
 }
 
-/// Panels of an interval along x: divided where the potential is singular, then halved until one of the rules is accurate on each.
-/// `lateral_distance` is the distance from the loaded element along y.
+/// Panels of an interval along x, from rear to front: divided where the potential is singular, then halved until one of the rules is
+/// accurate on each. `lateral_distance` is the distance from the loaded element along y, in Δx.
 fn panels([start, end]: [f64; 2], lateral_distance: f64) -> Vec<PotentialPanel> {
     // Divide at the edges of the loaded element.
     let mut ends = vec![start, -0.5, 0.5, end];
@@ -375,7 +376,7 @@ fn panels([start, end]: [f64; 2], lateral_distance: f64) -> Vec<PotentialPanel> 
     panels
 }
 
-/// Appends the panels of an interval without a singularity inside.
+/// Appends the panels of an interval without a singularity inside, halving it until a rule is accurate.
 fn subdivide([start, end]: [f64; 2], lateral_distance: f64, panels: &mut Vec<PotentialPanel>) {
     let length = end - start;
     let distance = distance_from_edges([start, end], lateral_distance);
@@ -404,8 +405,8 @@ mod tests {
     use crate::stationary::steady::sliding_creep::RetardationElement;
     use crate::{Elastomer, Layer};
 
-    /// Retarded potential q ∫ e^(−q s) V(x + s) ds by the double-exponential rule, between all points where the integrand has a scale; on a track
-    /// once around it, with V of the nearest image, over 1 − e^(−q L).
+    /// Retarded potential q ∫ e^(−q s) V(x + s) ds by the double-exponential rule, between all points where the integrand has a
+    /// scale; on a track once around it, with V of the nearest image, over 1 − e^(−q L).
     fn reference(rate: f64, [x, y]: [f64; 2], base: &Base, scene: &Scene) -> f64 {
         let track = scene.track.unwrap_or(f64::INFINITY);
         let [end, turn] = [track.min(60.0 / rate), 0.5 * track - x];

@@ -40,6 +40,7 @@ impl SinkingDepth {
         let aspect = spacing[1] / spacing[0];
         let rate =
             mesh.loading.creep.flow * aspect * mesh.total_load(solution.loads.iter().copied());
+        // δ belongs to the kernel without its constant; the sinking over the contact length adds the constant.
         Self {
             reference_depth: scale
                 * (solution.depth + rate * sinking_in_e_folds(contact_length, spacing[0])),

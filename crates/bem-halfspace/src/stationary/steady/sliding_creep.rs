@@ -27,7 +27,7 @@ pub(super) const FLOW_AS_RETARDATION_RATE: f64 = 1e-100;
 /// The creep of a material on its base at a sliding speed, on a track if there is one.
 #[derive(Debug, Clone)]
 pub(super) struct SlidingCreep {
-    /// Creep spectrum of the material.
+    /// Creep spectrum of the material in shear.
     spectrum: CreepSpectrum,
     /// Factor 2 (1 − ν) of the material.
     half_space_factor: f64,
@@ -131,7 +131,7 @@ impl SlidingCreep {
         })
     }
 
-    /// The creep on another base and track.
+    /// The same creep on another base and a track of a length \[m]; `None` without a track.
     pub(super) fn on_base(self, base: Base, track: Option<f64>) -> Self {
         Self {
             base,
@@ -140,7 +140,7 @@ impl SlidingCreep {
         }
     }
 
-    /// True for a half space of a dashpot alone, on which only elements touch over which the body rises.
+    /// True for a half space of a dashpot alone. On it, contact is possible only where the body rises.
     pub(super) fn only_flows(&self) -> bool {
         self.fluidity() > 0.0
             && self.spectrum.instantaneous_compliance() == 0.0
@@ -224,9 +224,9 @@ impl SlidingCreep {
         self.half_space_factor * self.spectrum.fluidity() / self.velocity
     }
 
-    /// Compliance of a contact of about `length` after a sliding distance: 2 (1 − ν) J(length/v), times the ratio of the compliances of a
-    /// layer and a half space, \[1/Pa]. On a track a retardation element contributes the fraction
-    /// `(1 − e^(−length/(vλ)))/(1 − e^(−L/(vλ)))`, which contains the effect of all passes before.
+    /// Compliance of a contact of about `length` after a sliding distance: 2 (1 − ν) J(length/v), times the ratio of the
+    /// compliances of a layer and a half space, \[1/Pa]. On a track a retardation element contributes the fraction `(1 −
+    /// e^(−length/(vλ)))/(1 − e^(−L/(vλ)))`, which contains the effect of all passes before.
     pub(super) fn compliance_of_contact(
         &self,
         length: f64,
@@ -244,13 +244,13 @@ impl SlidingCreep {
         Ok(compliance * self.base.compliance_ratio_under_punch(length))
     }
 
-    /// Compliance 2 (1 − ν) J(length/v), \[1/Pa].
+    /// Compliance 2 (1 − ν) J(length/v) \[1/Pa] for the time in which the material passes a `length` \[m].
     pub(super) fn compliance(&self, length: f64) -> Result<f64, BemError> {
         let total = self.half_space_factor * total_compliance(&self.contributions(length)?);
         Ok(positive("compliance over a length", total)?)
     }
 
-    /// The creep over elements of the length `spacing`.
+    /// The creep over elements of the length `spacing` \[m], as fractions of J(Δx/v), with lengths in Δx.
     pub(super) fn over_element(&self, spacing: f64) -> Result<ElementCreep, BemError> {
         // Fractions of the total compliance over the element.
         let mut parts = self.contributions(spacing)?;
@@ -277,7 +277,7 @@ impl SlidingCreep {
         Ok(parts)
     }
 
-    /// Contributions to the compliance J(length/v), not yet divided by it.
+    /// Contributions of all parts of the creep to the compliance J(length/v), \[1/Pa], not yet divided by it; `length` is in \[m].
     fn contributions(&self, length: f64) -> Result<ElementCreep, BemError> {
         let time = positive("length / velocity", length / self.velocity)?;
         let retardations = self.spectrum.elements().iter().map(|element| {
@@ -302,8 +302,8 @@ impl SlidingCreep {
     /// paraboloid. The rear of the contact moves then, and its front does not. At a memory length of one or two elements some of that
     /// remains, which falls faster than any power of Δx. Cylinders on a Kelvin–Voigt solid err by up to the factor e^(−2.5 λv/Δx).
     ///
-    /// Around a kink the pressure grows like ln(1/r) down to r = λv, and the friction like ln(a/λv), of which elements resolve ln(a/Δx).
-    /// Under flat cones they miss up to the fraction e^(−x) ln(1 + 1/x) / ln(1 + a/Δx) with x = λv/(2Δx).
+    /// Around a kink the pressure grows like ln(1/r) down to r = λv, and the friction like ln(a/λv), of which elements resolve
+    /// ln(a/Δx). Under flat cones they miss up to the fraction e^(−x) ln(1 + 1/x) / ln(1 + a/Δx) with x = λv/(2Δx).
     pub(super) fn subgrid_friction_fraction(
         &self,
         spacing: f64,
@@ -327,8 +327,8 @@ impl SlidingCreep {
         if missed > 0.0 { missed / sum } else { 0.0 }
     }
 
-    /// Collocation shift −δ/π, with the loss angle δ at the wave number π/Δx, the largest of the grid. It turns the phase of this wave back
-    /// by δ, so that displacement and load are in phase; all longer waves are less than a quarter period apart.
+    /// Collocation shift −δ/π, with the loss angle δ at the wave number π/Δx, the largest of the grid. It turns the phase of this
+    /// wave back by δ, so that displacement and load are in phase; all longer waves are less than a quarter period apart.
     fn collocation_shift(&self, spacing: f64) -> Result<f64, BemError> {
         let angular_frequency = positive("π × velocity / spacing", PI * (self.velocity / spacing))?;
         let compliance = self.spectrum.complex_compliance(angular_frequency)?;
@@ -336,7 +336,7 @@ impl SlidingCreep {
     }
 }
 
-/// Sum of the contributions to the compliance.
+/// Sum of the contributions to the compliance, in their unit.
 fn total_compliance(parts: &ElementCreep) -> f64 {
     let retarded: f64 = parts.retardations.iter().map(|one| one.share).sum();
     parts.instantaneous + parts.flow + retarded

@@ -32,8 +32,9 @@ pub type SteadyEstimate = ContactEstimate<SteadySliding, SteadyOptions>;
 pub struct SteadySliding {
     /// Friction coefficient μ = F_h/F_N.
     pub friction_coefficient: f64,
-    /// Friction coefficient from the dissipated power: from the displacements of both neighbours of each element, also outside the contact.
-    /// Equal to `friction_coefficient` where a body with edges slides on a material that is more of a fluid at the length of an element.
+    /// Friction coefficient from the dissipated power: from the displacements of both neighbours of each element, also outside the
+    /// contact. Equal to `friction_coefficient` where a body with edges slides on a material that is more of a fluid at the length
+    /// of an element.
     pub friction_from_dissipation: f64,
     /// Mean of |∂h/∂x| under the load: the upper bound of the friction coefficient, which is a difference of slopes.
     pub mean_slope: f64,
@@ -66,13 +67,13 @@ impl SteadySliding {
         self.factorised
     }
 
-    /// Error of the friction coefficient by the remaining residual.
+    /// Absolute error of the friction coefficient by the remaining residual of the contact.
     pub(crate) fn iteration_error(&self) -> f64 {
         self.residual * self.mean_slope
     }
 
-    /// The quantities of this state on its grid, for an error estimate from several grids. `kinks` is the strength of the kinks of the body
-    /// in the contact.
+    /// The quantities of this state on its grid, for an error estimate from several grids. `kinks` is the strength of the kinks of
+    /// the body in the contact.
     pub(super) fn on_grid(
         self,
         creep: &SlidingCreep,
@@ -105,7 +106,7 @@ impl SteadySliding {
         }
     }
 
-    /// Discretization error of the contact area, \[m²]: the contact boundary lies anywhere within the elements at the edge.
+    /// Discretisation error of the contact area, \[m²]: the contact boundary lies anywhere within the elements at the edge.
     fn area_uncertainty(&self) -> f64 {
         let PressureField { grid, pressure, .. } = &self.pressure;
         let bounds = Bounds {
@@ -191,8 +192,8 @@ impl SteadySliding {
     }
 }
 
-/// Refuses a vertical wall in contact. Mirror images are not checked: by rounding, an image may lie beyond the end of a surface, its element
-/// not.
+/// Fails with [`BemError::VerticalWall`] if a wall of the body is in contact. Mirror images are not checked: by rounding, an image
+/// may lie beyond the end of a surface, its element not.
 fn check_walls(mesh: &Mesh, loads: &[(usize, f64)]) -> Result<(), BemError> {
     // Refuse a loaded element next to a wall of the body.
     let mut indices = loads.iter().map(|(element, _)| mesh.indices(*element)[0]);
@@ -205,7 +206,7 @@ fn check_walls(mesh: &Mesh, loads: &[(usize, f64)]) -> Result<(), BemError> {
     }
 }
 
-/// Refuses a surface that rises by more than the depth over one element in contact.
+/// Fails with [`BemError::SlopeNotResolved`] if the surface rises by more than the depth scale over one element in contact.
 fn check_slopes(mesh: &Mesh, loads: &[(usize, f64)]) -> Result<(), BemError> {
     let depth_scale = mesh.loading.depth_scale;
     let rise = mesh.max_rise(loads) * depth_scale;
@@ -215,7 +216,7 @@ fn check_slopes(mesh: &Mesh, loads: &[(usize, f64)]) -> Result<(), BemError> {
     Ok(())
 }
 
-/// The box around the loaded elements, if that is inside the footprint and covers enough elements.
+/// The box around the loaded elements. Fails if it reaches the boundary of the footprint or covers too few elements.
 fn checked_bounds(mesh: &Mesh, loaded: &[([usize; 2], f64)]) -> Result<Bounds, BemError> {
     let bounds =
         Bounds::enclosing(loaded.iter().map(|(element, _)| *element)).unwrap_or(Bounds::EMPTY);

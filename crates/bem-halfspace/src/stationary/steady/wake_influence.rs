@@ -33,22 +33,26 @@ pub fn wake_influence(offset: [f64; 2], edges: [f64; 2]) -> f64 {
     integrate::<Logarithm>([x, y], edges)
 }
 
-/// The kernel ln(x + r).
+/// The kernel ln(x + r) of a stationary load, with its integrals in closed form.
 struct Logarithm;
 
 impl PlaneKernel for Logarithm {
+    /// ln(x + r).
     fn value(x: f64, y: f64) -> f64 {
         logarithm(x, y)
     }
 
+    /// ∫ ln(x' + r) dx' over the edge `a` around x.
     fn strip_along_x(x: f64, a: f64, y: f64) -> f64 {
         antiderivative_along_x(x + 0.5 * a, y) - antiderivative_along_x(x - 0.5 * a, y)
     }
 
+    /// ∫ ln(x + r) dy' over the edge `b` around y.
     fn strip_along_y(x: f64, y: f64, b: f64) -> f64 {
         antiderivative_along_y(x, y + 0.5 * b) - antiderivative_along_y(x, y - 0.5 * b)
     }
 
+    /// Double antiderivative Φ (head of this file), up to functions of x or y alone.
     fn corner(x: f64, y: f64) -> f64 {
         let r = distance(x, y);
         // ½ y (|y| − r): with y |y|, which drops out of differences along x, nothing cancels between near corners.

@@ -36,7 +36,7 @@ pub(super) struct WakeTable {
     pub(super) aspect: f64,
     /// Largest offsets: along x in either direction, and along y.
     max_offsets: [usize; 2],
-    /// Displacements, row-major from behind the load to ahead of it.
+    /// Displacements by the unit load, `[offset along x, from behind the load to ahead of it][distance along y]`.
     values: Vec<f64>,
     /// Creep within one element: the values without the displacement at the element ahead.
     creep_within_element: Vec<f64>,
@@ -98,7 +98,7 @@ impl WakeTable {
         row as f64 - self.max_offsets[0] as f64 + self.creep.collocation_shift
     }
 
-    /// Values of a kernel on a row of the table.
+    /// Values of `kernel(offset, edges of an element)` at all columns of a row of the table, with lengths in Δx.
     fn kernel_row(&self, row: usize, kernel: impl Fn([f64; 2], [f64; 2]) -> f64) -> Vec<f64> {
         let x = self.offset(row);
         let value = |column| kernel([x, column as f64 * self.aspect], [1.0, self.aspect]);
@@ -200,7 +200,7 @@ impl WakeTable {
         self.creep_within_element[self.index(rows, columns)]
     }
 
-    /// Index of an offset in the table.
+    /// Index in `values` of the offset `rows` along x, negative behind the load, and the distance `columns` along y.
     fn index(&self, rows: isize, columns: usize) -> usize {
         let row = rows + self.max_offsets[0].cast_signed();
         assert!(

@@ -1,15 +1,16 @@
 //! The preconditioner of the stationary problem: Wiener–Hopf factors of the kernel.
 //!
-//! Along x the kernel is a creep filter applied to the load potential, which is symmetric and positive. The filter is a running sum for the
-//! dashpot, the identity for a spring, and a sum of exponentials otherwise. For every wave number along y the potential factors into a
-//! filter that looks ahead only and its mirror image, by the cepstrum of its spectrum (Kolmogorov 1939). The kernel then is the product
-//! of a forward factor, which contains the creep filter, and a backward factor.
+//! Along x the kernel is a creep filter applied to the load potential, which is symmetric and positive. The filter is a running sum
+//! for the dashpot, the identity for a spring, and a sum of exponentials otherwise. For every wave number along y the potential
+//! factors into a filter that looks ahead only and its mirror image, by the cepstrum of its spectrum (Kolmogorov 1939). The kernel
+//! then is the product of a forward factor, which contains the creep filter, and a backward factor.
 //!
 //! On a contact that is infinite behind a straight front, the exact inverse consists of the inverses of the factors (Wiener & Hopf
 //! 1931). Their order is backward, forward, with the contact cut out in between. On a contact that is infinite ahead of a straight
 //! rear, the other order is exact. The preconditioner blends the two along x in proportion to the distance from the two ends.
 //!
-//! Theory: docs/theory/stationary-half-space.md, "The equations of one contact" and "Any linear viscoelastic material", "The preconditioner".
+//! Theory: docs/theory/stationary-half-space.md, "The equations of one contact" and "Any linear viscoelastic material", "The
+//! preconditioner".
 
 use std::sync::Arc;
 
@@ -26,9 +27,9 @@ use crate::transform::plane_transform::PlaneTransform;
 /// preconditioner decay fast. Chosen; from 0 to 16 no answer changes by more than 8 % of its bar.
 const FILTER_MARGIN: usize = 4;
 
-/// Index of the inverse of the forward factor, which contains the creep filter.
+/// Index, in the spectra of [`inverse_factors`], of the inverse of the forward factor, which contains the creep filter.
 const SWEEP: usize = 0;
-/// Index of the inverse of the backward factor.
+/// Index, in the spectra of [`inverse_factors`], of the inverse of the backward factor.
 const COUNTER_SWEEP: usize = 1;
 
 /// Period of the filters for a box of `shape` elements.
@@ -63,7 +64,7 @@ impl WienerHopf {
         }
     }
 
-    /// Approximate loads that cause the given displacements.
+    /// Approximate loads that cause the given displacements; both are packed vectors on the elements of `region`.
     pub(super) fn approximate_loads(&mut self, displacements: &[f64], region: &Region) -> Vec<f64> {
         // Apply the inverse factors in both orders.
         let [at_front, at_rear] =

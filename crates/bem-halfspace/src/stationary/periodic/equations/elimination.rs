@@ -19,6 +19,7 @@ impl Equations {
         self.n_contact().min(self.n_open())
     }
 
+    /// Number of active elements.
     fn n_contact(&self) -> f64 {
         self.active.len() as f64
     }
@@ -28,7 +29,8 @@ impl Equations {
         self.scattered.len() as f64 - self.n_contact()
     }
 
-    /// Adds the pressures that close the gaps and keep the prescribed quantity; does nothing if the matrix is singular.
+    /// Adds the pressures that close the gaps and keep the prescribed quantity, and updates the gaps; does nothing if the matrix is
+    /// singular.
     pub(super) fn solve_directly(&mut self) {
         let found = if self.n_contact() <= self.n_open() {
             self.factorise_active_set()
@@ -48,9 +50,10 @@ impl Equations {
         add_scaled(&mut self.gap, 1.0, &image);
     }
 
-    /// The pressures that close the gaps, in their unit, from the dense influence matrix of the active set; `None` if that is
+    /// The packed pressures that close the gaps, in their unit, from the dense influence matrix of the active set; `None` if that is
     /// singular.
     fn factorise_active_set(&mut self) -> Option<Vec<f64>> {
+        // The elements in contact, and the influence coefficients over the self-influence.
         let runs = (0..self.active.row_blocks.n_blocks())
             .flat_map(|row_block| self.active.runs(row_block));
         let elements: Vec<usize> = runs.flat_map(Run::elements).collect();
@@ -73,9 +76,10 @@ impl Equations {
         Some(responses.map(|(gap, unit)| depth * unit - gap).collect())
     }
 
-    /// The pressures that close the gaps, in their unit, from the inverse of K, the gaps of the open elements and the mean pressure;
-    /// `None` if the dense matrix of the equations for these is singular.
+    /// The packed pressures that close the gaps, in their unit, from the inverse of K on the whole grid. The unknowns are the gaps
+    /// of the open elements and the mean pressure; `None` if the dense matrix of their equations is singular.
     fn solve_complement(&mut self) -> Option<Vec<f64>> {
+        // Loads under the present gaps if the open elements had none.
         let n = self.scattered.len();
         let open: Vec<usize> = (0..n)
             .filter(|element| !self.active.contains(*element))
@@ -114,7 +118,7 @@ impl Equations {
         Some(packed.map(|load| -load - mean_pressure).collect())
     }
 
-    /// The pressures without mean, in their unit, that displace the whole grid by a field less its mean; in double precision.
+    /// Writes the pressures without mean, in their unit, that displace the whole grid by a `field` less its mean; in double precision.
     fn apply_exact_inverse(&mut self, field: &[f64], loads: &mut [f64]) {
         self.products += 1;
         self.kernel.invert(field, loads);
@@ -123,7 +127,8 @@ impl Equations {
     }
 }
 
-/// Entry (row, column) of the dense matrix, for some elements, of a translation-invariant map with the unit response `image`.
+/// Entries (row, column) of the dense matrix of a translation-invariant periodic map with the unit response `image`, a field with
+/// `columns` columns. The matrix relates the given `elements` to each other.
 fn translation_invariant(
     image: &[f64],
     columns: usize,

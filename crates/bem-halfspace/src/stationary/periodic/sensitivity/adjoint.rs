@@ -1,4 +1,7 @@
-//! The adjoint loads of the contact of a periodic surface, and the gradients of its quantities.
+//! The adjoint loads λ of the contact of a periodic surface, and the gradients of its quantities; equations in the [module](super).
+//!
+//! Fields are row-major over one period. A derivative *by row* is one by the complex compliance of all waves with one q_x, that is one
+//! row of the Fourier transform.
 //!
 //! Theory: docs/sensitivity.md.
 
@@ -21,7 +24,7 @@ const ADJOINT_TOLERANCE: f64 = 1e-7;
 /// Tolerance of each single-precision solve of the iterative refinement, relative to its residual: far above the
 /// rounding of single precision. Three solves reduce the residual below [`ADJOINT_TOLERANCE`].
 const REFINEMENT_REDUCTION: f64 = 1e-3;
-/// Largest number of steps of the iterative refinement: a limit of the time.
+/// Largest number of steps of the iterative refinement: a limit of the time. Three suffice if each reaches [`REFINEMENT_REDUCTION`].
 const MAX_REFINEMENT_STEPS: usize = 20;
 /// Fraction of the residual above which a step of the iterative refinement that leaves more of it stagnates, and the
 /// refinement ends. Chosen far above [`REFINEMENT_REDUCTION`] and below 1.
@@ -32,11 +35,11 @@ const STAGNATION_RATIO: f64 = 0.7;
 pub(super) struct Gradient {
     /// By the height of each element, per metre.
     pub(super) by_height: Vec<f64>,
-    /// By the displacement of each element under the pressures, in addition to that by its height, per metre; empty without any.
+    /// By the displacement of each element under the pressures, in addition to that by its height, per metre; empty for none.
     by_displacement: Vec<f64>,
-    /// By the displacement of each element under a unit pressure on the first one; empty without any.
+    /// By the displacement of each element under a unit pressure on the first one; empty for none.
     by_unit_response: Vec<f64>,
-    /// By a uniform displacement of a layer by the mean pressure.
+    /// By a uniform displacement of a layer by the mean pressure, per metre.
     by_uniform_displacement: f64,
     /// By the logarithm of the wave numbers along x, at constant pressures and displacements.
     by_log_wave_numbers: f64,
@@ -47,11 +50,11 @@ pub(super) struct Gradient {
     pub(super) by_pressure: f64,
 }
 
-/// The change of a kernel: of the displacements of the centres of all elements.
+/// The change of a kernel, as changes of the displacements of the centres of all elements.
 pub(super) struct KernelChange {
     /// Change of the displacements under the pressures less their mean, \[m].
     pub(super) displacement: Vec<f64>,
-    /// Change of the displacements under a unit pressure on the first element.
+    /// Change of the displacements under a unit pressure on the first element, \[m/Pa].
     pub(super) unit_response: Vec<f64>,
     /// Change of the displacement of a layer under the mean pressure, \[m].
     pub(super) uniform_displacement: f64,
@@ -65,7 +68,7 @@ pub(super) struct Adjoint<'a> {
     equations: Equations,
     /// The active set, reversed along x.
     contact: Vec<bool>,
-    /// Waves of the grid.
+    /// Fourier transforms of the grid, with the stiffness |q|/M of each wave.
     pub(super) waves: FourierMultiplier,
     /// Material and speed.
     sliding: &'a Sliding,
@@ -80,7 +83,7 @@ pub(super) struct Adjoint<'a> {
 }
 
 impl Gradient {
-    /// The change by another kernel.
+    /// The change of the quantity by a change of the kernel, to first order.
     pub(super) fn by_kernel(&self, change: &KernelChange) -> f64 {
         dot(&self.by_height, &change.displacement)
             + dot(&self.by_displacement, &change.displacement)
@@ -89,7 +92,7 @@ impl Gradient {
             + self.by_log_wave_numbers * change.log_wave_numbers
     }
 
-    /// The change by the compliance of each row.
+    /// The change of the quantity by changes of the complex compliance of each row \[1/Pa], to first order.
     pub(super) fn by_compliances(&self, changes: &[Complex<f64>]) -> f64 {
         let pairs = self.by_row.iter().zip(changes);
         pairs.map(|(by_row, change)| (by_row * change).re).sum()
@@ -117,7 +120,7 @@ impl<'a> Adjoint<'a> {
         })
     }
 
-    /// Derivatives of friction, depth, and logarithm of the area.
+    /// Gradients of friction, depth, and logarithm of the area, under a constant mean pressure.
     pub(super) fn gradients(&mut self) -> Result<Change<Gradient>, BemError> {
         // Displacements and fields that the gradients share.
         let (pressure, total) = (self.pressure, self.total);
@@ -154,7 +157,7 @@ impl<'a> Adjoint<'a> {
         })
     }
 
-    /// Displacements under loads less their mean, for a compliance of 1 in each row.
+    /// Displacements under loads less their mean, for a compliance of 1 in each row: waves are multiplied by M/|q|.
     fn unit_compliance_response(&mut self, loads: &[f64]) -> Vec<f64> {
         let mut lifted = vec![0.0; loads.len()];
         let mean = mean(loads);
@@ -164,7 +167,9 @@ impl<'a> Adjoint<'a> {
         lifted
     }
 
-    /// The gradient of the logarithm of the area.
+    /// The gradient of the logarithm of the area, from loads and gaps at the contact boundary (`elements/contact_boundary.rs`).
+    ///
+    /// `shares` are the pressures over their sum, and `lifted` the displacements under them for a compliance of 1 in each row.
     fn area_gradient(&mut self, shares: &[f64], lifted: &[f64]) -> Result<Gradient, BemError> {
         // Loads in contact, and gaps outside it from the mean height of the contact.
         let n = self.pressure.len();
@@ -228,8 +233,8 @@ impl<'a> Adjoint<'a> {
 
     /// The gradient of a quantity with the derivatives `by_pressures`, and explicit ones `by_displacement`.
     ///
-    /// The adjoint loads start from `start` and keep its sum. `lifted` is the displacement under the pressures, for a compliance of 1 in
-    /// each row.
+    /// The adjoint loads start from the field `start` and keep its sum. `lifted` has the displacements under the pressures for a
+    /// compliance of 1 in each row.
     fn gradient(
         &mut self,
         start: &[f64],
@@ -237,6 +242,7 @@ impl<'a> Adjoint<'a> {
         by_displacement: Vec<f64>,
         lifted: &[f64],
     ) -> Result<Gradient, BemError> {
+        // Adjoint loads of the reversed contact, then the derivatives by heights and compliances that follow from them.
         let (loads, rise) = self.solve(
             reversed(start, self.grid),
             &reversed(by_pressures, self.grid),
@@ -255,14 +261,16 @@ impl<'a> Adjoint<'a> {
         })
     }
 
-    /// Derivatives by the heights at the centres, from reversed adjoint loads at the points where the gaps are evaluated.
+    /// Derivatives by the heights at the centres of the elements, from adjoint loads at the points where gaps are evaluated, which are
+    /// reversed along x.
     fn by_heights(&mut self, loads: &[f64]) -> Vec<f64> {
         let mut by_height = vec![0.0; loads.len()];
         self.equations.kernel.shifted(loads, &mut by_height);
         reversed(&by_height, self.grid)
     }
 
-    /// Derivatives by the compliance of each row: correlation of the adjoint loads with the response.
+    /// Derivatives by the complex compliance of each row, from those by the heights and the displacements `response` for a
+    /// compliance of 1 in each row: their cross-spectrum.
     fn by_rows(&self, by_height: &[f64], response: &[f64]) -> Result<Vec<Complex<f64>>, BemError> {
         let mut by_row = row_sums(by_height, response, self.grid);
         let n_rows = by_row.len();
@@ -275,7 +283,8 @@ impl<'a> Adjoint<'a> {
         Ok(by_row)
     }
 
-    /// The adjoint loads, reversed along x, and η, by iterative refinement of single-precision solutions.
+    /// Solves the adjoint equations by iterative refinement of single-precision solutions, from `loads` and with the right side
+    /// −`right`; all fields are reversed along x. Returns the adjoint loads and η.
     fn solve(&mut self, mut loads: Vec<f64>, right: &[f64]) -> Result<(Vec<f64>, f64), BemError> {
         let mut gap = vec![0.0; loads.len()];
         let n_contact = self.contact.iter().filter(|inside| **inside).count() as f64;
@@ -320,7 +329,8 @@ pub(super) fn unit_pressure(n: usize) -> Vec<f64> {
     pressure
 }
 
-/// Coefficients of the second difference along an axis: displacement of the first element less the mean of its neighbours.
+/// Coefficients of the second difference of a field along an axis at the first element: its value less the mean of its periodic
+/// neighbours.
 fn second_difference([rows, columns]: [usize; 2], axis: usize) -> Vec<f64> {
     let (next, last) = match axis {
         0 => (columns % (rows * columns), (rows - 1) * columns),
@@ -332,7 +342,7 @@ fn second_difference([rows, columns]: [usize; 2], axis: usize) -> Vec<f64> {
     bend
 }
 
-/// A field reversed along x (adjoint).
+/// A row-major field reversed along x: the adjoint contact slides the other way.
 fn reversed(field: &[f64], grid: &Grid) -> Vec<f64> {
     let rows = field.chunks_exact(grid.shape()[1]);
     rows.rev().flatten().copied().collect()

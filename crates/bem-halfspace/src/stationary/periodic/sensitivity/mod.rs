@@ -38,7 +38,8 @@ use adjoint::{Adjoint, Gradient, KernelChange, unit_pressure};
 /// Largest relative difference of two periods that count as equal: above the rounding of numbers of ten digits in a
 /// file.
 const PERIOD_TOLERANCE: f64 = 1e-9;
-/// The elements at edges scatter.
+/// Derivatives and error bars from two grids. The derivatives are those on the fine grid, because the elements at the contact boundary
+/// differ from grid to grid without a common order. The error bar is 2.5 times the difference of the grids; the factor is chosen.
 const LIMIT: TwoGridExtrapolation = TwoGridExtrapolation {
     correction: 0.0,
     area_correction: 0.0,
@@ -201,8 +202,7 @@ impl PeriodicSensitivity {
         })
     }
 
-    /// The change of the answer by one parameter, extrapolated from those that `of` gives on the finest and on the next coarser grid, with
-    /// its discretisation error.
+    /// A change of the state with its discretisation error, from the changes `of(state)` on the fine and on the coarse grid.
     fn change(
         &self,
         of: impl Fn(&State) -> Result<Change<f64>, BemError>,
@@ -227,6 +227,7 @@ impl State {
             control,
             options: PeriodicOptions::default(),
         };
+        // The contact from the guess, then its adjoint equations.
         let mut pressure = solve_from(&mut guess, problem)?.pressure.pressure;
         let mut adjoint = Adjoint::new(sliding, grid, heights, &pressure)?;
         let gradients = adjoint.gradients()?;
@@ -286,14 +287,16 @@ impl State {
         Ok(self.change(|gradient| gradient.by_compliances(&changes)))
     }
 
+    /// The change from one elastomer and velocity to another, by the displacements under the pressures.
     fn between_elastomers(&self, ends: [&Sliding; 2]) -> Result<Change<f64>, BemError> {
         let kernel = self.between_kernels(ends.map(|end| (end, &self.grid)))?;
         Ok(self.change(|gradient| gradient.by_kernel(&kernel)))
     }
 
-    /// The change from one kernel to another, of two materials or of two grids with the shape of this one.
+    /// The change from one kernel to another, each that of a material on a grid with the shape of this one.
     fn between_kernels(&self, ends: [(&Sliding, &Grid); 2]) -> Result<KernelChange, BemError> {
         let n = self.pressure.len();
+        // Differences of the displacements under the pressures and under a unit pressure.
         let mut field = vec![0.0; n];
         let mut change = KernelChange {
             displacement: vec![0.0; n],
@@ -313,7 +316,7 @@ impl State {
         Ok(change)
     }
 
-    /// The derivatives by what is prescribed: the mean pressure, or the depth.
+    /// The derivatives by the prescribed mean pressure, per pascal, or by the prescribed depth, per metre.
     fn by_load(&self) -> Change<f64> {
         let by_pressure = self.gradients.map(|gradient| gradient.by_pressure);
         match self.control {
@@ -322,7 +325,8 @@ impl State {
         }
     }
 
-    /// The changes by relative changes of the storage and of the loss modulus, of equal size at all frequencies in \[`from`, `to`) \[rad/s].
+    /// The changes by relative changes of the storage and of the loss modulus, of equal size at all frequencies in \[`from`, `to`)
+    /// \[rad/s].
     fn by_moduli(&self, [from, to]: [f64; 2]) -> Result<[Change<f64>; 2], BemError> {
         let compliances = self.sliding.compliances(&self.along_x)?;
         let of = |part: fn(Complex<f64>) -> Complex<f64>| {
@@ -343,8 +347,8 @@ impl State {
         ])
     }
 
-    /// The change of all quantities under the given mean pressure or at the given depth, from that of each under a constant mean
-    /// pressure.
+    /// The change of all quantities under the given mean pressure or at the given depth. `of(gradient)` is the change
+    /// of one quantity under a constant mean pressure.
     fn change(&self, of: impl Fn(&Gradient) -> f64) -> Change<f64> {
         let change = self.gradients.map(of);
         match self.control {
@@ -353,7 +357,7 @@ impl State {
         }
     }
 
-    /// The derivatives by the normal force of a period.
+    /// The derivatives by the normal force of a period, per newton.
     fn by_force(&self) -> Change<f64> {
         let area = self.grid.element_area() * self.grid.n_elements() as f64;
         self.gradients.map(|gradient| gradient.by_pressure / area)

@@ -28,7 +28,8 @@ pub(super) enum KernelDirection {
     Reversed,
 }
 
-/// Solves `K y = r` on a contact for several right sides, in the units of the mesh; `Kᵀ y = r` for the reversed motion.
+/// Solves `K y = r` for several right sides on a contact, given by indices of candidates, in the units of the mesh; `Kᵀ y = r` for the
+/// reversed motion.
 ///
 /// # Errors
 /// [`BemError::ContactNotConverged`] with the largest relative residual.

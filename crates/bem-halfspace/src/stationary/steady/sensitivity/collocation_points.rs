@@ -80,7 +80,8 @@ impl CollocationPoints {
         self.heights_at(body, self.collocation_shift)
     }
 
-    /// Derivatives ∂μ/∂h at fixed pressure: the part of the slope that depends on the body explicitly, in units of [`slope_unit`](Self::slope_unit).
+    /// Explicit slope terms: the part of the friction slope of each element that depends on the body at fixed loads, in units of
+    /// [`slope_unit`](Self::slope_unit).
     pub(super) fn explicit_slope_terms(&self, body: Height) -> Result<Vec<f64>, BemError> {
         let rise = |from: f64, to: f64| -> Result<Vec<f64>, BemError> {
             let rear = self.heights_at(body, from)?;

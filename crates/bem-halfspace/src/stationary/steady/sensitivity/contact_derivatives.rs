@@ -41,8 +41,8 @@ pub(super) struct ContactDerivatives {
     depth: f64,
     /// Number of unknown pressures.
     pub(super) n_unknowns: usize,
-    /// Derivatives by the scale of all lengths. `None` under a body with edges, where the elements at the edges do not change sides, and
-    /// where a larger scale does not enlarge the contact.
+    /// Derivatives by the scale of all lengths. `None` under a body with edges, where the elements at the edges do not change
+    /// sides, and where a larger scale does not enlarge the contact.
     pub(super) dilation: Option<Dilation>,
 }
 
@@ -62,7 +62,7 @@ pub(super) struct Dilation {
 /// The gradient of one quantity on fixed elements under a constant force, in SI units.
 #[derive(Debug)]
 pub(super) struct Gradient {
-    /// Derivatives by the height of each element, its image included, in units of the depth scale.
+    /// Derivatives by the height of each element, its image included; heights are in units of the depth scale.
     by_height: Vec<f64>,
     /// Derivatives by the explicit slope term of each element; empty for all quantities but the friction.
     by_slope_term: Vec<f64>,
@@ -210,7 +210,7 @@ impl ContactDerivatives {
         Ok(())
     }
 
-    /// The change of each quantity from one body to another, on fixed elements.
+    /// Returns a function that gives, for the gradient of a quantity, its change from one body to another on fixed elements.
     fn between_heights(
         &self,
         from: Height,
@@ -242,8 +242,8 @@ impl ContactDerivatives {
         }
     }
 
-    /// The change of all quantities under the given force or at the given depth, from that of each on fixed elements under a constant
-    /// force.
+    /// The change of all quantities under the given force or at the given depth. `of(gradient)` is the change of one
+    /// quantity on fixed elements under a constant force.
     pub(super) fn total_change(&self, of: impl Fn(&Gradient) -> f64) -> Change<f64> {
         let under_force = self.under_force(of);
         match self.control {
@@ -254,8 +254,8 @@ impl ContactDerivatives {
         }
     }
 
-    /// Adds the effect of the moving contact boundary to the change of each quantity on fixed elements. It is −R times the change of the
-    /// boundary weight over that by dilation, with the defects R of the scaling identity.
+    /// The change of each quantity under a constant force: that on fixed elements plus the effect of the moving contact boundary. The
+    /// latter is −R times the change of the boundary weight over that by dilation, with the defects R of the scaling identity.
     fn under_force(&self, of: impl Fn(&Gradient) -> f64) -> Change<f64> {
         let fixed = self.gradients.map(&of);
         let Some((dilation, weight)) = self.dilation.as_ref().zip(self.boundary_weight.as_ref())
@@ -295,18 +295,18 @@ struct BorderedSystem<'a> {
 }
 
 impl BorderedSystem<'_> {
-    /// The gradient of a function of loads and gaps from its adjoint loads, for a quantity of some SI unit.
+    /// The gradient of a function of loads and gaps from its adjoint loads; `unit` is the SI value of its unit on the mesh.
     fn gradient(&self, adjoint: &[f64], unit: f64) -> Gradient {
         self.with_depth_response(adjoint, self.contact.sum(adjoint) / self.stiffness, unit)
     }
 
-    /// The gradient of the depth.
+    /// The gradient of the depth, \[m].
     fn depth(&self, depth_scale: f64) -> Gradient {
         let no_loads = vec![0.0; self.unit_depth.len()];
         self.with_depth_response(&no_loads, self.stiffness.recip(), depth_scale)
     }
 
-    /// The gradient of a measure of the contact.
+    /// The gradient of a measure of the contact, its area or boundary weight, which also depends on the kernel explicitly.
     fn measure(&self, adjoint: &[f64], measure: &BoundaryDerivatives) -> Gradient {
         let mut gradient = self.gradient(adjoint, 1.0);
         let by_second_difference = measure.by_second_difference;
@@ -317,7 +317,8 @@ impl BorderedSystem<'_> {
         gradient
     }
 
-    /// The gradient for η times the adjoint loads of a unit depth less those of a quantity.
+    /// The gradient for the adjoint loads λ = η λ₁ − `adjoint`, with those λ₁ of a unit depth; `unit` as for
+    /// [`gradient`](Self::gradient).
     fn with_depth_response(&self, adjoint: &[f64], eta: f64, unit: f64) -> Gradient {
         let pairs = adjoint.iter().zip(self.unit_depth);
         let loads: Vec<f64> = pairs

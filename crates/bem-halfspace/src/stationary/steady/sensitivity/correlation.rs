@@ -3,6 +3,8 @@
 //! ```text
 //! λᵀ K x = Σ_m c_m k_m,      c_m = Σ_j λ_(j+m) x_j
 //! ```
+//!
+//! for the adjoint loads λ, the loads x and the kernel k_m at the offset m, in elements along x and y.
 
 use crate::parallel::reductions::{add_scaled, dot};
 use crate::stationary::steady::sensitivity::kernel_table::KernelTable;
@@ -12,7 +14,7 @@ use crate::stationary::steady::sensitivity::kernel_table::KernelTable;
 pub(super) struct Correlation {
     /// Largest offsets: along x in either direction, and along y.
     max_offsets: [usize; 2],
-    /// Row-major: by offset along x, from behind the load on, and by distance along y.
+    /// Weights, row-major: by offset along x, from behind the load on, and by distance along y.
     weights: Vec<f64>,
 }
 

@@ -31,12 +31,12 @@ const UNIFORM_WAVE_NUMBER: f64 = 1e-6;
 /// at the cost of whole kernels.
 const MIN_LOG_MEMORY_RATIO: f64 = 1e-3;
 
-/// The derivatives of a quantity by the kernel.
+/// The derivatives of a quantity by the kernel: weights of all its values, and their sums over the kernel of each part of the creep.
 #[derive(Debug)]
 pub(super) struct KernelGradient {
     /// Weight of the kernel at each offset in the derivative.
     pub(super) correlation: Correlation,
-    /// Derivatives by the parts of the creep compliance in the order of [`CreepChange`], \[Pa].
+    /// Derivatives by the parts of the creep compliance in the order of [`CreepChange`], in the unit of the quantity times \[Pa].
     by_creep: Vec<f64>,
     /// Derivative by the logarithm of the thickness of the layer; 0 on a half space.
     pub(super) by_log_thickness: f64,
@@ -76,7 +76,7 @@ impl KernelGradient {
         }
     }
 
-    /// The change by another creep, to first order.
+    /// The change of the quantity by a change of the creep, to first order.
     pub(super) fn by_creep(&self, change: &CreepChange) -> f64 {
         dot(&self.by_creep, &change.0)
     }
@@ -222,7 +222,7 @@ impl GridKernel {
         CreepChange([instantaneous, flow].into_iter().chain(retarded).collect())
     }
 
-    /// The creep itself.
+    /// The whole creep of the material as a change from zero creep.
     pub(super) fn whole_creep(&self) -> CreepChange {
         self.scaled_creep([1.0, 1.0], [1.0, 0.0])
     }
@@ -232,7 +232,7 @@ impl GridKernel {
         self.scaled_creep([0.0, -1.0], [0.0, 1.0])
     }
 
-    /// The creep with factors on instantaneous compliance and flow, and on the two numbers of each retardation element.
+    /// The creep with factors on [instantaneous compliance, flow], and on the two entries of each retardation element.
     fn scaled_creep(&self, [instantaneous, flow]: [f64; 2], factors: [f64; 2]) -> CreepChange {
         let first = [
             instantaneous * self.creep.instantaneous,

@@ -3,7 +3,7 @@
 use crate::parallel::reductions::add_scaled;
 use crate::stationary::steady::wake_table::WakeTable;
 
-/// A kernel, or its derivative by a parameter, \[1/Pa].
+/// A kernel as a function of the offset, or its derivative by a parameter, \[1/Pa].
 pub(super) struct KernelTable {
     /// Largest offsets: along x in either direction, and along y.
     max_offsets: [usize; 2],

@@ -54,8 +54,8 @@ pub(super) struct KernelWaves<'a> {
 }
 
 impl KernelWaves<'_> {
-    /// Nodes and weights of an integral over wave numbers. The panels resolve the waves over the longest distance of the correlation, and
-    /// functions of the logarithm of the frequency.
+    /// Nodes and weights [q, w] of an integral over the wave numbers from `from` to `to`, in 1/Δx. The panels resolve the waves
+    /// over the longest distance of the correlation, and functions of the logarithm of the frequency.
     pub(super) fn nodes(&self, [from, to]: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
         let rows = (2 * self.max_offsets[0] + 1) as f64;
         let widest = WAVES_PER_PANEL * TAU / rows;
@@ -71,7 +71,7 @@ impl KernelWaves<'_> {
         })
     }
 
-    /// Adds the wave of a wave number to two kernels, with the factors `amplitudes` on the wave of a unit compliance.
+    /// Adds the wave of a wave number, in 1/Δx, to two kernels, each with its factor of `amplitudes` on the wave of a unit compliance.
     pub(super) fn add(
         &self,
         kernels: &mut [KernelTable; 2],
@@ -90,7 +90,7 @@ impl KernelWaves<'_> {
         }
     }
 
-    /// The factor of k̂ that depends on y, at the distance of each column.
+    /// The integral factor of k̂(q, y), without sin(q/2)/(q/2), at the distances y of the columns 0 to `columns`.
     fn along_y(&self, q: f64, columns: usize) -> Vec<f64> {
         let half = 0.5 * self.aspect;
         if columns == 0 && half >= self.base.influence_radius() {
@@ -149,7 +149,7 @@ impl KernelWaves<'_> {
     }
 }
 
-/// 2 ∫ K₀(q y) dy between two distances, by the trapezoidal rule in u.
+/// 2 ∫ K₀(q y) dy between two distances, by the trapezoidal rule in u (head of this file); the sum ends when terms are below rounding.
 fn integral_of_bessel(q: f64, [from, to]: [f64; 2]) -> f64 {
     let integrand = |u: f64| {
         let rate = q * u.cosh();

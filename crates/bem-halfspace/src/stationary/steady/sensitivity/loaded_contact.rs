@@ -67,7 +67,7 @@ impl<'a> LoadedContact<'a> {
         }
     }
 
-    /// Sum of some loads over all elements, mirror images included.
+    /// Sum of `loads`, in the order of the elements, with mirror images included.
     pub(super) fn sum(&self, loads: &[f64]) -> f64 {
         let elements = self.elements.iter().copied();
         self.mesh.total_load(elements.zip(loads.iter().copied()))
@@ -208,6 +208,7 @@ impl<'a> LoadedContact<'a> {
 
     /// Increase of the loads in the contact, and decrease of the gaps outside, per unit of depth.
     fn unit_depth_response(&mut self) -> Result<Vec<f64>, BemError> {
+        // Loads that displace the contact by 1; outside, gaps fall by 1 minus the displacement.
         let n = self.n_touching;
         let (contact, direction) = (&self.elements[..n], KernelDirection::Forward);
         let unit_depth = vec![vec![1.0; n]];
@@ -220,7 +221,7 @@ impl<'a> LoadedContact<'a> {
         Ok(response)
     }
 
-    /// Values of all elements, and of their mirror images, over the box of the region.
+    /// A field over the box of the region with the values of all elements and of their mirror images, and `elsewhere` in between.
     fn over_box<T: Copy>(&self, values: impl Iterator<Item = T>, elsewhere: T) -> Vec<T> {
         let mut field = vec![elsewhere; self.region.n_box_elements()];
         for (indices, value) in self.region.indices().iter().zip(values) {
@@ -232,7 +233,7 @@ impl<'a> LoadedContact<'a> {
     }
 }
 
-/// Displacements of the elements of a region by loads on them.
+/// Displacements of the elements of a region by loads on them, in the units of the mesh.
 fn displacements(plans: &mut Plans, region: &Region, loads: &[f64]) -> Vec<f64> {
     KernelOperator::new(plans.kernel(region.shape), region).apply(0, loads, region)
 }

@@ -7,8 +7,9 @@
 //! Kᵀ λ = η − ∂J/∂x,      Σ λ = 0 under a force, η = 0 at a depth,      dJ/dθ = ∂J/∂θ + λᵀ (∂K/∂θ x + ∂h/∂θ)
 //! ```
 //!
-//! (Tardieu & Constantinescu 2000). The contact boundary itself moves. Where the pressure vanishes at it, the motion has an effect of
-//! second order only. All derivatives then are sums: over the offsets between elements for the material, over the elements for the body.
+//! (Tardieu & Constantinescu 2000). The contact boundary itself moves. Where the pressure vanishes at it, the motion has an effect
+//! of second order only. All derivatives then are sums: over the offsets between elements for the material, over the elements for
+//! the body.
 //!
 //! On a grid the contact boundary moves by whole elements, which is the largest part of the error. For a change of scale the exact
 //! derivative is known. Multiply all lengths of the body, the layer and the sliding per time by λ, and the force by λ². Then the
@@ -19,9 +20,10 @@
 //! R = ∂J/∂ln λ − (power of λ in J) J,      dJ/dθ → dJ/dθ − R (dG/dθ)/(∂G/∂ln λ)
 //! ```
 //!
-//! with a measure G of the motion of the boundary, in which each pair of elements has the weight of its effect (`elements/contact_boundary.rs`). The
-//! area is a sum over the boundary, too; its derivative is divided by that of the dilation and multiplied by 2. With this correction all
-//! derivatives add up exactly under a change of the unit of length, as they do without it under changes of the units of stress and time.
+//! with a measure G of the motion of the boundary, in which each pair of elements has the weight of its effect
+//! (`elements/contact_boundary.rs`). The area is a sum over the boundary, too; its derivative is divided by that of the dilation
+//! and multiplied by 2. With this correction all derivatives add up exactly under a change of the unit of length, as they do
+//! without it under changes of the units of stress and time.
 //!
 //! Theory: docs/sensitivity.md, "What is known of them".
 
@@ -51,7 +53,7 @@ use kernel_gradient::{CreepChange, GridKernel};
 pub(crate) use two_grid_extrapolation::TwoGridExtrapolation;
 use two_grid_extrapolation::mean_over_shifts;
 
-/// Spacing of the coarse grids over that of the fine ones.
+/// Spacing of the coarse grids over that of the fine ones; the factors of [`EXTRAPOLATION`] are for this ratio.
 const COARSE_SPACING_FACTOR: f64 = 2.0;
 /// Error of ∂ln μ/∂ln F and ∂ln μ/∂ln v above which the spacing is halved. Chosen; from 1e-3 to 0.1 no digit of an
 /// answer changes.
@@ -66,11 +68,13 @@ const MAX_CONTACT_TOLERANCE: f64 = 1e-10;
 const STRIP_SPACING_FACTOR: f64 = 0.25;
 /// Shifts along x and y of the grids that are averaged, in elements.
 const SENSITIVITY_PHASES: [[f64; 2]; 2] = [[0.0, 0.0], [0.5, 0.5]];
-/// Shifts in plane strain, in elements.
+/// Shifts along x and y of the grids that are averaged in plane strain, in elements.
 const STRIP_SENSITIVITY_PHASES: [[f64; 2]; 2] = [[0.0, 0.0], [0.5, 0.0]];
-/// Limit − fine over fine − coarse at the order 3/2 of the singular front: 1/(2^(3/2) − 1) = (2^(3/2) + 1)/7.
+/// Factor from the difference fine − coarse to limit − fine at the order 3/2 of the singular front. Derived:
+/// 1/(2^(3/2) − 1) = (2^(3/2) + 1)/7.
 const FRONT_CORRECTION: f64 = (2.0 * std::f64::consts::SQRT_2 + 1.0) / 7.0;
-/// Extrapolation with the order 3/2 of the singular front, and with the order 1 of the area. The factor of the error is chosen.
+/// Extrapolation with the order 3/2 of the singular front, and with the order 1 of the area. The error is twice the difference of the
+/// grids; this factor is chosen.
 const EXTRAPOLATION: TwoGridExtrapolation = TwoGridExtrapolation {
     correction: FRONT_CORRECTION,
     area_correction: 1.0,
@@ -231,7 +235,7 @@ impl SteadySensitivity {
         self.limit(|grids| grids.to_elastomer(&creep))
     }
 
-    /// The extrapolated limit of a change.
+    /// The extrapolated limit of a change, from the changes `of(grids)` on the shifted fine and coarse grids.
     fn limit(
         &self,
         of: impl Fn(&SensitivityOnGrid) -> Result<Vec<Change<f64>>, BemError>,
@@ -382,7 +386,7 @@ impl SensitivityOnGrid {
         Ok(mean_over_shifts(changes).friction_coefficient.mean)
     }
 
-    /// The change on each grid, from that of each quantity on fixed elements under a constant force.
+    /// The change on each grid; `of(gradient)` is that of one quantity on fixed elements under a constant force.
     fn changes(&self, of: impl Fn(&Gradient) -> f64) -> Vec<Change<f64>> {
         let contacts = self.contacts.iter();
         contacts.map(|contact| contact.total_change(&of)).collect()
@@ -460,7 +464,7 @@ fn creeps(
     Ok([from?, to?])
 }
 
-/// The loading, if the contact has derivatives under it.
+/// The loading of a contact that has derivatives: not a depth on a half space that flows.
 ///
 /// # Errors
 /// [`BemError::InvalidParameter`] at a depth on a half space that flows.

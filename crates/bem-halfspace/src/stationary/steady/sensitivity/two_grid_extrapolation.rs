@@ -28,7 +28,7 @@ impl MeanAndSpread {
     }
 }
 
-/// The mean of each quantity over shifted grids.
+/// The mean and the spread of each quantity over shifted grids; `None` for a quantity that one of them lacks.
 pub(super) fn mean_over_shifts(changes: Vec<Change<f64>>) -> Change<MeanAndSpread> {
     let optional = |quantity: fn(&Change<f64>) -> Option<f64>| {
         let values: Option<Vec<f64>> = changes.iter().map(quantity).collect();
@@ -46,11 +46,11 @@ pub(super) fn mean_over_shifts(changes: Vec<Change<f64>>) -> Change<MeanAndSprea
 /// Richardson extrapolation from a coarse and a fine grid; all numbers are factors on the difference fine − coarse.
 #[derive(Clone, Copy)]
 pub(crate) struct TwoGridExtrapolation {
-    /// Limit − fine of all quantities but the area; 1/(2^order − 1) for spacings in the ratio 2.
+    /// Factor to limit − fine for all quantities but the area: 1/(2^order − 1) for spacings in the ratio 2, or 0 for no extrapolation.
     pub(crate) correction: f64,
-    /// Limit − fine of the area.
+    /// Factor to limit − fine for the area.
     pub(crate) area_correction: f64,
-    /// Error of the limit.
+    /// Factor to the error of the limit.
     pub(crate) error: f64,
 }
 
