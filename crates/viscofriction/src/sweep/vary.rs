@@ -50,7 +50,7 @@ impl fmt::Display for Varied {
     }
 }
 
-/// Every `count`-th point, starting with the `finite_number`-th.
+/// Every `count`-th point, starting with the `number`-th.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Shard {
     /// Number of the shard, from 1 to `count`.
