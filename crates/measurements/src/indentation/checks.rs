@@ -35,6 +35,7 @@ pub(super) fn prepare(curve: &IndentationCurve, before_retraction: bool) -> Resu
     if let Some(place) = time.windows(2).position(|pair| pair[1] <= pair[0]) {
         return Err(Flag::TimeGoesBack(place + 2));
     }
+    // A gap is a step much longer than both of its neighbours; a lower rate from some point on is none.
     let is_gap = |t: &[f64]| t[2] - t[1] > MIN_GAP_RATIO * (t[1] - t[0]).max(t[3] - t[2]);
     if let Some(place) = time.windows(4).position(is_gap) {
         return Err(Flag::Gap(time[place + 1]));
@@ -46,6 +47,7 @@ pub(super) fn prepare(curve: &IndentationCurve, before_retraction: bool) -> Resu
     check_saturation(curve)?;
     let mut curve = curve.clone();
     if before_retraction {
+        // The retraction begins behind the last point that is as deep as the deepest one, up to four standard deviations of the noise.
         let ones = vec![1.0; curve.time.len()];
         let jitter = 4.0 * depth::noise(&curve.time, &curve.depth, &ones);
         let deep = high - jitter.max(1e-3 * (high - low));

@@ -211,6 +211,7 @@ fn ranges(model: &Model, begin: &Start) -> Vec<ParameterRange> {
         ],
         2.0,
     );
+    // The order of the parameters: material, contact point, baseline, tilt, thickness.
     let mut ranges = match model.kind {
         Kind::Branches(n) => [vec![moduli], [moduli, times].repeat(n)].concat(),
         Kind::PowerLaw => vec![moduli, range([0.011, 0.98], 0.1)],

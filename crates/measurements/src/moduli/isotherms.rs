@@ -55,6 +55,7 @@ pub(super) fn insert(groups: &mut Vec<Group>, row: IsothermRow) -> Result<(), &'
     {
         return Err("a value that no row before has at this temperature");
     }
+    // Of equally near temperatures the latest isotherm takes the row.
     let latest = groups.iter_mut().rev();
     let free = latest.filter(|group| !group.rows.contains_key(&key));
     let near = free.filter_map(|group| Some((distance(group)?, group)));

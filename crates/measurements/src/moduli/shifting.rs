@@ -106,6 +106,7 @@ impl Table<'_> {
         let log10_factor = |temperature| shift.log10_factor(celsius(temperature));
         let master = shifted_master_curve(self.isotherms, wanted, log10_factor, options)?;
         shift.vertical = self.vertical_law(&master);
+        // The master curve is at the nearest isotherm: shift it from there to the wanted temperature by the law.
         let nearest = celsius(master.reference_temperature);
         let [log10_factor, modulus_factor] = [
             -shift.log10_factor(nearest)?,
@@ -130,6 +131,7 @@ impl Table<'_> {
         let pair = |shift: &IsothermShift| [celsius(shift.temperature), shift.log10_factor];
         let mut shifts: Vec<[f64; 2]> = master.shifts.iter().map(pair).collect();
         shifts.sort_by(|one, other| one[0].total_cmp(&other[0]));
+        // The law is needed to go on to another temperature, and kept with the master curve if there is one.
         let shift = fit_law_around(&shifts, [nearest, wanted].map(celsius));
         let vertical = self.vertical_law(&master);
         let shift = shift.map(|shift| Shift { vertical, ..shift });

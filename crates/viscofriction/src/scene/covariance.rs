@@ -70,6 +70,7 @@ impl Covariance {
                 }
             }
         }
+        // A symmetric matrix is positive semidefinite if and only if it has a Cholesky factor.
         match self.factor() {
             Ok(_) => Ok(()),
             Err(row) => {

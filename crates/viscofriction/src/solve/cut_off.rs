@@ -50,6 +50,7 @@ impl WithoutShortestOctave {
         };
         let found = match solve(&left, request) {
             Ok(found) => found,
+            // A solution that misses the requested error still states a valid one.
             Err(BemError::NotReached { reached, .. }) => match *reached {
                 Reached::Periodic(found) => found,
                 _ => return None,

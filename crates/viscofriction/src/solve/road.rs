@@ -60,6 +60,7 @@ pub fn cut_offs(
         _ => 0.0,
     };
     let mut shortest_wavelength = first;
+    // Removes no wave, but makes the body of the first row like those of the others, or refuses it.
     problem = problem.without_waves_below(first)?;
     loop {
         let rms_slope = match problem.body() {

@@ -193,6 +193,7 @@ fn mean_of(answers: &[Answer], seeds: &[u64]) -> Answer {
         }),
         ..answers[0].clone()
     };
+    // Quantities that some answer lacks have no mean.
     for quantity in &QUANTITIES {
         if let Some(field) = quantity.field {
             *field(&mut mean) = mean_estimate(answers.iter().map(quantity.of));

@@ -28,10 +28,12 @@ pub fn sampled(
     }
     let mut normal = Normal::new(sample);
     let mut numbers = Numbers::new(scene, folder, read)?;
+    // The temperature comes first, because moduli and times at other temperatures follow from it.
     if let Some(temperature) = numbers.uncertain_temperature() {
         let drawn = temperature.value + numbers.uncertainty(&temperature) * normal.next();
         numbers = Numbers::new(&numbers.scene_with(&temperature, drawn)?, folder, read)?;
     }
+    // Draw all numbers of the scene at its best values before any is replaced: each draw has a fixed place in the sequence.
     let mut values = Vec::new();
     for number in numbers.all() {
         let relative = scene.uncertainty.get(&number.path());
