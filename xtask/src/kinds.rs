@@ -9,15 +9,15 @@ use viscofriction::scene::{Key, Kind, json_schema, keys, kinds, number, resolved
 
 use crate::ci::workspace_root;
 
-/// Classes that have another name than their kind.
+/// Kind of a scene, and its class in Python, where the class is not the kind in camel case: these three read a file.
 const CLASS_NAMES: [(&str, &str); 3] = [
     ("table", "ProfileFile"),
     ("height-map", "HeightMapFile"),
     ("file", "MaterialFile"),
 ];
-/// The material whose class is written by hand, in `_materials.py`.
+/// The material whose class is not generated but written by hand, in `_materials.py`: its constructor takes branches.
 const BY_HAND: &str = "prony";
-/// What the file of the classes begins with; `NAMES` are those of the classes.
+/// Begin of `_kinds.py`; `NAMES` is replaced by the quoted names of all classes.
 const HEAD: &str = "\
 \"\"\"Bodies and materials with the keys of a scene, in SI. `cargo xtask kinds` writes this file.\"\"\"
 
@@ -35,7 +35,7 @@ __all__ = [
 ]
 ";
 
-/// Writes the files.
+/// Writes the three generated files into the workspace and prints their paths.
 pub(crate) fn write() -> Result<()> {
     for (path, text) in files()? {
         fs::write(workspace_root().join(path), text).context(path)?;
@@ -44,7 +44,8 @@ pub(crate) fn write() -> Result<()> {
     Ok(())
 }
 
-/// Paths and contents of the files.
+/// Paths, from the root of the workspace, and contents of the three generated files. Of `docs/scenes.md` only the text
+/// between the marks `<!-- NAME -->` and `<!-- /NAME -->` is replaced; fails where a mark is missing.
 fn files() -> Result<[(&'static str, String); 3]> {
     let page_path = "docs/scenes.md";
     let mut page = fs::read_to_string(workspace_root().join(page_path)).context(page_path)?;
@@ -69,11 +70,11 @@ fn files() -> Result<[(&'static str, String); 3]> {
     ])
 }
 
-/// Head of a table of the page.
+/// Head of each table of `docs/scenes.md` in Markdown; [`row`] writes its rows.
 const ROWS: &str =
     "| kind | in Python | what it is | keys, and those that may be left out |\n|---|---|---|---|\n";
 
-/// A row of the page.
+/// The row of a kind in Markdown: first the required keys, then, behind a semicolon, those that may be left out.
 fn row(kind: &Kind) -> String {
     let (required, others): (Vec<Key>, Vec<Key>) =
         kind.keys.iter().copied().partition(|key| key.is_required);
@@ -86,7 +87,7 @@ fn row(kind: &Kind) -> String {
     )
 }
 
-/// A key with its unit, or with the keys of a list of tables.
+/// A key in Markdown, with its unit where it is a number, or with the keys of each table where it is a list of tables.
 fn cell(key: &Key) -> String {
     let unit = number(key.words).and_then(|number| number["x-unit"].as_str());
     match (unit, list_of(key)) {
@@ -96,7 +97,7 @@ fn cell(key: &Key) -> String {
     }
 }
 
-/// Name of the class in Python.
+/// Name of the class in Python: of [`CLASS_NAMES`], or the kind in camel case.
 fn class_name(kind: &Kind) -> String {
     let known = CLASS_NAMES.iter().find(|(name, _)| *name == kind.name);
     let words = kind.name.split('-');
@@ -104,7 +105,7 @@ fn class_name(kind: &Kind) -> String {
     known.map_or_else(|| words.collect(), |(_, class)| (*class).to_owned())
 }
 
-/// The class in Python, in which keys that may be left out are keywords.
+/// Source of the dataclass in Python, derived from `base`. Keys that may be left out are keyword-only and have their defaults.
 fn class(kind: &Kind, base: &str) -> String {
     let (mut docs, mut fields, mut lists) = (String::new(), String::new(), String::new());
     for key in &kind.keys {
@@ -139,7 +140,7 @@ fn class(kind: &Kind, base: &str) -> String {
     )
 }
 
-/// The keys of each table of a list of tables.
+/// Names of the keys of each table, joined by commas, if `key` is a list of tables.
 fn list_of(key: &Key) -> Option<String> {
     let keys: Vec<&str> = keys(key.words).map(|key| key.name).collect();
     (key.words["type"] == "array" && !keys.is_empty()).then(|| keys.join(", "))

@@ -1,6 +1,10 @@
 //! Commands of the workspace: figures, scaling factors, evidence, dependencies, checks.
 //!
 //! Exit status: 0 done; 1 the computation could not reach what was asked; 2 the input was wrong.
+//!
+//! Words in this crate: *the paper* is Kürschner, "Friction between a rigid body and a model elastomer having a linear viscous
+//! rheology", ZAMM 94 (2014), whose equations are cited by number. The *line* is its one-dimensional model, the *chain* that
+//! model solved element by element, a *bar* the error bar of a number. An *experiment* of `evidence` is a set of computations.
 #![cfg_attr(not(test), warn(unused_crate_dependencies))]
 #![allow(
     clippy::print_stdout,

@@ -4,24 +4,26 @@ use std::time::Instant;
 
 use cpu_time::ProcessTime;
 
-/// Most runs of one median.
+/// Largest number of runs of which one median is taken. Odd, so that the median is one of them; five survive two disturbed
+/// runs.
 const MAX_RUNS: f64 = 5.0;
-/// Most runs of one median where a run is short.
+/// The same where a run is shorter than [`SHORT_RUN`]: the resolution of the clock and the scheduler then disturb more runs.
 const MAX_SHORT_RUNS: f64 = 101.0;
-/// Processor time below which a run is short, \[s].
+/// Processor time below which a run counts as short, \[s].
 const SHORT_RUN: f64 = 2e-3;
-/// Processor time that all runs of one median may take, \[s].
+/// Processor time that all runs of one median may take together, \[s]; chosen, as a bound on the time of an experiment.
 const MAX_TOTAL: f64 = 3.0;
 
-/// Time that a computation took, \[s].
+/// Time that a computation took.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Cost {
+    /// Time on the wall clock, \[s].
     pub(crate) seconds: f64,
-    /// Processor time of all threads; other work on the machine is not in it.
+    /// Processor time of all threads of this process, \[s]; other work on the machine is not in it.
     pub(crate) processor_seconds: f64,
 }
 
-/// Runs `work` and measures it.
+/// Runs `work` once; its result and cost.
 pub(crate) fn measure<T>(work: impl Fn() -> T) -> (T, Cost) {
     let (clock, processor) = (Instant::now(), ProcessTime::now());
     let value = work();
@@ -32,8 +34,9 @@ pub(crate) fn measure<T>(work: impl Fn() -> T) -> (T, Cost) {
     (value, cost)
 }
 
-/// The median cost of several runs of `work`, of more the shorter they are; a failure of the first is not repeated.
-/// Processor time decides, so that other work on the machine does not.
+/// Result of the first run of `work`, and the median cost of [`MAX_RUNS`] runs, of [`MAX_SHORT_RUNS`] short ones, or of as
+/// many as fit into [`MAX_TOTAL`]. Processor time decides how many, so that other work on the machine does not. If the
+/// first run fails, its error is returned at once.
 pub(crate) fn measure_median<T, E>(work: impl Fn() -> Result<T, E>) -> Result<(T, Cost), E> {
     let (value, first) = measure(&work);
     let value = value?;

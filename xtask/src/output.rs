@@ -9,7 +9,7 @@ use viscofriction_plot::{Figure, PNG_WIDTH, draw, render_png};
 
 pub use viscofriction::WrongInput;
 
-/// Prints a line; a reader that has seen enough is no error.
+/// Prints a line to standard output. A pipe that its reader has closed, as `head` does, is no error.
 pub(crate) fn print_line(text: &dyn std::fmt::Display) -> Result<()> {
     match writeln!(std::io::stdout(), "{text}") {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
@@ -19,7 +19,7 @@ pub(crate) fn print_line(text: &dyn std::fmt::Display) -> Result<()> {
     }
 }
 
-/// Makes the folder that `--out` names.
+/// Makes the folder that `--out` names, with all above it; a folder that is there stays as it is.
 pub(crate) fn make_folder(out: &Path) -> Result<(), WrongInput> {
     let problem = |error| WrongInput(format!("--out {} cannot be made: {error}", out.display()));
     fs::create_dir_all(out).map_err(problem)

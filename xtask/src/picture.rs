@@ -2,7 +2,7 @@
 
 use viscofriction_plot::{Axis, Chart, Colour, Dash, LegendPlace, Line, Marker, Series, Shape};
 
-/// Series over two axes, with the legend below.
+/// A chart of `series` whose legend stands below the axes.
 pub(crate) fn chart(x: Axis, y: Axis, series: Vec<Series>) -> Chart {
     let legend = LegendPlace::Below;
     Chart {
@@ -11,7 +11,7 @@ pub(crate) fn chart(x: Axis, y: Axis, series: Vec<Series>) -> Chart {
     }
 }
 
-/// Open markers; none where there are no points.
+/// A series of open markers without a line; `None` where there are no points, because an empty series is refused.
 pub(crate) fn markers(
     points: Vec<[f64; 2]>,
     shape: Shape,
@@ -22,7 +22,7 @@ pub(crate) fn markers(
     is_drawn.then(|| Series::markers(points, Marker::open(shape), colour).labelled(label))
 }
 
-/// A thin black line.
+/// A thin black polyline, such as the slope of an order of convergence.
 pub(crate) fn guide<const N: usize>(points: [[f64; 2]; N], dash: Dash) -> Series {
     Series::line(points.into(), Line::thin(dash), Colour::Black)
 }

@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 
-/// A generator of 64 bits (Steele, Lea & Flood 2014).
+/// SplitMix64, a pseudorandom generator with a state of 64 bits (Steele, Lea & Flood, "Fast splittable pseudorandom number
+/// generators", 2014). Written here so that the cases of the evidence do not change with the version of a crate.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Random {
     state: u64,
@@ -14,8 +15,10 @@ impl Random {
         Self { state: seed }
     }
 
-    /// A number from 0 to 1, without 1.
+    /// A number that is uniformly distributed in [0, 1), a multiple of 2⁻⁵³.
     pub(crate) fn uniform(&mut self) -> f64 {
+        // The state runs through all 2⁶⁴ values in steps of 2⁶⁴ over the golden ratio, which is odd. Two multiplications with
+        // shifts then spread each bit of it over all bits of the result.
         self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut bits = self.state;
         bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -23,17 +26,17 @@ impl Random {
         ((bits ^ (bits >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// A number between two others.
+    /// A number that is uniformly distributed in [low, high).
     pub(crate) fn between(&mut self, [low, high]: [f64; 2]) -> f64 {
         low + (high - low) * self.uniform()
     }
 
-    /// 10^x with x between −n and n.
+    /// 10^x with x uniformly distributed between −n and n.
     pub(crate) fn decades(&mut self, n: f64) -> f64 {
         10_f64.powf(self.between([-n, n]))
     }
 
-    /// A number from the standard normal distribution (Box & Muller 1958).
+    /// A number from the normal distribution of mean 0 and variance 1 (Box & Muller 1958); it consumes two uniform ones.
     pub(crate) fn normal(&mut self) -> f64 {
         let radius = (-2.0 * (1.0 - self.uniform()).ln()).sqrt();
         radius * (TAU * self.uniform()).cos()
@@ -41,6 +44,7 @@ impl Random {
 
     /// One of the items, each as likely as any other.
     pub(crate) fn choice<T: Copy>(&mut self, items: &[T]) -> T {
+        // Not the truncated product itself: rounding could make it the number of items.
         let mark = self.uniform() * items.len() as f64;
         let passed = |index: &usize| *index as f64 <= mark;
         items[(1..items.len()).take_while(passed).count()]

@@ -1,4 +1,4 @@
-//! One power profile on a viscous half space, solved by theory, chain and half space.
+//! One power profile on a viscous half space, solved by the closed form of the one-dimensional model and on the half space.
 
 use anyhow::Result;
 use bem_halfspace::slide::{Transient, slide_on_grid};
@@ -12,7 +12,7 @@ use indenters::{PowerProfile, SlidingLoad};
 use numerics::Estimate;
 use rheology::{StandardSolid, Viscous};
 
-/// A profile h = c r^p, pressed and slid.
+/// A body of profile h = c r^p, pressed into a viscous half space by a normal force F_N and slid at a speed v; all in SI.
 pub(crate) struct Scene {
     pub(crate) body: PowerProfile,
     pub(crate) material: Viscous,
@@ -20,8 +20,8 @@ pub(crate) struct Scene {
 }
 
 impl Scene {
-    /// The scene of a given exponent in which the depth scale F_N/(4ηv) and the coefficient are 1: by similarity every
-    /// other one has the same ratio of half space to line.
+    /// The scene of an exponent p in which c, η, v and the depth scale F_N/(4ηv) are 1. By similarity every other scene of this
+    /// exponent has the same ratio of half space to one-dimensional model.
     pub(crate) fn unit(exponent: f64) -> Result<Self> {
         Ok(Self {
             body: PowerProfile::new(1.0, exponent)?,
@@ -35,8 +35,8 @@ impl Scene {
         Ok(power_sliding(&self.body, &self.material, &self.load)?)
     }
 
-    /// The half space with square elements of the given edge, slid over `lengths` contact lengths of the
-    /// one-dimensional model.
+    /// The half space on square elements of the edge `spacing` \[m], pressed from rest and slid over `lengths` contact lengths
+    /// of the one-dimensional model, step by step.
     pub(crate) fn half_space(&self, spacing: f64, lengths: f64) -> Result<Transient> {
         let footprint = Footprint::sliding(&self.body, &self.material, &self.load)?;
         let options = GridOptions::new([spacing; 2], footprint);
@@ -44,12 +44,13 @@ impl Scene {
         Ok(slide_on_grid(&self.body, &self.material, &load, &options)?)
     }
 
-    /// The stationary half space to a relative error.
+    /// The stationary half space, its grid refined until the relative error of `options` is reached.
     pub(crate) fn friction(&self, options: &RefinementOptions) -> Result<SteadyEstimate, BemError> {
         steady_refined(&self.body, &self.material, &self.load, options)
     }
 
-    /// The stationary half space on one grid; the tolerance is that of the residual over F_N/(4ηv).
+    /// The stationary half space on one grid, not extrapolated. `spacing`: Δx and Δy \[m]; `phase`: shift of the grid against
+    /// the body in elements; `tolerance`: largest residual of the velocity in contact over v times F_N/(4ηv).
     pub(crate) fn on_one_grid(
         &self,
         spacing: [f64; 2],
@@ -67,7 +68,7 @@ impl Scene {
     }
 }
 
-/// The default of the stationary half space with another error and other elements, of an aspect Δy/Δx.
+/// Default options of the stationary half space with another relative error and elements of the aspect Δy/Δx.
 pub(crate) fn refined_to(relative_error: f64, aspect: f64) -> RefinementOptions {
     RefinementOptions {
         relative_error,
@@ -81,7 +82,8 @@ pub(crate) fn solid(stiffness_ratio: f64) -> Result<StandardSolid> {
     Ok(standard_solid([stiffness_ratio, 1.0, 1.0])?)
 }
 
-/// Friction with the error bar that was reached, which is right even where it is wider than what was asked for.
+/// The coefficient of friction with the error bar that was reached. Where that is wider than what was asked for, the solver
+/// reports `NotReached`; its bar is as trustworthy as any other, so that this is no error here. Other errors are passed on.
 pub(crate) fn as_far_as_reached(
     result: Result<SteadyEstimate, BemError>,
 ) -> Result<Estimate, BemError> {

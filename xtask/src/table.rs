@@ -14,11 +14,14 @@ use crate::tasks::in_parallel;
 /// A file of comma-separated values.
 #[derive(Debug)]
 pub(crate) struct Table {
+    /// Name of the file, without its extension.
     pub(crate) name: &'static str,
+    /// Header line and rows, as [`to_csv`] writes them.
     pub(crate) contents: String,
 }
 
 impl Table {
+    /// The table of `rows`, whose columns are the fields of `R`.
     pub(crate) fn new<R: Serialize>(name: &'static str, rows: &[R]) -> Result<Self> {
         let contents = to_csv(rows)?;
         Ok(Self { name, contents })
@@ -30,7 +33,8 @@ impl Table {
         write_atomically(&path, self.contents.as_bytes())
     }
 
-    /// Some columns, separated by blanks, in Markdown; numbers only as far as their `…_error` says that they are known.
+    /// The table in Markdown with the columns that `columns` names, separated by blanks. A number whose row has a column
+    /// `NAME_error` shows only the digits that this error leaves certain. Fails where a column is not there.
     pub(crate) fn markdown(&self, columns: &str) -> Result<String> {
         let columns = columns.split_whitespace();
         let mut reader = csv::Reader::from_reader(self.contents.as_bytes());
@@ -56,12 +60,15 @@ impl Table {
     }
 }
 
-/// Items whose rows are computed before they are written, of many that take seconds each.
+/// Items whose rows [`GrowingTable::extend`] computes before it writes the file, where an item takes seconds. Chosen: several
+/// times the number of cores, so that none waits long for the last of a chunk; an interruption loses less than this work.
 pub(crate) const ROWS_AT_ONCE: usize = 64;
 
 /// A table whose file is written as it grows, so that an interrupted run goes on where it was.
 pub(crate) struct GrowingTable<R> {
+    /// Where the table is kept, as CSV.
     pub(crate) file: PathBuf,
+    /// Those of the file when it was opened, then those added since.
     pub(crate) rows: Vec<R>,
 }
 
@@ -76,7 +83,8 @@ impl<R: Serialize + Send> GrowingTable<R> {
         Ok(Self { file, rows })
     }
 
-    /// Adds the rows of all items, and writes the file after so many of them.
+    /// Computes the rows of all items by `run`, in parallel, and adds them in the order of the items. The file is written
+    /// after each `at_once` items. Stops at the first error; the rows of the chunk in which it occurs are lost.
     pub(crate) fn extend<T: Sync>(
         &mut self,
         items: &[T],
@@ -93,12 +101,13 @@ impl<R: Serialize + Send> GrowingTable<R> {
         Ok(())
     }
 
+    /// Replaces the file by one with all rows.
     pub(crate) fn write(&self) -> Result<()> {
         write_atomically(&self.file, to_csv(&self.rows)?.as_bytes())
     }
 }
 
-/// CSV with a header line; numbers read back to the same f64.
+/// Rows as CSV below a line with the names of the fields of `R`. Numbers are written such that they read back as the same f64.
 pub(crate) fn to_csv<R: Serialize>(rows: &[R]) -> Result<String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     for row in rows {
@@ -114,13 +123,14 @@ pub(crate) fn read_csv<R: DeserializeOwned>(path: &Path) -> Result<Vec<R>> {
     rows.with_context(|| format!("reading {}", path.display()))
 }
 
+/// The rows of a table that [`to_csv`] wrote; fails where a column of `R` is missing or a cell is not of its type.
 pub(crate) fn parse_csv<R: DeserializeOwned>(contents: &[u8]) -> Result<Vec<R>> {
     Ok(csv::Reader::from_reader(contents)
         .into_deserialize()
         .collect::<Result<_, _>>()?)
 }
 
-/// A table in Markdown, to be printed.
+/// A table in Markdown, one line for each of `rows`; its `Display` is the text.
 pub(crate) fn markdown_table<R: Into<Row>>(
     header: impl Into<Row>,
     rows: impl IntoIterator<Item = R>,
@@ -157,11 +167,13 @@ pub(crate) fn group_by<R, K: Ord>(
     groups
 }
 
-/// Four digits, or fewer if the error is larger than a unit of the last one.
+/// A number as text with four significant digits, or with fewer if its `error` (absolute) is larger than a unit of the last
+/// one. Integers below 1e6 are written in full; beyond 1e-3 … 1e6 the notation is exponential, with three digits.
 pub(crate) fn known_digits(value: f64, error: Option<f64>) -> String {
     if value == 0.0 || value.fract() == 0.0 && value.abs() < 1e6 {
         return value.to_string();
     }
+    // Powers of ten of the first digit of the number and of the digit that the error makes uncertain.
     let first = value.abs().log10().floor();
     let last = error.map_or(f64::NEG_INFINITY, |error| error.log10().ceil());
     let is_below = |count: f64| move |&digit: &usize| (digit as f64) < count;

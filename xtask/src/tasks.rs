@@ -1,4 +1,4 @@
-//! Many items of one task, with a bar on a terminal; silent elsewhere.
+//! Runs one task for many items, with a progress bar if standard error is a terminal.
 
 use std::borrow::Cow;
 use std::time::Duration;
@@ -7,7 +7,8 @@ use anyhow::Result;
 use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
 
-/// Runs a task for every item on all threads; results are in the order of the items.
+/// Results of `run` for every item, computed on all threads, in the order of the items; or the error of one that failed.
+/// `task` stands beside the bar.
 pub(crate) fn in_parallel<T: Sync, R: Send>(
     task: impl Into<Cow<'static, str>>,
     items: &[T],
@@ -20,7 +21,7 @@ pub(crate) fn in_parallel<T: Sync, R: Send>(
     results
 }
 
-/// Runs a task for one item after the other, so that each can be timed.
+/// The same as [`in_parallel`] for one item after the other, so that each can be timed; stops at the first error.
 pub(crate) fn in_turn<T, R>(
     task: impl Into<Cow<'static, str>>,
     items: &[T],
@@ -32,7 +33,7 @@ pub(crate) fn in_turn<T, R>(
     results
 }
 
-/// A bar over so many steps.
+/// A progress bar of `steps` steps with the text `task`, redrawn five times a second.
 fn bar(task: impl Into<Cow<'static, str>>, steps: usize) -> ProgressBar {
     let bar = ProgressBar::new(steps as u64).with_message(task);
     let template = "{msg:24} {bar:32} {pos}/{len}  {elapsed}, {eta} left";

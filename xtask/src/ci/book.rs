@@ -15,17 +15,19 @@ use pulldown_latex::{ParserError, Storage, push_mathml};
 
 use super::cargo::{run, workspace_root};
 
-/// Where the files of this version are that the pages link to and the book does not have.
+/// Address of the sources of this version: links of the pages to files outside `docs`, which the book does not have, lead
+/// there.
 const REPOSITORY: &str = concat!(
     env!("CARGO_PKG_REPOSITORY"),
     "/blob/v",
     env!("CARGO_PKG_VERSION")
 );
 
-/// The extensions of Markdown that the pages use.
+/// Extensions of CommonMark that the parser has to know, because the pages use them.
 const SYNTAX: Options = Options::ENABLE_TABLES.union(Options::ENABLE_MATH);
 
-/// Builds the book from a copy of `docs` in the folder `copy`, and checks the links of all its pages.
+/// Converts `docs` into pages for mdBook in the folder `copy`, builds the book from them in the folder `book`, and checks the
+/// links of all its pages. Fails where mdbook does, where a formula cannot be read, and where a link is dead.
 pub(super) fn build(copy: &Path, book: &Path) -> Result<()> {
     let docs = docs();
     for file in files(&docs)? {
@@ -50,6 +52,7 @@ pub(super) fn build(copy: &Path, book: &Path) -> Result<()> {
     Ok(())
 }
 
+/// The folder of the pages.
 fn docs() -> PathBuf {
     workspace_root().join("docs")
 }
@@ -68,13 +71,16 @@ fn files(folder: &Path) -> Result<Vec<PathBuf>> {
     Ok(files)
 }
 
+/// Whether the name of a file ends with `.` and `extension`.
 fn has_extension(file: &Path, extension: &str) -> bool {
     file.extension().is_some_and(|own| own == extension)
 }
 
-/// A page, given by its place in `docs`, with MathML for formulas and addresses for links that leave `docs`.
+/// The text `page` of a file in Markdown with MathML for formulas and addresses in [`REPOSITORY`] for links that leave `docs`.
+/// `place` is the path of the file below `docs`; it decides how many `../` lead out of there. Code stays as it is.
 fn for_mdbook(page: &str, place: &Path) -> Result<String> {
     let to_root = "../".repeat(place.components().count());
+    // Edits are collected first, since the parser borrows the page and its ranges are those of the original.
     let mut edits: Vec<(Range<usize>, String)> = Vec::new();
     let mut is_code = false;
     for (event, range) in Parser::new_ext(page, SYNTAX).into_offset_iter() {
@@ -114,7 +120,7 @@ fn for_mdbook(page: &str, place: &Path) -> Result<String> {
     Ok(converted)
 }
 
-/// A formula in LaTeX as MathML, in which nothing is Markdown.
+/// A formula in LaTeX as MathML, with every character that Markdown would interpret written as a numeric entity.
 fn mathml(formula: &str, display_mode: DisplayMode) -> Result<String> {
     let storage = Storage::new();
     // The writer would draw what it cannot read as an error in red.
@@ -146,7 +152,7 @@ fn mathml(formula: &str, display_mode: DisplayMode) -> Result<String> {
     Ok(escaped)
 }
 
-/// Relative links in HTML below a folder whose file or anchor does not exist.
+/// Relative links in the HTML files below a folder whose file or anchor does not exist, each as `page: target`.
 fn dead_links(folder: &Path) -> Result<Vec<String>> {
     let mut dead = Vec::new();
     for page in files(folder)? {
@@ -174,7 +180,7 @@ fn dead_links(folder: &Path) -> Result<Vec<String>> {
     Ok(dead)
 }
 
-/// Where a page in HTML leads within its book.
+/// Values of all `href` and `src` of a page in HTML that have no scheme, so that they lead into the same book.
 fn targets(html: &str) -> impl Iterator<Item = &str> {
     let attributes = [" href=\"", " src=\""].into_iter();
     let values = attributes.flat_map(|attribute| html.split(attribute).skip(1));

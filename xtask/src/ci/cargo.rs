@@ -7,7 +7,7 @@ use std::process::Command;
 
 use anyhow::{Context, Result, ensure};
 
-/// The folder of the workspace.
+/// The folder of the workspace, of which this crate is a subfolder.
 pub(crate) fn workspace_root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
@@ -22,7 +22,7 @@ pub(crate) fn cargo(arguments: &str) -> Command {
     command
 }
 
-/// Runs a program, which must succeed.
+/// Prints a command and runs it with its output shown; fails unless it succeeds.
 pub(super) fn run(command: &mut Command) -> Result<()> {
     println!("{command:?}");
     let status = command.status().with_context(|| format!("{command:?}"))?;
@@ -30,7 +30,7 @@ pub(super) fn run(command: &mut Command) -> Result<()> {
     Ok(())
 }
 
-/// Text that a program prints, which must succeed; its errors are those of the result.
+/// What a program prints to standard output. Fails unless it succeeds, with what it printed to standard error.
 pub(crate) fn output(command: &mut Command) -> Result<String> {
     let output = command.output().with_context(|| format!("{command:?}"))?;
     let errors = String::from_utf8_lossy(&output.stderr);
@@ -46,7 +46,7 @@ pub(super) struct Cargo {
 }
 
 impl Cargo {
-    /// Runs cargo, shows what it prints, and counts the tests that it reports.
+    /// Runs cargo, shows what it prints to both outputs, and counts the tests that it reports.
     pub(super) fn run(&mut self, arguments: &str) -> Result<()> {
         let (output, input) = std::io::pipe()?;
         let mut command = cargo(arguments);
@@ -65,8 +65,8 @@ impl Cargo {
         Ok(())
     }
 
-    /// Runs all tests of a scope: by nextest and then those in the documentation, which nextest does not know, or all
-    /// by cargo itself.
+    /// Runs all tests of a `scope`, arguments of cargo such as `--workspace`: by nextest and then those in the documentation,
+    /// which nextest does not run, or, where nextest is not installed, all by cargo itself.
     pub(super) fn test(&mut self, scope: &str) -> Result<()> {
         let scope = format!("--no-fail-fast {scope}");
         if output(&mut cargo("nextest --version")).is_err() {
@@ -79,7 +79,7 @@ impl Cargo {
         nextest
     }
 
-    /// Adds what the closing line of a run says; other lines say nothing.
+    /// Adds the tests passed and failed if `line` is the closing line of a run of cargo or nextest; ignores other lines.
     fn count(&mut self, line: &str) {
         // A test that failed has its own run with it, indented.
         if !line.starts_with("test result: ") && !line.trim_start().starts_with("Summary [") {

@@ -19,34 +19,38 @@ pub(crate) struct Dependencies {
     out: PathBuf,
 }
 
-/// The page whose text up to the tables of crates is kept, and whose tables CI compares with what is so now.
+/// The committed page. Its text above the tables of crates is written by hand and kept; its tables are generated, and CI
+/// fails where they differ from the current dependencies.
 const COMMITTED: &str = "docs/dependencies.md";
 
-/// Where the tables begin; tables of the text have other columns.
+/// The generated part begins at the first occurrence of this; tables in the text above have another first column.
 const CRATES_HEAD: &str = "\n| crate |";
+/// Head of the table of how many crates each library pulls in.
 const CRATES: &str = "
 | crate | of this workspace | of others | for building only |
 |---|---|---|---|
 ";
 
+/// Head of the table of direct dependencies.
 const DIRECT: &str = "
 | crate | direct dependency | what comes with it, itself included |
 |---|---|---|
 ";
 
+/// Head of the table of dependencies within the workspace.
 const WITHIN: &str = "
 | crate | of this workspace | of this workspace, in tests | optional |
 |---|---|---|---|
 ";
 
-/// Counts, and writes the page.
+/// Counts the dependencies and writes the page to the file of `options`.
 pub(crate) fn write(options: &Dependencies) -> Result<()> {
     let page = page(&committed()?, &Workspace::read()?)?;
     write_atomically(&options.out, page.as_bytes())?;
     print_line(&format!("written to {}", options.out.display()))
 }
 
-/// Compares the committed page with what is so now.
+/// Fails if the committed page is not what [`write`] would write now.
 pub(super) fn check(workspace: &Workspace) -> Result<()> {
     let committed = committed()?;
     let is_current = page(&committed, workspace)? == committed;
@@ -57,7 +61,7 @@ pub(super) fn check(workspace: &Workspace) -> Result<()> {
     Ok(())
 }
 
-/// The text of a page with the tables of what is so now.
+/// The page with the hand-written text of `committed` and new tables.
 fn page(committed: &str, workspace: &Workspace) -> Result<String> {
     let text = committed.split(CRATES_HEAD).next().unwrap_or_default();
     let [mut crates, mut direct] = [CRATES, DIRECT].map(str::to_owned);
@@ -70,12 +74,12 @@ fn page(committed: &str, workspace: &Workspace) -> Result<String> {
     Ok([text, &crates, &direct, WITHIN, &within].concat())
 }
 
+/// Text of the committed page; fails if it cannot be read.
 fn committed() -> Result<String> {
     fs::read_to_string(workspace_root().join(COMMITTED)).context(COMMITTED)
 }
 
-/// The row of a crate, and one for each direct dependency, with the number of crates that it alone would
-/// bring.
+/// First the row of the table [`CRATES`] for a library, then a row of [`DIRECT`] for each of its direct dependencies.
 fn rows(library: &str) -> Result<Vec<String>> {
     let all = tree(library, "normal,build")?;
     let linked = tree(library, "normal,no-proc-macro")?;
@@ -96,7 +100,8 @@ fn rows(library: &str) -> Result<Vec<String>> {
     Ok(rows)
 }
 
-/// The depth of each crate in the tree of one, and the crate, as `libm v0.2.16`.
+/// The tree of dependencies of a library without its optional features, in preorder: depth (0 for the library itself) and
+/// crate, as `libm v0.2.16`, repeated wherever it occurs. `edges` is the argument `--edges` of `cargo tree`.
 fn tree(library: &str, edges: &str) -> Result<Vec<(usize, String)>> {
     let text = output(&mut cargo(&format!(
         "tree --package {library} --no-default-features --edges {edges} --no-dedupe \
@@ -109,6 +114,7 @@ fn tree(library: &str, edges: &str) -> Result<Vec<(usize, String)>> {
     text.lines().map(node).collect()
 }
 
+/// The crates of nodes of a tree, each once.
 fn distinct(nodes: &[(usize, String)]) -> BTreeSet<&str> {
     nodes.iter().map(|(_, package)| &**package).collect()
 }

@@ -20,7 +20,7 @@ pub(crate) use dependencies::{Dependencies, write as write_dependencies};
 pub(crate) use release::release;
 use workspace::Workspace;
 
-/// What is published.
+/// Arguments of cargo that select what is published on crates.io.
 const PACKAGES: &str = "--workspace --exclude xtask --exclude benches --exclude casebook --exclude viscofriction-python";
 
 /// Runs all steps up to the first that fails; the last line printed counts the tests.
@@ -31,6 +31,7 @@ pub(crate) fn run() -> Result<()> {
     result
 }
 
+/// Runs one step after the other, cheap ones first, up to the first that fails.
 fn steps(cargo: &mut Cargo) -> Result<()> {
     let workspace = Workspace::read()?;
     let all = "--profile ci --workspace --all-features";

@@ -11,7 +11,7 @@ use super::cargo::{Cargo, cargo, run, workspace_root};
 use super::workspace::{Package, Workspace};
 use super::{PACKAGES, book, step};
 
-/// What a user of the Python package does first.
+/// The program that the installed Python package has to run: the first example of its documentation.
 const PROGRAM: &str = "import viscofriction as vf; friction = vf.slide(vf.Cone(0.1), vf.Viscous(1e4), normal_force=1.0, velocity=0.01); \
      print(vf.__version__, friction.mu, '±', friction.mu_error)";
 
@@ -30,13 +30,16 @@ pub(crate) fn release(out: &Path) -> Result<()> {
     step("book", || release.book())
 }
 
+/// A release in the making.
 struct Release {
+    /// What is published, and where cargo builds.
     workspace: Workspace,
     /// All folders are in this one: `crates`, `python`, `book`, and `trial`, which is not published.
     out: PathBuf,
 }
 
 impl Release {
+    /// Packs and compiles each crate, copies the packed files to `crates`, and unpacks them in `trial`.
     fn pack(&self) -> Result<()> {
         Cargo::default().run(&format!("package {PACKAGES} --no-verify"))?;
         let (packed, trial) = (self.out.join("crates"), self.out.join("trial"));
@@ -53,7 +56,7 @@ impl Release {
         Ok(())
     }
 
-    /// A project whose programs are the examples of the packed READMEs, and that knows the packed crates only.
+    /// Checks a project whose programs are the examples of the packed READMEs, and that knows the packed crates only.
     fn compile_examples(&self) -> Result<()> {
         let trial = self.out.join("trial");
         let programs = trial.join("examples/src/bin");
@@ -86,8 +89,8 @@ impl Release {
         run(check.current_dir(project).env("CARGO_TARGET_DIR", target))
     }
 
-    /// The source distribution, and the wheel that is built from it, which is installed into an environment of its own, where a
-    /// program runs.
+    /// Makes the source distribution and, from it, the wheel; installs the wheel into a new environment and runs [`PROGRAM`]
+    /// there.
     fn python(&self) -> Result<()> {
         let made = self.out.join("python");
         let builder = self.environment("builder", "maturin>=1.16,<2")?;
@@ -105,7 +108,8 @@ impl Release {
         run(python.args(["-I", "-c", PROGRAM]).current_dir(&self.out))
     }
 
-    /// A new virtual environment with one thing installed; the folder of its programs.
+    /// Makes a virtual environment `trial/NAME` in which pip installs what `installed` asks for; returns the folder of its
+    /// programs.
     fn environment(&self, name: &str, installed: &str) -> Result<PathBuf> {
         let folder = self.out.join("trial").join(name);
         run(Command::new("python3").args(["-m", "venv"]).arg(&folder))?;
@@ -115,6 +119,7 @@ impl Release {
         Ok(programs)
     }
 
+    /// Builds the book of the documentation; says so and does nothing where mdbook is not installed.
     fn book(&self) -> Result<()> {
         if Command::new("mdbook").arg("--version").output().is_err() {
             println!("mdbook is not installed: there is no book");
@@ -125,17 +130,18 @@ impl Release {
 }
 
 impl Package {
-    /// Name and version, as packed files have them.
+    /// Name and version, as `NAME-VERSION`, which cargo calls the packed file.
     fn full_name(&self) -> String {
         format!("{}-{}", self.name, self.version)
     }
 
+    /// Whether the crate has a program, so that its README shows no Rust.
     fn is_program(&self) -> bool {
         self.targets("bin").next().is_some()
     }
 }
 
-/// The first program in Rust of a page.
+/// Contents of the first block of a page in Markdown that begins with "```rust".
 fn example(page: &str) -> Option<&str> {
     let (_, from) = page.split_once("```rust")?;
     let (_, from) = from.split_once('\n')?;

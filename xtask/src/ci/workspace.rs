@@ -10,36 +10,46 @@ use super::cargo::{cargo, output};
 /// The published crates of the workspace, as cargo knows them.
 #[derive(Debug, Deserialize)]
 pub(super) struct Workspace {
+    /// The crates that may be published.
     pub(super) packages: Vec<Package>,
+    /// The folder where cargo builds.
     pub(super) target_directory: PathBuf,
 }
 
+/// A crate, as `cargo metadata` describes it.
 #[derive(Debug, Deserialize)]
 pub(super) struct Package {
     pub(super) name: String,
     pub(super) version: String,
     /// The registries where it may be published; none when it may be anywhere.
     publish: Option<Vec<String>>,
+    /// Those of its manifest only, not those behind them.
     dependencies: Vec<Dependency>,
+    /// Library, programs, examples, tests and benchmarks.
     targets: Vec<Target>,
 }
 
+/// A direct dependency of a crate.
 #[derive(Debug, Deserialize)]
 struct Dependency {
     name: String,
+    /// `dev` or `build`; none for one that the library itself needs.
     kind: Option<String>,
     optional: bool,
     /// Its folder, for a crate of the workspace.
     path: Option<PathBuf>,
 }
 
+/// Something that cargo builds of a crate.
 #[derive(Debug, Deserialize)]
 struct Target {
     name: String,
+    /// Such as `bin`, `lib` or `example`.
     kind: Vec<String>,
 }
 
 impl Workspace {
+    /// Asks cargo; crates whose manifest restricts where they may be published are left out.
     pub(super) fn read() -> Result<Self> {
         let text = output(&mut cargo("metadata --no-deps --format-version 1"))?;
         let mut workspace: Self = serde_json::from_str(&text)?;
@@ -55,7 +65,7 @@ impl Workspace {
         libraries.map(|package| &*package.name)
     }
 
-    /// All examples, as the profile `ci` compiles them.
+    /// Paths of the programs that the profile `ci` compiles from the examples of all crates.
     pub(super) fn example_files(&self) -> impl Iterator<Item = PathBuf> {
         let packages = self.packages.iter();
         let examples = packages.flat_map(|package| package.targets("example"));
@@ -65,15 +75,15 @@ impl Workspace {
 }
 
 impl Package {
-    /// Names of its targets of a kind.
+    /// Names of its targets of a kind, such as `bin`.
     pub(super) fn targets(&self, kind: &str) -> impl Iterator<Item = &str> {
         let is_wanted = move |target: &&Target| target.kind.iter().any(|own| own == kind);
         let wanted = self.targets.iter().filter(is_wanted);
         wanted.map(|target| &*target.name)
     }
 
-    /// A row of the page: what it depends on within the workspace, what its tests use of it besides, and what is
-    /// optional.
+    /// A row of the table of dependencies within the workspace: those of the library, those of its tests only, and all
+    /// dependencies, of the workspace or not, that are optional.
     pub(super) fn row(&self) -> String {
         let names = |is_wanted: fn(&Dependency) -> bool| {
             let wanted = self.dependencies.iter().filter(|own| is_wanted(own));

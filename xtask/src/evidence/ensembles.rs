@@ -13,48 +13,55 @@ use super::{Outcomes, Report, Share};
 use crate::table::markdown_table;
 use crate::tasks::in_turn;
 
-/// Scenes of a full run and of a quick one.
+/// Number of random spectra of a full run and of a quick one: of 200 the fraction within two standard errors has itself a
+/// standard deviation of 1.5 %.
 const SCENES: [usize; 2] = [200, 3];
-/// Most elements along the edge of a period.
+/// Largest number of elements along the edge of a period. Chosen, so that the thousands of surfaces of a full run are
+/// affordable: a surface that needs more is answered on this grid, with a wider error bar.
 const MAX_ELEMENTS: usize = 512;
-/// Relative error of the answer for each surface.
+/// Relative error requested for each surface; of the order of the standard errors, so that few surfaces need fine grids.
 const RELATIVE_ERROR: f64 = 0.05;
-/// Relative standard errors requested of the judged mean and of the one with which it is compared.
+/// Relative standard errors requested of the judged mean and of the mean with which it is compared. The second is smaller, so
+/// that the standard error of the difference is mainly that of the judged mean.
 const STANDARD_ERRORS: [f64; 2] = [0.05, 0.02];
-/// First seeds of the two means, in the scene 0.
+/// First seeds of the two means in scene 0; so far apart that no scene takes the same surface for both.
 const FIRST_SEEDS: [u64; 2] = [1, 1_000_000];
-/// Seeds that belong to one scene.
+/// Seeds reserved for each mean of one scene: more than the surfaces that a mean may take.
 const SEEDS_PER_SCENE: u64 = 2000;
-/// Standard errors within which a mean is judged.
+/// A mean holds if it deviates by no more than this number of standard errors of the difference.
 const COVERAGE_FACTOR: f64 = 2.0;
-/// Fraction of the means that must be within them: 95 % of a normal distribution, less of standard errors that are estimates.
+/// Fraction of the means that must hold. Of a normal distribution 95 % are within two standard errors; fewer, because the
+/// standard errors are themselves estimates from few surfaces.
 const MIN_COVERAGE: f64 = 0.92;
-/// Standard deviations by which the fraction of a few scenes may be lower.
+/// Binomial standard deviations by which the observed fraction may fall short of [`MIN_COVERAGE`] before the command fails.
 const ALLOWED_SCATTER: f64 = 3.0;
 
-/// One quantity of one spectrum.
+/// Two means of one quantity over surfaces of one spectrum. A column without `compared` is of the judged mean.
 #[derive(Debug, Serialize)]
 struct Row {
     scene: usize,
     quantity: &'static str,
-    /// Of both means.
+    /// Surfaces of the judged mean; below, those of them that were solved only on a coarse grid.
     surfaces: usize,
     on_coarse_grid: usize,
+    /// The same of the mean with which it is compared.
     compared_surfaces: usize,
     compared_on_coarse_grid: usize,
-    /// Of the first.
+    /// The judged mean, in the unit of the quantity, and its standard error.
     value: f64,
     standard_error: f64,
-    /// From the other one.
+    /// The judged mean minus the other one.
     deviation: f64,
-    /// Over the standard error of the difference.
+    /// `deviation` over the standard error of the difference of the means.
     relative_deviation: f64,
 }
 
-/// A mean that has no answer.
+/// A spectrum for which one of the means has no answer.
 #[derive(Debug, Serialize)]
 struct Refusal {
+    /// Number of the scene.
     scene: usize,
+    /// The error.
     why: String,
 }
 
@@ -82,7 +89,8 @@ pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
     })
 }
 
-/// Friction and area of a spectrum; a mean that has not the standard error asked for has one all the same.
+/// A row for each quantity of the answer that scatters between surfaces of a spectrum, such as friction and area. `scene` is
+/// its number. A mean that does not reach the standard error requested of it states the one that it has, and is judged by it.
 fn compared(scene: usize, given: &Scene) -> Result<Vec<Row>> {
     let mean = |at: usize| -> Result<Answer> {
         let mut given = given.clone();
@@ -112,7 +120,7 @@ fn compared(scene: usize, given: &Scene) -> Result<Vec<Row>> {
         let [(value, error), (reference, reference_error)] = [of(&one)?, of(&other)?];
         let deviation = value.value - reference.value;
         let of_both = error.standard_error.hypot(reference_error.standard_error);
-        // Of surfaces that are all alike.
+        // Surfaces that all have the same answer leave no standard error; then the error bars of the answers decide.
         let nothing = deviation.abs() <= value.error + reference.error && of_both == 0.0;
         Some(Row {
             scene,
@@ -130,16 +138,18 @@ fn compared(scene: usize, given: &Scene) -> Result<Vec<Row>> {
     Ok(scattered().filter_map(row).collect())
 }
 
+/// Rows of one quantity.
 fn of<'a>(quantity: &str, rows: &'a [Row]) -> Vec<&'a Row> {
     rows.iter().filter(|row| row.quantity == quantity).collect()
 }
 
-/// How many deviate by no more than so many standard errors.
+/// How many rows deviate by no more than `errors` standard errors of the difference.
 fn within(rows: &[&Row], errors: f64) -> Share {
     let within = |row: &&Row| row.relative_deviation.abs() <= errors;
     rows.iter().map(within).collect()
 }
 
+/// Why the command fails for a quantity: significantly fewer than [`MIN_COVERAGE`] of its means hold.
 fn failure(quantity: &str, rows: &[Row]) -> Option<String> {
     let share = within(&of(quantity, rows), COVERAGE_FACTOR);
     let Share { held, all } = share;
@@ -150,7 +160,8 @@ fn failure(quantity: &str, rows: &[Row]) -> Option<String> {
     })
 }
 
-/// One line for each quantity, of all and of those with surfaces on a coarse grid.
+/// Two lines for each quantity, of all spectra and of those with surfaces on a coarse grid: how many means are within one,
+/// two and three standard errors.
 fn table(rows: &[Row]) -> comfy_table::Table {
     let lines = scattered().flat_map(|quantity| {
         let quantity = quantity.key;

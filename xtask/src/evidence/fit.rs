@@ -2,12 +2,13 @@
 
 use numerics::Estimate;
 
-/// Fewest points of a fit, one more than its parameters.
+/// Smallest number of points of a fit: one more than its two parameters, without which there is no residual to judge it by.
 const MIN_POINTS: usize = 3;
-/// Smallest ratio of the largest abscissa to the smallest.
+/// Smallest ratio of the largest abscissa to the smallest of a fit; chosen: over a shorter span the exponent is mostly noise.
 const MIN_SPAN: f64 = 2.0;
 
-/// The exponent and its standard error, where there are points enough and they scatter by less than the line rises.
+/// The [`exponent`] of positive points (x, y); `None` of fewer than [`MIN_POINTS`], of a span below [`MIN_SPAN`], and where
+/// its standard error is not smaller than itself.
 pub(super) fn clear_exponent(points: &[[f64; 2]]) -> Option<Estimate> {
     let abscissae = || points.iter().map(|point| point[0]);
     let span = abscissae().fold(0.0, f64::max) / abscissae().fold(f64::INFINITY, f64::min);
@@ -18,7 +19,8 @@ pub(super) fn clear_exponent(points: &[[f64; 2]]) -> Option<Estimate> {
     (exponent.error < exponent.value.abs()).then_some(exponent)
 }
 
-/// The exponent of y ∼ x^q and its standard error.
+/// The exponent q of y ∼ x^q and its standard error, by unweighted least squares of ln y against ln x; all points (x, y)
+/// positive and at least three.
 pub(super) fn exponent(points: &[[f64; 2]]) -> Estimate {
     let logarithms: Vec<[f64; 2]> = points.iter().map(|point| point.map(f64::ln)).collect();
     let count = points.len() as f64;

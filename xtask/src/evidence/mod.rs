@@ -100,6 +100,8 @@ pub(crate) fn evidence(options: Evidence) -> Result<()> {
 }
 
 impl Experiment {
+    /// Carries out one experiment. `out` is where those that go on after an interruption keep their tables; nothing else is
+    /// written.
     fn run(&self, out: &Path, quick: bool) -> Result<Report> {
         match self {
             Self::WorkPrecision => work_precision::report(quick),

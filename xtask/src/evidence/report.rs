@@ -14,17 +14,19 @@ use crate::table::Table;
 /// What an experiment found.
 #[derive(Debug, Default)]
 pub(super) struct Report {
-    /// Name of the page.
+    /// Name of the page, without `.md`.
     pub(super) name: &'static str,
+    /// Written as `NAME.csv` beside the page.
     pub(super) tables: Vec<Table>,
+    /// Name of the files, without extension, and what they show.
     pub(super) pictures: Vec<(&'static str, Figure)>,
-    /// Markdown.
+    /// What was found, in Markdown; printed, and the first part of the page.
     pub(super) summary: String,
-    /// Why the command fails, if it does.
+    /// Why the command fails, if a method is wrong; the report is written all the same.
     pub(super) failure: Option<String>,
 }
 
-/// Rows of the cases that were solved, and why the others were not.
+/// Rows `R` of the cases that were solved, and reasons `F` why the others were not; collected from one result for each case.
 pub(super) struct Outcomes<R, F> {
     pub(super) rows: Vec<R>,
     pub(super) refusals: Vec<F>,
@@ -44,7 +46,7 @@ impl<R, F> FromIterator<Result<Vec<R>, F>> for Outcomes<R, F> {
 }
 
 impl<R: Serialize, F: Serialize> Outcomes<R, F> {
-    /// Both tables.
+    /// The tables of both, with these names.
     pub(super) fn tables(&self, [rows, refusals]: [&'static str; 2]) -> Result<Vec<Table>> {
         Ok(vec![
             Table::new(rows, &self.rows)?,
@@ -53,7 +55,7 @@ impl<R: Serialize, F: Serialize> Outcomes<R, F> {
     }
 }
 
-/// How much is computed, of a file that says it of a quick run and of a full one.
+/// How much is computed: the table `quick` or `full` of the contents of a file in TOML.
 pub(super) fn extent<T: DeserializeOwned>(file: &str, quick: bool) -> Result<T> {
     let mut extents: BTreeMap<String, T> = toml::from_str(file)?;
     let name = if quick { "quick" } else { "full" };
@@ -61,11 +63,12 @@ pub(super) fn extent<T: DeserializeOwned>(file: &str, quick: bool) -> Result<T> 
 }
 
 impl Report {
-    /// The page: summary, tables and pictures.
+    /// Path of the page in the folder `out`.
     pub(super) fn page(&self, out: &Path) -> PathBuf {
         out.join(self.name).with_extension("md")
     }
 
+    /// Writes the tables, the pictures and the page, which has the summary and links to the others, into the folder `out`.
     pub(super) fn write(&self, out: &Path) -> Result<()> {
         let mut page = format!("{}\n", self.summary);
         for table in &self.tables {

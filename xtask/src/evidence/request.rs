@@ -19,14 +19,16 @@ pub(super) struct Request {
     pub(super) accuracy: Accuracy,
 }
 
-/// What a result is compared with.
+/// A value that is more accurate than the results that are compared with it.
 pub(super) struct Reference {
+    /// Value and error bar, in the unit of the requested quantity of the scene.
     pub(super) known: Estimate,
-    /// Where it comes from.
+    /// Which method computed it and how accurately, for people.
     pub(super) source: String,
 }
 
 impl Reference {
+    /// A reference of an absolute error bar `error`.
     pub(super) fn new(value: f64, error: f64, source: &str) -> Self {
         Self {
             known: Estimate::new(value, error),
@@ -36,6 +38,7 @@ impl Reference {
 }
 
 impl Request {
+    /// A request of any kind of accuracy.
     pub(super) const fn new(model: Model, method: Method, accuracy: Accuracy) -> Self {
         Self {
             model,
@@ -44,15 +47,17 @@ impl Request {
         }
     }
 
+    /// A request for a relative error of the requested quantity.
     pub(super) const fn to_error(model: Model, method: Method, relative_error: f64) -> Self {
         Self::new(model, method, Accuracy::RelativeError(relative_error))
     }
 
+    /// Whether a number of elements is given instead of an error.
     pub(super) fn is_by_elements(&self) -> bool {
         matches!(self.accuracy, Accuracy::Elements(_))
     }
 
-    /// What is asked for, and its number.
+    /// Kind of accuracy, for people, and its value: a relative error or a number of elements.
     pub(super) const fn asked(&self) -> (&'static str, f64) {
         match self.accuracy {
             Accuracy::RelativeError(error) => ("relative error", error),
@@ -60,7 +65,8 @@ impl Request {
         }
     }
 
-    /// The scene as this method has to solve it; where nothing slides both models are the same.
+    /// The scene with this method, model and accuracy. Where nothing slides, both models give the same answer, so that the
+    /// model that the method has is taken and not refused.
     fn problem(&self, scene: &Scene) -> Result<Problem> {
         let of_method = self.method.model().filter(|_| presses(scene));
         let mut scene = scene.clone();
@@ -74,11 +80,12 @@ impl Request {
         Ok(plan(&self.problem(scene)?).is_ok())
     }
 
+    /// The answer of this method; fails where it refuses the scene or does not reach the accuracy.
     pub(super) fn solve(&self, scene: &Scene) -> Result<Answer> {
         Ok(solve(&self.problem(scene)?)?)
     }
 
-    /// The result as a reference; `rounding` is the smallest relative error of a closed form.
+    /// The result as a reference. Its relative error is at least `rounding`, since a closed form states none.
     pub(super) fn reference(&self, scene: &Scene, rounding: f64) -> Result<Reference> {
         let known = self.solve(scene)?.requested_quantity();
         let source = match self.method {
@@ -90,12 +97,13 @@ impl Request {
     }
 }
 
-/// The answer of a scene that names no file.
+/// The answer of a scene, by the method that it names or that is chosen for it; fails if the scene refers to a file.
 pub(super) fn answer(scene: &Scene) -> Result<Answer> {
     Ok(solve(&Problem::try_from(scene)?)?)
 }
 
-/// An answer with its derivatives by the numbers of its scene, which names no file.
+/// `answer`, which solves `problem` made from `scene`, with its derivatives with respect to the numbers of the scene, which
+/// must not refer to a file.
 pub(super) fn differentiated(
     scene: &Scene,
     problem: &Problem,
@@ -105,7 +113,7 @@ pub(super) fn differentiated(
     with_sensitivity(scene, files, problem, answer, &SilentProgress)
 }
 
-/// The derivatives of an answer by the numbers of its scene; none where its method knows none.
+/// The derivatives of [`differentiated`]; empty where the method of the answer has none.
 pub(super) fn derivatives(
     scene: &Scene,
     problem: &Problem,
@@ -118,12 +126,13 @@ pub(super) fn derivatives(
     }
 }
 
-/// Refuses every file.
+/// In place of a reader of files: fails for every path.
 pub(super) fn no_file(path: &Path, _: u64) -> Result<Vec<u8>, WrongInput> {
     Err(WrongInput(format!("{}: no file", path.display())))
 }
 
-/// The number of a scene at a path such as `material.prony.branches[0].modulus`.
+/// The number at a path such as `material.prony.branches[0].modulus` in the table of a scene; `None` where there is no
+/// floating-point number.
 pub(super) fn number_at<'a>(scene: &'a mut Value, path: &str) -> Option<&'a mut f64> {
     let mut steps = path.split(['.', '[', ']']).filter(|step| !step.is_empty());
     let place = steps.try_fold(scene, |place, step| match step.parse::<usize>() {
@@ -136,14 +145,15 @@ pub(super) fn number_at<'a>(scene: &'a mut Value, path: &str) -> Option<&'a mut 
     }
 }
 
-/// Whether nothing slides.
+/// Whether the body is only pressed: no speed, no oscillation and no prescribed motion along the surface.
 pub(super) fn presses(scene: &Scene) -> bool {
     let load = &scene.load;
     let moves = load.stroke.is_some() || load.motion.is_some() || load.motion_file.is_some();
     !moves && load.velocity.is_none_or(|velocity| velocity <= 0.0)
 }
 
-/// The stationary state of a model to the first of some relative errors that is reached.
+/// The stationary state of a model to the first of `errors`, relative and ascending, that the solver reaches; the error of
+/// the last attempt where it reaches none.
 pub(super) fn first_reached(scene: &Scene, model: Model, errors: &[f64]) -> Result<Reference> {
     let method = match model {
         Model::Line => Method::MdrSteady,
@@ -159,5 +169,6 @@ pub(super) fn first_reached(scene: &Scene, model: Model, errors: &[f64]) -> Resu
     result
 }
 
-/// Rounding of closed forms.
+/// Relative error that is assumed of closed forms: some hundred roundings of f64. Larger than any seen in tests; every error
+/// of a numerical method is far above.
 pub(super) const ROUNDING: f64 = 1e-13;

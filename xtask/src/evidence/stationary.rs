@@ -41,7 +41,7 @@ enum Part {
     ErrorBars,
 }
 
-/// Elements in contact on the largest grid of a full run and of a quick one.
+/// Elements in contact on the largest grid of a full run and of a quick one, unless the command line gives another number.
 const LARGEST: [f64; 2] = [1e5, 4e3];
 
 /// Makes the tables asked for; a quick run takes a dozen cheap cases and small grids only.
@@ -70,17 +70,19 @@ pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
     })
 }
 
-/// Elements in contact on the smallest grid.
+/// Elements in contact on the smallest grid of the growth table; on a smaller one constant costs prevail.
 const SMALLEST: f64 = 1e3;
-/// Δy/Δx, as the stationary solver has it unless told otherwise.
+/// Δy/Δx of the elements: the default of the stationary solver.
 const ASPECT: f64 = 0.5;
-/// Residual in contact relative to F_N/(4ηv), as the stationary solver has it for a relative error of 1e-3.
+/// Largest residual in contact relative to F_N/(4ηv); what the stationary solver takes for a relative error of 1e-3.
 const TOLERANCE: f64 = 1e-7;
-/// Elements in contact from which grids count for the exponent of growth, where two of them are as large.
+/// Grids with more elements in contact determine the exponent of growth, if there are two of them; on smaller ones constant
+/// costs distort it. Just below 10⁴, where the second decade of grids begins.
 const MIN_FITTED_ELEMENTS: f64 = 9e3;
-/// Elements along the contact length on the grid that the area of the contact is taken from.
+/// Elements along the contact length of the grid from which the contact area is taken; it only decides how many elements the
+/// other grids will have in contact, for which a few per cent suffice.
 const AREA_ELEMENTS: f64 = 40.0;
-/// Relative error of the friction coefficient that the others are compared with.
+/// Relative error of the extrapolated friction coefficient with which those of single grids are compared.
 const REFERENCE_ERROR: f64 = 1e-4;
 
 /// One grid, from a cold start; coarser grids that the solver starts from are in its cost.
@@ -88,16 +90,18 @@ const REFERENCE_ERROR: f64 = 1e-4;
 struct Grid {
     elements_in_contact: f64,
     unknowns: usize,
+    /// How often the set of elements in contact was changed.
     contact_sets: usize,
     seconds: f64,
     processor_seconds: f64,
-    /// Most memory resident up to here.
+    /// Largest memory resident in this process so far, in units of 2²⁰ bytes; none where the system does not tell.
     peak_memory_mib: Option<f64>,
-    /// Of the friction coefficient on this one grid, from the extrapolated one.
+    /// Friction coefficient on this one grid over the extrapolated one, minus 1.
     relative_deviation: f64,
 }
 
-/// A paraboloid on grids from the smallest to the largest, √10 times as many elements each.
+/// Cost of a paraboloid on grids from [`SMALLEST`] to `largest` elements in contact, each with about √10 times as many as the
+/// one before; the table, and a summary with the exponent of growth.
 fn growth(largest: f64) -> Result<(Table, String)> {
     let scene = Scene::unit(2.0)?;
     let limit = scene.friction(&refined_to(REFERENCE_ERROR, ASPECT))?;
@@ -105,6 +109,7 @@ fn growth(largest: f64) -> Result<(Table, String)> {
     let solve = |spacing: f64| -> Result<SteadySliding> {
         scene.on_one_grid([spacing, ASPECT * spacing], [0.0; 2], TOLERANCE)
     };
+    // The area of the contact gives the spacing for a number of elements in contact.
     let area = solve(scene.theory()?.contact_length() / AREA_ELEMENTS)?.contact_area;
     let steps = (2.0 * (largest / SMALLEST).log10()).round().max(1.0);
     let ratio = (largest / SMALLEST).powf(1.0 / steps);
@@ -142,21 +147,21 @@ fn growth(largest: f64) -> Result<(Table, String)> {
     Ok((table, summary))
 }
 
-/// Relative error requested of the solutions whose bars are judged in a quick run.
+/// Relative error requested of the solutions whose bars are judged in a quick run; a full run has that of `stationary.toml`.
 const QUICK_REQUESTED_ERROR: f64 = 3e-3;
-/// Aspects Δy/Δx of the elements.
+/// Aspects Δy/Δx of the elements on which each bar is computed: bars must hold for any of them.
 const ASPECTS: [f64; 3] = [0.5, 1.0, 2.0];
-/// Fraction of the bars that must hold.
+/// Fraction of the bars that must hold: a bar is an estimate and no bound.
 const MIN_COVERAGE: f64 = 0.95;
-/// Largest median of bar over deviation.
+/// Largest acceptable median of bar over deviation: bars that are too wide would hold always. Chosen.
 const MAX_MEDIAN_BAR: f64 = 30.0;
-/// Cases with the largest deviations that are listed even if their bars hold.
+/// Number of cases, those with the largest deviation over bar, that the summary lists even if all bars hold.
 const LISTED_CASES: usize = 8;
 
-/// What `stationary.toml` holds; errors are relative.
+/// What `stationary.toml` holds. All errors are relative; those of a case take precedence over those of all.
 #[derive(Deserialize)]
 struct Cases {
-    /// Of which the cases have other bodies.
+    /// Material, load and options of all cases, each of which replaces the body.
     scene: scene::Scene,
     requested_error: f64,
     reference_error_over_requested: f64,
@@ -172,18 +177,18 @@ struct Case {
     exponent: Option<f64>,
     #[serde(default)]
     is_quick: bool,
-    /// Instead of those of all cases.
+    /// Each of these three instead of that of all cases.
     requested_error: Option<f64>,
     reference_error_over_requested: Option<f64>,
     reference_aspect: Option<f64>,
     indenter: Indenter,
 }
 
-/// One bar. Friction coefficients belong to F_N/(4ηv) = 1 and bodies of the size 1.
+/// One error bar. Friction coefficients belong to F_N/(4ηv) = 1 m and bodies whose size is of the order of 1 m.
 #[derive(Debug, Clone, Serialize)]
 struct Bar {
     case: String,
-    /// Of a power profile.
+    /// p, if the body is a power profile.
     exponent: Option<f64>,
     aspect: f64,
     relative_error_asked: f64,
@@ -198,7 +203,7 @@ struct Bar {
 }
 
 impl Case {
-    /// A bar for each shape of the elements.
+    /// A bar for each of [`ASPECTS`], all judged by one reference of a smaller error.
     fn bars(&self, all: &Cases) -> Result<Vec<Bar>> {
         let mut scene = all.scene.clone();
         scene.indenter = self.indenter.clone();
@@ -229,6 +234,7 @@ impl Case {
         ASPECTS.into_iter().map(bar).collect()
     }
 
+    /// Stationary friction coefficient of the body in the unit scene, with the error bar that was reached.
     fn solve(&self, body: &dyn Surface, relative_error: f64, aspect: f64) -> Result<Estimate> {
         let Scene { material, load, .. } = Scene::unit(1.0)?;
         let options = refined_to(relative_error, aspect);
@@ -237,7 +243,8 @@ impl Case {
     }
 }
 
-/// Judges the bars of all bodies, or of a few: how many hold, how wide they are, and the cases that fail or come closest to it.
+/// Judges the bars of all bodies, of a few in a quick run; the table of all bars, and a summary: how many hold, their median
+/// width, and the cases that fail or come closest to it.
 fn error_bars(quick: bool) -> Result<(Table, String)> {
     let mut cases: Cases = toml::from_str(include_str!("stationary.toml"))?;
     if quick {

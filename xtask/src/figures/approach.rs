@@ -12,7 +12,7 @@ use crate::scene::Scene;
 
 /// Sliding distance shown, in contact lengths of the one-dimensional model.
 const LENGTHS: f64 = 16.0;
-/// Elements along the contact length.
+/// Elements along the contact length of the one-dimensional model; chosen.
 const ELEMENTS: f64 = 24.0;
 
 /// One step; friction is relative to the stationary friction of the one-dimensional model.
@@ -22,7 +22,7 @@ struct Row {
     sliding_distance_over_contact_length: f64,
     chain: f64,
     half_space: f64,
-    /// In units of F_N/(4ηv).
+    /// In units of F_N/(4ηv), likewise the next.
     chain_depth: f64,
     half_space_depth: f64,
 }
@@ -35,7 +35,7 @@ struct Approach {
     scaling_factor: f64,
 }
 
-/// Cone and paraboloid.
+/// The table and pictures of cone and paraboloid, in the order of `factors`.
 pub(super) fn part(factors: &[factors::Row]) -> Result<Part> {
     let approaches = factors.iter().map(approach).collect::<Result<Vec<_>>>()?;
     let rows: Vec<&Row> = approaches.iter().flat_map(|one| &one.rows).collect();
@@ -46,6 +46,7 @@ pub(super) fn part(factors: &[factors::Row]) -> Result<Part> {
     Part::new("approach", &rows, pictures)
 }
 
+/// Slides the profile of a factor from first touch, by the chain and on the half space, with the same steps.
 fn approach(factor: &factors::Row) -> Result<Approach> {
     let scene = Scene::unit(factor.exponent)?;
     let theory = scene.theory()?;
@@ -74,6 +75,7 @@ fn approach(factor: &factors::Row) -> Result<Approach> {
 /// Names of the bodies, and how their curves are drawn.
 const INDENTERS: [(&str, Dash); 2] = [("cone", Dash::Solid), ("paraboloid", Dash::Dashed)];
 
+/// Friction over the sliding distance, with the limits of the half space.
 fn approach_chart(approaches: &[Approach]) -> Chart {
     let along = "sliding distance / contact length (line model)";
     let mut series = Vec::new();
@@ -98,12 +100,14 @@ fn approach_chart(approaches: &[Approach]) -> Chart {
     chart(x, y, series)
 }
 
+/// A map of the last pressure of each profile.
 fn pressure_maps(approaches: &[Approach]) -> Figure {
     let maps = approaches.iter().zip(INDENTERS);
     let maps = maps.map(|(approach, (name, _))| pressure_map(approach, name));
     Figure::new(maps, 2)
 }
 
+/// Logarithm of the pressure over its mean in contact; lengths in contact lengths of the one-dimensional model.
 fn pressure_map(approach: &Approach, name: &str) -> Chart {
     let field = &approach.pressure;
     let axis = |axis: usize, label: &str| {

@@ -11,17 +11,18 @@ use numerics::whole_part;
 
 use crate::scene::Scene;
 
-/// Contact lengths over which the chain slides: the approach to the stationary state is exponential, to 4e-11.
+/// Sliding distance over the contact length: the approach to the stationary state is exponential, and e^(−24) = 4e-11 is left.
 const LENGTHS: f64 = 24.0;
 
 /// The chain after one step.
 pub(super) struct ChainStep {
+    /// μ of this step.
     pub(super) friction_coefficient: f64,
     /// Indentation depth d, \[m].
     pub(super) indentation_depth: f64,
 }
 
-/// Slides the chain from first touch into the stationary state, on elements of a spacing \[m].
+/// Slides the chain from first touch into the stationary state, on elements of a spacing \[m]; one entry for each step.
 pub(super) fn slide(scene: &Scene, spacing: f64) -> Result<Vec<ChainStep>> {
     let theory = scene.theory()?;
     let (compression, length) = (theory.indentation_depth, theory.contact_length());
@@ -61,7 +62,9 @@ pub(super) fn slide(scene: &Scene, spacing: f64) -> Result<Vec<ChainStep>> {
     Ok((0..n_steps).map(step).collect())
 }
 
-/// The depth d with Σ (d − t_i)⁺ = `compression`, from the depths t_i at which the line touches the elements.
+/// The depth d with Σ (d − t_i)⁺ = `compression`, from the depths t_i at which the line touches the elements. The sum is
+/// piecewise linear in d: with the n smallest t_i below d, d = (compression + Σ t_i)/n, and n grows until the next t_i is not
+/// below.
 fn depth_of(mut touches: Vec<f64>, compression: f64) -> f64 {
     touches.sort_by(f64::total_cmp);
     let mut sum = compression;

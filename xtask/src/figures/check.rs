@@ -11,25 +11,29 @@ use crate::figures::friction_over_speed::{self, CONE, Indenter, PARABOLOID, SPEE
 use crate::figures::{loss_tangent, resolution, scaling_function, stationary};
 use crate::table::{parse_csv, read_csv, to_csv};
 
-/// Closed forms differ by rounding only.
+/// Tolerance of closed forms, which differ by rounding only.
 const CLOSED_FORM: Tolerance = Tolerance::Relative(1e-12);
-/// Simulations stop at a relative residual of 1e-9, and transforms round differently from processor to processor.
+/// Tolerance of simulations, which stop at a relative residual of 1e-9 and whose Fourier transforms round differently from
+/// processor to processor; chosen, since both are amplified.
 const SIMULATION: Tolerance = Tolerance::Relative(1e-6);
-/// The plain simulation reproduces the paper's factors to the digits the paper gives, and its last one doubtful.
+/// Absolute tolerance of the plain simulation's factors from the paper's, which have two decimals: two units of the last one.
 const PAPER_TOLERANCE: f64 = 0.02;
-/// An error bar is a difference of numbers that round.
+/// Tolerance of an error bar, which is a small difference of simulated numbers.
 const ERROR_BAR: Tolerance = Tolerance::Relative(1e-3);
-/// Elements by which the outline of a contact may move: one, and a little for rounding.
+/// Elements by which the outline of a contact may move: one, and a little for rounding of the coordinate.
 const OUTLINE_TOLERANCE: f64 = 1.001;
 
 /// How much a recomputed number may differ.
 enum Tolerance {
+    /// Relative to the committed number.
     Relative(f64),
+    /// In the unit of the column.
     Absolute(f64),
     /// It is not compared.
     Any,
 }
 
+/// Recomputes what takes seconds of each committed table, and fails at the first number that differs by more than it may.
 pub(crate) fn check() -> Result<()> {
     let (tangents, function) = (loss_tangent::compute()?, scaling_function::compute()?);
     let compared = compare(loss_tangent::NAME, None, &tangents, |_, _| CLOSED_FORM)?
@@ -53,8 +57,8 @@ fn committed(table: &str) -> PathBuf {
 /// A row of numbers by the names of their columns.
 type Numbers = BTreeMap<String, f64>;
 
-/// Compares recomputed rows with those of a committed table, or with the chosen ones; the tolerance is that of a column
-/// of a recomputed row.
+/// Compares recomputed rows with all rows of a committed table, or with the rows of the indices `chosen`. `tolerance` is given
+/// a column and a recomputed row. Returns how many numbers were compared.
 fn compare<R: Serialize>(
     name: &str,
     chosen: Option<&[usize]>,
@@ -89,7 +93,7 @@ fn compare<R: Serialize>(
     Ok(compared)
 }
 
-/// The slowest, a middle and the fastest speed; the factor is that of the committed table.
+/// Recomputes the slowest, a middle and the fastest speed of an indenter, with the factor of the committed table.
 fn check_friction(indenter: &Indenter) -> Result<usize> {
     let factors = committed_factors()?;
     let factor = of_exponent(&factors, indenter.exponent).context("a factor of the indenter")?;
@@ -105,17 +109,19 @@ fn check_friction(indenter: &Indenter) -> Result<usize> {
     compare(indenter.name, Some(&chosen), &rows, tolerance)
 }
 
+/// The committed table of scaling factors.
 fn committed_factors() -> Result<Vec<Row>> {
     read_csv(&committed(NAME))
 }
 
+/// The row of an exponent, if the table has it.
 fn of_exponent(factors: &[Row], exponent: f64) -> Option<&Row> {
     let mut factors = factors.iter();
     factors.find(|row| row.exponent.total_cmp(&exponent).is_eq())
 }
 
-/// The whole table: the simulation, its biases, which are differences of numbers of the order of one, and the converged
-/// factors within the committed error bars.
+/// Recomputes the whole table of scaling factors. Biases are differences of numbers of the order of 1, so that their tolerance
+/// is absolute; converged factors may differ within the committed error bars, which the solver promises.
 fn check_factors() -> Result<usize> {
     let errors = committed_factors()?;
     let new = factors::compute()?;
@@ -139,7 +145,7 @@ fn check_factors() -> Result<usize> {
     })
 }
 
-/// The coarser resolutions of both profiles.
+/// Recomputes the coarser resolutions of both profiles.
 fn check_resolutions() -> Result<usize> {
     const RESOLUTIONS: usize = 3;
     let rows = resolution::compute(RESOLUTIONS)?;
@@ -148,7 +154,7 @@ fn check_resolutions() -> Result<usize> {
     compare(resolution::NAME, Some(&chosen), &rows, |_, _| SIMULATION)
 }
 
-/// All outlines. Rounding may decide about single elements, so each point may move by one.
+/// Recomputes all outlines. Rounding may decide about single elements, so each point may move by one.
 fn check_outlines() -> Result<usize> {
     let contacts = stationary::compute()?;
     let outlines = stationary::outlines(&contacts);

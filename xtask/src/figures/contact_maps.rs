@@ -3,19 +3,21 @@
 use crate::figures::stationary::Contact;
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Field, Figure, Line, Marker, Series, Shape};
 
-/// Window of every panel, in contact lengths of the one-dimensional model.
+/// Ranges of x and y of every panel, in contact lengths of the one-dimensional model.
 const WINDOW: [[f64; 2]; 2] = [[-0.2, 1.8], [-1.4, 1.4]];
-/// Pressure over the mean from which on all share a colour: along the front edge there is no limit.
+/// Pressures above this, over the mean, share a colour, since there is no upper bound along the front edge; chosen.
 const MAX_DRAWN_PRESSURE: f64 = 3.0;
-/// Elements along each edge of a cell of the map.
+/// Elements along each edge of a cell of the map; chosen.
 const ELEMENTS_PER_CELL: usize = 2;
-/// Steps of the circle from one end to the other.
+/// Steps of the arc that [`circle`] draws.
 const CIRCLE_STEPS: u32 = 90;
 
+/// One map for each contact.
 pub(super) fn figure(contacts: &[Contact]) -> Figure {
     Figure::new(contacts.iter().map(map), 2)
 }
 
+/// Pressure over its mean, the outline of the contact, the circle of the contact length, and the lowest point of the body.
 fn map(contact: &Contact) -> Chart {
     // The window is two contact lengths long and 2.8 wide.
     let cells = [10, 14].map(|fifths| fifths * contact.elements / 5 / ELEMENTS_PER_CELL);
@@ -33,7 +35,7 @@ fn map(contact: &Contact) -> Chart {
     }
 }
 
-/// Mean over the elements of a cell; none where half of them or more are free.
+/// Mean of the pressures over the loaded elements of a cell `[column, row]`; `None` where half of them or more are free.
 fn pressure(contact: &Contact, cell: [usize; 2]) -> Option<f64> {
     let centre = |axis: usize, step: usize| {
         let element = (cell[axis] * ELEMENTS_PER_CELL + step) as f64 + 0.5;
@@ -50,7 +52,7 @@ fn pressure(contact: &Contact, cell: [usize; 2]) -> Option<f64> {
     (2 * loads.len() > ELEMENTS_PER_CELL * ELEMENTS_PER_CELL).then(|| mean.min(MAX_DRAWN_PRESSURE))
 }
 
-/// Along the front from right to left, and back along the rear.
+/// The closed outline of a contact, along the front and back along the rear, one point for each row of cells.
 fn outline(contact: &Contact) -> Series {
     let rows = || contact.outline.iter().step_by(ELEMENTS_PER_CELL);
     let front = rows().map(|row| [row.front, row.y]);
@@ -60,7 +62,7 @@ fn outline(contact: &Contact) -> Series {
     Series::line(points, Line::thin(Dash::Solid), Colour::Black)
 }
 
-/// Points at one contact length from the lowest point, as far as the window shows them.
+/// The circle around the lowest point whose radius is one contact length, as far as the window shows it.
 fn circle() -> Series {
     let last = WINDOW[0][0].acos();
     let angle = |step: u32| last * (2.0 * f64::from(step) / f64::from(CIRCLE_STEPS) - 1.0);

@@ -8,19 +8,24 @@ use crate::scaling::{MAX_UNKNOWNS, scaling_factor};
 use crate::scene::Scene;
 use crate::tasks::in_parallel;
 
+/// Name of the table.
 pub(super) const NAME: &str = "scaling_factors";
 
-/// What the paper prints.
+/// Exponent p and scaling factor of cone and paraboloid, as the paper prints them.
 pub(super) const PAPER: [(f64, f64); 2] = [(1.0, 0.55), (2.0, 0.67)];
-/// The plain simulation: ten elements along the contact length of the one-dimensional model, the fewest of a round
-/// number for which the contact outline is more than a few elements; and forty contact lengths of sliding, the first
-/// doubling of five over whose second half friction changes by less than one per cent.
+/// Elements along the contact length of the one-dimensional model in the plain simulation: the smallest round number for which
+/// the outline of the contact is more than a few elements.
 const PLAIN_ELEMENTS: f64 = 10.0;
+/// Sliding distance of the plain simulation over the contact length: the first doubling of five over whose second half friction
+/// changes by less than one per cent.
 const PLAIN_LENGTHS: f64 = 40.0;
-/// Relative error asked of the converged factors.
+/// Relative error requested of the converged factors; an order below the biases that they reveal.
 const RELATIVE_ERROR: f64 = 2e-4;
+/// Largest relative change of friction over the second half of the distance with which the end still counts as stationary
+/// enough to be extrapolated.
 const DRIFT_TOLERANCE: f64 = 0.02;
 
+/// Factors of one profile, friction of the half space over that of the one-dimensional model:
 /// plain + time_level_bias + distance_bias + grid_bias = converged.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Row {
@@ -42,6 +47,7 @@ pub(super) struct Row {
     plain_drift: f64,
 }
 
+/// The rows of both profiles of [`PAPER`].
 pub(super) fn compute() -> Result<Vec<Row>> {
     in_parallel("scaling factors", &PAPER, |&(exponent, paper)| {
         let converged = scaling_factor(exponent, RELATIVE_ERROR, MAX_UNKNOWNS)?.value();
@@ -74,7 +80,7 @@ pub(super) struct Plain {
 }
 
 impl Plain {
-    /// With so many elements along the contact length.
+    /// Slides a profile with `elements` along the contact length over [`PLAIN_LENGTHS`] of it.
     pub(super) fn new(exponent: f64, elements: f64) -> Result<Self> {
         let scene = Scene::unit(exponent)?;
         let theory = scene.theory()?;

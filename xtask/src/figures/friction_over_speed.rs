@@ -11,18 +11,22 @@ use crate::output::points;
 use crate::scene::Scene;
 use crate::tasks::in_parallel;
 
-/// The paper gives the slope of the cone only; force, viscosity and curvature are chosen so that contacts measure from
-/// 0.1 mm to 2 cm.
+/// Slope of the cone, as the paper gives it. The next three are chosen so that contacts measure from 0.1 mm to 2 cm.
 const CONE_SLOPE: f64 = 0.1;
+/// c of the paraboloid c r², \[1/m].
 const CURVATURE: f64 = 10.0;
+/// Normal force, \[N].
 const NORMAL_FORCE: f64 = 1.0;
+/// Viscosity η of the half space, \[Pa s].
 const VISCOSITY: f64 = 1e5;
-/// Speeds from 10⁻³ to 10⁻¹ m/s, six per decade.
+/// Number of speeds from 10⁻³ to 10⁻¹ m/s, six per decade.
 pub(super) const SPEEDS: u32 = 13;
-/// The half space slides over this many contact lengths of the one-dimensional model.
+/// Sliding distance on the half space over the contact length of the one-dimensional model; what is left to the stationary
+/// state is extrapolated.
 const SLIDING_LENGTHS: f64 = 32.0;
-/// At least so many elements lie along the contact length.
+/// Smallest number of elements along the contact length of the one-dimensional model; chosen, since there are 26 simulations.
 const MIN_ELEMENTS: f64 = 12.0;
+/// Largest relative change of friction over the second half of the distance with which the end may be extrapolated.
 const DRIFT_TOLERANCE: f64 = 0.03;
 /// Label of the ordinate.
 const FRICTION: &str = "coefficient of friction μ";
@@ -42,6 +46,7 @@ pub(super) struct Indenter {
 /// Name of a picture, and its axis of friction.
 type Picture = (&'static str, fn() -> Axis);
 
+/// The indenter of Fig. 7 of the paper.
 pub(super) const CONE: Indenter = Indenter {
     title: "Fig. 7, cone",
     name: "fig7_cone",
@@ -49,6 +54,7 @@ pub(super) const CONE: Indenter = Indenter {
     exponent: 1.0,
     body: || PowerProfile::cone(CONE_SLOPE),
 };
+/// The indenter of Fig. 8.
 pub(super) const PARABOLOID: Indenter = Indenter {
     title: "Fig. 8, paraboloid",
     name: "fig8_paraboloid",
@@ -60,7 +66,7 @@ pub(super) const PARABOLOID: Indenter = Indenter {
     body: || PowerProfile::paraboloid(CURVATURE),
 };
 
-/// One speed. Units stand in the names where there is one.
+/// Friction coefficients at one speed. Columns with a unit have it in their name.
 #[derive(Debug, Serialize)]
 pub(super) struct Row {
     velocity_m_per_s: f64,
@@ -81,7 +87,7 @@ pub(super) struct Row {
     drift: f64,
 }
 
-/// Computes every speed anew; similarity is not used.
+/// The table and pictures of an indenter. Every speed is computed anew, although by similarity one would do.
 pub(super) fn part(indenter: &Indenter, factor: &factors::Row) -> Result<Part> {
     let speeds: Vec<u32> = (0..SPEEDS).collect();
     let rows = in_parallel(indenter.title, &speeds, |&speed| {
@@ -92,7 +98,7 @@ pub(super) fn part(indenter: &Indenter, factor: &factors::Row) -> Result<Part> {
     Part::new(indenter.name, &rows, pictures)
 }
 
-/// The row of one speed, counted from the slowest.
+/// The row of the speed of index `speed`, counted from the slowest; `factor` is the converged scaling factor.
 pub(super) fn row(indenter: &Indenter, speed: u32, factor: f64) -> Result<Row> {
     let velocity = 10.0_f64.powf(f64::from(speed) / 6.0 - 3.0);
     let scene = Scene {
@@ -121,9 +127,8 @@ pub(super) fn row(indenter: &Indenter, speed: u32, factor: f64) -> Result<Row> {
     })
 }
 
-/// The coarsest spacing 2^−k mm that puts enough elements along the contact. Steps that do not follow the contact
-/// keep the discrete problems of different speeds apart: with a spacing proportional to the contact they would all be
-/// the same one.
+/// The coarsest spacing 2^k mm, k whole, with at least [`MIN_ELEMENTS`] along a contact length \[m]; in metres. With a spacing
+/// proportional to the contact the discrete problems of all speeds would be similar, so that they would test nothing.
 fn spacing(contact_length: f64) -> f64 {
     let millimetre = 1e-3;
     let steps = (contact_length / MIN_ELEMENTS / millimetre).log2().floor();

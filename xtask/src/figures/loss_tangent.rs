@@ -9,6 +9,7 @@ use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series
 use crate::figures::Part;
 use crate::output::points;
 
+/// Name of table and picture.
 pub(super) const NAME: &str = "fig1_loss_tangent";
 
 /// Stiffness ratios γ = G₁/G₂ of the paper.
@@ -17,6 +18,7 @@ const RATIOS: [f64; 3] = [1e-3, 1e-2, 1e-1];
 /// The scale of the moduli in the caption is 10/G₂, so that a solid with G₂ = 10 shows them as they are drawn.
 const MAXWELL_MODULUS: f64 = 10.0;
 
+/// One frequency.
 #[derive(Debug, Serialize)]
 pub(super) struct Row {
     /// Ω = ω η / G₂; the paper prints ω G₂ / η, which has a dimension.
@@ -30,12 +32,14 @@ pub(super) struct Row {
     scaled_loss_modulus: f64,
 }
 
+/// The three-element solid of a stiffness ratio γ.
 fn solid(ratio: f64) -> Result<StandardSolid> {
     let modulus = MAXWELL_MODULUS;
     // A relaxation time of 1 s makes Ω equal to ω.
     Ok(standard_solid([ratio * modulus, modulus, modulus])?)
 }
 
+/// The table and the picture.
 pub(super) fn part() -> Result<Part> {
     let rows = compute()?;
     Part::new(NAME, &rows, [(NAME, Figure::single(chart(&rows)))])

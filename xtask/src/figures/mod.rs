@@ -23,13 +23,15 @@ use crate::table::Table;
 pub(crate) use check::check;
 use friction_over_speed::{CONE, PARABOLOID};
 
-/// A table, and the pictures that are drawn from it, by their names.
+/// A part of the paper: a table and the pictures that are drawn from it.
 struct Part {
     table: Table,
+    /// Names of the files, without extension, and what they show.
     pictures: Vec<(&'static str, Figure)>,
 }
 
 impl Part {
+    /// The part with a table of this name.
     fn new<R: Serialize>(
         table: &'static str,
         rows: &[R],

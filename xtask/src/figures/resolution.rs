@@ -9,12 +9,14 @@ use crate::output::points;
 use crate::tasks::in_parallel;
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series, Shape};
 
+/// Name of table and picture.
 pub(super) const NAME: &str = "plain_resolution";
-/// How many resolutions there are.
+/// Number of resolutions of each profile.
 pub(super) const COUNT: usize = 7;
-/// Elements along the contact length of the one-dimensional model.
+/// Elements along the contact length of the one-dimensional model, about √2 times as many each time.
 const ELEMENTS: [u32; COUNT] = [5, 7, 10, 14, 20, 28, 40];
 
+/// The factor of one profile at one resolution.
 #[derive(Debug, Serialize)]
 pub(super) struct Row {
     exponent: f64,
@@ -23,13 +25,14 @@ pub(super) struct Row {
     plain: f64,
 }
 
+/// The table and the picture, with the converged factors for comparison.
 pub(super) fn part(factors: &[factors::Row]) -> Result<Part> {
     let rows = compute(COUNT)?;
     let figure = Figure::single(chart(&rows, factors));
     Part::new(NAME, &rows, [(NAME, figure)])
 }
 
-/// Both profiles with the first so many resolutions.
+/// Both profiles with the first `resolutions` of [`ELEMENTS`].
 pub(super) fn compute(resolutions: usize) -> Result<Vec<Row>> {
     let pairs = PAPER.iter().flat_map(|(exponent, _)| {
         let elements = ELEMENTS[..resolutions].iter();

@@ -9,11 +9,13 @@ use crate::output::points;
 use crate::scaling::{MAX_UNKNOWNS, Node, scaling_factor};
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series, Shape};
 
+/// Name of table and picture.
 pub(super) const NAME: &str = "scaling_function";
-/// Values of the table, evenly spaced in ln(2p − 1).
+/// Number of rows, evenly spaced in ln(2p − 1): more than twice the nodes of the table, so that the interpolation is seen.
 const ROWS: u32 = 181;
+/// Smallest and largest 2p − 1; nearly the range of the table of `friction-analytic`.
 const ORDERS: [f64; 2] = [0.003, 127.0];
-/// Exponents that the check solves anew, with the relative error asked for.
+/// Exponents that the check solves anew, with the relative error requested of each.
 const SOLVED_ANEW: [(f64, f64); 5] = [
     (0.7, 2e-3),
     (0.9, 2e-3),
@@ -22,25 +24,30 @@ const SOLVED_ANEW: [(f64, f64); 5] = [
     (6.0, 2e-3),
 ];
 
+/// The table and the picture.
 pub(super) fn part() -> Result<Part> {
     let nodes = compute()?;
     Part::new(NAME, &nodes, [(NAME, figure(&nodes))])
 }
 
+/// All rows, interpolated in the table of `friction-analytic`.
 pub(super) fn compute() -> Result<Vec<Node>> {
     (0..ROWS).map(|index| node(exponent(index))).collect()
 }
 
+/// Exponent p of the row `index`, ascending.
 fn exponent(index: u32) -> f64 {
     let fraction = f64::from(index) / f64::from(ROWS - 1);
     0.5 + 0.5 * ORDERS[0] * (ORDERS[1] / ORDERS[0]).powf(fraction)
 }
 
+/// s(p) at the exponent p, interpolated in the table; fails outside its range.
 fn node(exponent: f64) -> Result<Node> {
     Ok(Node::new(exponent, tabulated(exponent)?))
 }
 
-/// Solves some exponents on the half space and compares with the table, within the bars of both.
+/// Solves some exponents on the half space and compares them with the interpolated table, within both error bars; returns their
+/// number.
 pub(super) fn check_against_the_half_space() -> Result<usize> {
     for (exponent, relative_error) in SOLVED_ANEW {
         let tabulated = tabulated(exponent)?;

@@ -8,28 +8,33 @@ use crate::figures::{Part, contact_maps};
 use crate::scene::Scene;
 use crate::tasks::in_parallel;
 
+/// Name of table and picture.
 pub(super) const NAME: &str = "stationary_contact";
 
-/// A power profile, and the elements along the contact length of the one-dimensional model.
+/// A power profile c r^p.
 struct Profile {
+    /// p.
     exponent: f64,
+    /// Elements along the contact length of the one-dimensional model.
     elements: usize,
 }
 
+/// The profile of an exponent, with a number of elements.
 const fn profile(exponent: f64, elements: usize) -> Profile {
     Profile { exponent, elements }
 }
 
-/// The blunter the body, the narrower its contact.
+/// The profiles; the larger the exponent, the narrower the contact and the more elements it takes.
 const PROFILES: [Profile; 4] = [
     profile(1.0, 100),
     profile(2.0, 100),
     profile(4.0, 150),
     profile(16.0, 300),
 ];
-/// The lowest point lies at a corner of four elements, so that edges of elements are round numbers of the length.
+/// Shift of the grid in elements: the lowest point lies at a corner of four, so that edges of elements are at round multiples
+/// of the contact length.
 const PHASE: [f64; 2] = [0.5, 0.5];
-/// Residual in contact, relative to F_N/(4ηv).
+/// Largest residual in contact, relative to F_N/(4ηv); far below the discretisation error.
 const TOLERANCE: f64 = 1e-9;
 
 /// Where a column of elements along the sliding direction touches, in contact lengths of the one-dimensional model.
@@ -40,7 +45,9 @@ pub(super) struct Row {
     pub(super) element: f64,
     /// Centre of the column, across the sliding direction.
     pub(super) y: f64,
+    /// x of the rear edge of the last loaded element of the column.
     pub(super) rear: f64,
+    /// x of the front edge of the first one.
     pub(super) front: f64,
 }
 
@@ -64,6 +71,7 @@ impl Contact {
     }
 }
 
+/// The table and the picture.
 pub(super) fn part() -> Result<Part> {
     let contacts = compute()?;
     Part::new(
@@ -73,12 +81,12 @@ pub(super) fn part() -> Result<Part> {
     )
 }
 
-/// The contacts of all profiles.
+/// Solves the contacts of all [`PROFILES`], in their order.
 pub(super) fn compute() -> Result<Vec<Contact>> {
     in_parallel("stationary contacts", &PROFILES, contact)
 }
 
-/// The rows of all contacts.
+/// The rows of the table: the outlines of all contacts, one after the other.
 pub(super) fn outlines(contacts: &[Contact]) -> Vec<&Row> {
     contacts
         .iter()
@@ -86,6 +94,7 @@ pub(super) fn outlines(contacts: &[Contact]) -> Vec<&Row> {
         .collect()
 }
 
+/// Solves the stationary contact of a profile on one grid.
 fn contact(&Profile { exponent, elements }: &Profile) -> Result<Contact> {
     let scene = Scene::unit(exponent)?;
     let contact_length = scene.theory()?.contact_length();
@@ -101,6 +110,7 @@ fn contact(&Profile { exponent, elements }: &Profile) -> Result<Contact> {
     })
 }
 
+/// Rear and front of each column of elements that has a loaded one. Pressures are row-major, the first index along the motion.
 fn outline(solution: &SteadySliding, exponent: f64, elements: usize) -> Vec<Row> {
     let field = &solution.pressure;
     let [rows, columns] = field.grid.shape();

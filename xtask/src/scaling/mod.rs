@@ -16,9 +16,10 @@ use crate::table::{Column, table_of, to_csv};
 use crate::tasks::in_parallel;
 pub(crate) use table::{Node, generate as generate_table};
 
-/// Exponent from which on the elements are squares.
+/// Exponent from which on the elements are squares instead of half as wide as long: from about there on the contact is a thin
+/// crescent, as long across the sliding direction as along it.
 const SQUARE_ELEMENTS_FROM: f64 = 4.0;
-/// Most unknown pressures of an answer.
+/// Largest number of unknown pressures of a factor that the command computes; bounds its time.
 pub(crate) const MAX_UNKNOWNS: usize = 100_000;
 
 /// s_p, and what it took.
@@ -27,14 +28,16 @@ pub(crate) struct ScalingFactor {
     exponent: f64,
     /// Friction of the half space over that of the line.
     scaling_factor: f64,
-    /// Absolute.
+    /// Absolute error bar.
     error: f64,
     /// Unknown pressures on the finest grid.
     unknowns: usize,
+    /// Time on the wall clock \[s].
     seconds: f64,
 }
 
 impl ScalingFactor {
+    /// s_p with its error bar.
     pub(crate) fn value(&self) -> Estimate {
         Estimate::new(self.scaling_factor, self.error)
     }
@@ -49,6 +52,7 @@ pub(crate) enum Format {
     Json,
 }
 
+/// Columns of the table that is printed.
 const COLUMNS: [Column<ScalingFactor>; 5] = [
     ("p", |row| row.exponent.to_string()),
     ("s_p", |row| format!("{:.6}", row.scaling_factor)),
@@ -71,6 +75,7 @@ pub(crate) fn print(exponents: &[f64], relative_error: f64, format: Format) -> R
     Ok(())
 }
 
+/// Fails unless all exponents are above 1/2 and finite and the relative error is between 1e-6 and 0.1.
 fn validate(exponents: &[f64], relative_error: f64) -> Result<(), WrongInput> {
     let outside = exponents.iter().find(|p| !(p.is_finite() && **p > 0.5));
     let problem = if let Some(p) = outside {
@@ -86,7 +91,8 @@ fn validate(exponents: &[f64], relative_error: f64) -> Result<(), WrongInput> {
     Err(WrongInput(problem))
 }
 
-/// Computes s_p to the relative error asked for with at most about `max_unknowns`.
+/// Computes s_p to a relative error with at most about `max_unknowns` unknown pressures. If these do not suffice, fails with
+/// the factor and the error that were reached.
 pub(crate) fn scaling_factor(
     exponent: f64,
     relative_error: f64,

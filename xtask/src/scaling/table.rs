@@ -9,22 +9,24 @@ use serde::{Deserialize, Serialize};
 use crate::scaling::scaling_factor;
 use crate::table::GrowingTable;
 
-/// The nodes have 2p − 1 = `LAST_ORDER` · e^(−k `STEP`), from p = 64 down to 0.501: dense where s bends, next to
-/// p = 1/2.
+/// 2p − 1 of the first node. Node k has 2p − 1 = `LAST_ORDER` · e^(−k `STEP`), from p = 64 down to 0.501: dense next to p =
+/// 1/2, where s bends.
 const LAST_ORDER: f64 = 127.0;
+/// Distance of neighbouring nodes in ln(2p − 1).
 const STEP: f64 = 0.153_594_4;
+/// Number of nodes.
 const N_NODES: usize = 73;
-/// Relative difference up to which two exponents belong to the same node.
+/// Relative difference up to which two exponents belong to the same node; far below the distance of nodes, far above rounding.
 const EXPONENT_TOLERANCE: f64 = 1e-6;
-/// Exponent below which the apex dominates the friction.
+/// Below this exponent the apex, where the profile is infinitely steep, dominates the friction and the error falls slowly.
 const CUSP_EXPONENT: f64 = 0.65;
-/// Relative error requested below that exponent.
+/// Relative error requested below [`CUSP_EXPONENT`]: what [`MAX_UNKNOWNS`] reach.
 const CUSP_ERROR: f64 = 9e-4;
-/// Relative error requested from that exponent on.
+/// Relative error requested from [`CUSP_EXPONENT`] on.
 const ERROR: f64 = 8e-5;
-/// Most unknown pressures: the boxes of the steepest contacts are nearly empty.
+/// Largest number of unknown pressures of a node; large, because the boxes of the steepest contacts are nearly empty.
 const MAX_UNKNOWNS: usize = 500_000;
-/// The table; an interrupted run goes on where it was.
+/// File of the table, from which an interrupted run goes on.
 const TABLE: &str = "scaling_table.csv";
 
 /// s(p) at one exponent.
@@ -32,11 +34,12 @@ const TABLE: &str = "scaling_table.csv";
 pub(crate) struct Node {
     pub(crate) exponent: f64,
     pub(crate) scaling_factor: f64,
-    /// Absolute.
+    /// Absolute error bar.
     pub(crate) error: f64,
 }
 
 impl Node {
+    /// The node of an exponent with the factor s(p).
     pub(crate) fn new(exponent: f64, factor: Estimate) -> Self {
         Self {
             exponent,
@@ -62,10 +65,12 @@ pub(crate) fn generate(out: &Path) -> Result<()> {
     table.write()
 }
 
+/// Exponent p of the node k = `index`.
 fn exponent(index: usize) -> f64 {
     0.5 + 0.5 * LAST_ORDER * (-STEP * index as f64).exp()
 }
 
+/// Computes a node.
 fn node(exponent: f64) -> Result<Node> {
     let relative_error = match exponent {
         ..CUSP_EXPONENT => CUSP_ERROR,

@@ -12,11 +12,14 @@ use super::relation::Answered;
 use super::units::Powers;
 use crate::evidence::request::{derivatives, number_at};
 
-/// Rounding of the sums, relative to that of their moduli.
+/// Error from rounding that is allowed of a sum, relative to the sum of the moduli of its terms. Chosen: terms of stiff scenes
+/// cancel and each derivative is itself a difference of rounded numbers, so that it is far above the unit of rounding.
 const ROUNDING: f64 = 1e-6;
 
-/// The sums of all quantities in three units; none of a scene with files, whose lengths no derivative is by, and where there are
-/// no derivatives.
+/// For each quantity q and each of the units of length, stress and time: the sum of ∂ln q/∂ln x · ln(x'/x) over all numbers x
+/// of the scene, compared with ln(q'/q), where the prime means the value in a unit half as large (Euler's theorem on
+/// homogeneous functions). Empty where there are no derivatives, and of a scene with files, by whose numbers nothing is
+/// differentiated.
 pub(super) fn sums(first: Answered) -> Result<Vec<Comparison>> {
     let case = first.case;
     if case.lengths.is_some() || case.material.is_some() {
@@ -47,6 +50,7 @@ pub(super) fn sums(first: Answered) -> Result<Vec<Comparison>> {
     Ok(sums)
 }
 
+/// The sums for one `unit`. `known`: derivatives of logarithms by logarithms; `scenes`: the scene in both units.
 fn sums_in(
     known: &[Sensitivity],
     mut scenes: [Value; 2],
@@ -62,6 +66,7 @@ fn sums_in(
             let Some(derivative) = one.derivatives.of(&name) else {
                 continue;
             };
+            // ln(x'/x) of the number x: the distance between both units.
             let numbers = scenes.each_mut();
             let numbers = numbers.map(|scene| number_at(scene, &one.parameter).copied());
             let [from, to] = numbers.map(|number| number.context("no number"));

@@ -1,4 +1,4 @@
-//! One scene: whether its answer makes sense, and what the relations say of it.
+//! One scene: whether its answer is possible at all, and whether it obeys randomly chosen relations.
 
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -21,60 +21,70 @@ use crate::evidence::sample::{Case, Source, sample};
 use crate::meter::measure;
 use crate::random::Random;
 
-/// What one relation says of one scene.
+/// The outcome of one relation for one scene; a row of `agreement.csv`.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Row {
+    /// Of the whole search.
     pub(super) seed: u64,
+    /// Number within the search.
     pub(super) scene: usize,
+    /// Kinds of body and material.
     indenter: String,
     material: String,
     /// What moves, and what is held constant.
     pub(super) motion: String,
-    /// `answer` for what an answer must be in itself.
+    /// Name of the [`Relation`]; `answer` for what a single answer must fulfil.
     pub(super) relation: String,
+    /// Methods that gave the two answers.
     pub(super) method: String,
     other_method: String,
     pub(super) verdict: Verdict,
-    /// The quantity that differs most, relative to what it may.
+    /// The quantity with the largest deviation over allowed deviation; then its values in both answers, in SI and in the unit
+    /// of the first scene, and the allowed deviation.
     pub(super) quantity: String,
     value: Option<f64>,
     other_value: Option<f64>,
     allowed: Option<f64>,
     /// Deviation over what is allowed.
     pub(super) part: Option<f64>,
-    /// What was computed for it \[s], with one thread.
+    /// Time on the wall clock \[s] of the answer that was computed for this row, by one thread unless the relation says
+    /// otherwise.
     seconds: f64,
     /// Why there is no answer, or what is wrong with it.
     pub(super) message: String,
 }
 
+/// Outcome of a comparison.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(super) enum Verdict {
     #[default]
     Holds,
-    /// Both answer, and not the same.
+    /// Both scenes are answered, and some quantity deviates by more than it may.
     Differs,
-    /// No answer of the scene, or of the other one where it may be refused.
+    /// The first scene is not answered, or the other one is not and may be refused.
     Refused,
-    /// It takes longer than a search can wait.
+    /// The accuracy was not reached before [`REFINEMENT_TIME_LIMIT`].
     Unfinished,
-    /// An answer that cannot be, or two scenes that are the same one, of which one only is answered.
+    /// An answer that is impossible, a panic, or only one answer of two scenes that are the same one.
     Wrong,
 }
 
-/// Relations that are tried with one scene.
+/// Number of relations that are tried with one scene. Chosen: more scenes find more than more relations of each.
 const RELATIONS_PER_SCENE: usize = 2;
-/// Relative difference between answers to the same scene in other words, of which only the rounding differs.
+/// Relative difference allowed between answers to two forms of the same scene, which differ by rounding only. Chosen: many
+/// roundings are amplified by ill-conditioned contacts, but no discretisation error that matters is smaller.
 const ROUNDING_TOLERANCE: f64 = 1e-9;
-/// Difference between such answers that the last iteration may leave, over the sum of their bars.
+/// Difference between such answers that iterations stopped at their tolerance may leave, over the sum of the error bars.
 const ITERATION_TOLERANCE: f64 = 0.05;
-/// Upper bound of d ln F/d ln d and d ln μ/d ln d for all bodies.
+/// Assumed bound of d ln F/d ln d and d ln μ/d ln d, with F the normal force, d the depth and μ the friction, of the bodies
+/// that are drawn: how much an error of the given quantity is amplified in the others.
 const MAX_LOG_SLOPE: f64 = 4.0;
-/// Processor time after which no finer grid begins.
+/// Processor time of a thread after which it begins no finer grid; chosen, so that thousands of scenes are affordable.
 const REFINEMENT_TIME_LIMIT: Duration = Duration::from_secs(10);
 
-/// Draws the scene with this number, and judges it; a scene that contradicts itself stays in its folder.
+/// Draws the scene with this number, which depends on `seed` and `number` only, and judges it. The folder
+/// `agreement-SEED-NUMBER` in `out` with the files of the scene is kept only if its answers contradict each other.
 pub(super) fn judge(seed: u64, number: usize, source: &Source, out: &Path) -> Result<Vec<Row>> {
     let mut random = Random::new(seed.wrapping_mul(1_000_003).wrapping_add(number as u64));
     let folder = out.join(format!("agreement-{seed}-{number}"));
@@ -94,6 +104,7 @@ pub(super) fn judge(seed: u64, number: usize, source: &Source, out: &Path) -> Re
     Ok(rows)
 }
 
+/// Motion, quantity held constant, layer and model of a scene in words, separated by commas; a column of the table.
 fn motion(case: &Case) -> String {
     let (load, solve) = (&case.scene.load, &case.scene.solve);
     let motion = match load.velocity {
@@ -114,6 +125,8 @@ fn motion(case: &Case) -> String {
     format!("{motion}, {control}{layer}{model}")
 }
 
+/// First the row `answer`, then, if there is an answer, those of [`RELATIONS_PER_SCENE`] relations that `random` chooses among
+/// those that apply. Identity and motion of the scene are not filled in yet.
 fn judged(case: &Case, folder: &Path, random: &mut Random) -> Result<Vec<Row>> {
     let mut row = Row::of("answer");
     let (answer, cost) = measure(|| answer(case, folder, None, 1));
@@ -149,6 +162,7 @@ fn judged(case: &Case, folder: &Path, random: &mut Random) -> Result<Vec<Row>> {
 }
 
 impl Row {
+    /// The row of a relation, everything else empty.
     fn of(relation: &str) -> Self {
         let relation = relation.to_owned();
         Self {
@@ -157,7 +171,7 @@ impl Row {
         }
     }
 
-    /// Holds the comparison that deviates most, relative to what it may, and the verdict about it.
+    /// With the comparison of the largest deviation over allowed deviation, and the verdict about it.
     fn judged(mut self, comparisons: Vec<Comparison>) -> Self {
         for comparison in comparisons {
             let part = comparison.part();
@@ -183,12 +197,12 @@ impl Row {
         }
     }
 
-    /// Whether its body has one of the names between blanks.
+    /// Whether its body is of one of the kinds that `bodies` names, separated by blanks.
     pub(super) fn is_of(&self, bodies: &str) -> bool {
         bodies.split(' ').any(|body| body == self.indenter)
     }
 
-    /// On the half space or a layer.
+    /// Whether it slides, on the half space or a layer and not in the one-dimensional model.
     pub(super) fn slides(&self) -> bool {
         let motion = self.motion.split(", ").next().unwrap_or_default();
         let slides = "stationary|from first touch|to and fro|through points";
@@ -198,14 +212,18 @@ impl Row {
 
 /// Two values of a quantity, and by how much they may deviate.
 pub(super) struct Comparison {
+    /// Name of the quantity.
     pub(super) quantity: String,
+    /// Of the first and of the other answer, in the unit of the first.
     pub(super) values: [f64; 2],
+    /// Difference that counts as a deviation; not negative, in the same unit.
     pub(super) deviation: f64,
+    /// Largest deviation with which the relation holds.
     pub(super) allowed: f64,
 }
 
 impl Comparison {
-    /// Deviation over what is allowed; where nothing is, none is no deviation.
+    /// Deviation over allowed deviation; 0 without a deviation, even where none is allowed, and infinite of NaN.
     fn part(&self) -> f64 {
         match self.deviation {
             0.0 => 0.0,
@@ -216,21 +234,22 @@ impl Comparison {
 }
 
 impl Verdict {
+    /// Whether it shows that something is wrong.
     pub(super) const fn contradicts(self) -> bool {
         matches!(self, Self::Differs | Self::Wrong)
     }
 }
 
-/// Why a scene has no answer.
+/// Why a scene has no answer that counts.
 struct Failure {
     verdict: Verdict,
-    /// Whether an answer was found that is less exact than asked.
+    /// Whether an answer was found whose error bar is wider than what was asked for.
     is_less_exact: bool,
     message: String,
 }
 
 impl Failure {
-    /// No message may show what is no number.
+    /// A failure with this verdict; `Wrong` if the message shows a number that is NaN or infinite, which none may.
     fn new(verdict: Verdict, message: String) -> Self {
         let is_shown = |text| message.contains(text);
         let verdict = if is_shown("NaN") || is_shown("inf ") {
@@ -245,6 +264,7 @@ impl Failure {
         }
     }
 
+    /// The failure of a scene that the solver refuses.
     fn refusal(error: &SolveError) -> Self {
         Self {
             is_less_exact: misses(error),
@@ -253,7 +273,7 @@ impl Failure {
     }
 }
 
-/// Whether an answer was found that is less exact than asked.
+/// Whether the error only says that the accuracy was not reached.
 fn misses(error: &SolveError) -> bool {
     match error {
         SolveError::MemoryReached { reached, .. } => misses(reached),
@@ -272,10 +292,11 @@ fn misses(error: &SolveError) -> bool {
     }
 }
 
-/// Ends a refinement whose thread has worked longer than [`REFINEMENT_TIME_LIMIT`], however busy the machine is.
+/// Ends a refinement whose thread has worked longer than [`REFINEMENT_TIME_LIMIT`]. Processor time of the thread is measured,
+/// so that the outcome depends little on how busy the machine is.
 #[derive(Debug)]
 struct TimeLimit {
-    /// Processor time of the thread.
+    /// Processor time of the thread at which it has to end.
     end: Duration,
     has_ended: AtomicBool,
 }
@@ -290,7 +311,8 @@ impl Progress for TimeLimit {
     fn report(&self, _: f64) {}
 }
 
-/// The answer, or why there is none.
+/// The answer to a scene by `method`, or by that of the scene, on `threads` threads; or why there is none. A panic is a
+/// failure.
 fn answer(
     case: &Case,
     folder: &Path,
@@ -327,7 +349,8 @@ fn answer(
     })
 }
 
-/// What no answer may be.
+/// What is impossible about an answer: a value that is not finite, a negative value of a quantity that cannot be, or a peak
+/// pressure below the mean one. `None` if nothing is.
 fn problem_of(answer: &Answer) -> Option<String> {
     for (name, known) in quantities(answer) {
         let [value, error] = [known.value, known.error];
@@ -335,7 +358,7 @@ fn problem_of(answer: &Answer) -> Option<String> {
             return Some(format!("{name} is {value} ± {error}"));
         }
         let is_of = |names: &str| names.split(' ').any(|one| one == name);
-        // Of a motion over a spring they are 0 within their bars.
+        // Of an elastic material they are 0, which numerical methods meet within their bars only.
         let rubs = is_of("dissipated_energy friction_coefficient tangential_force");
         let is_signed =
             is_of("x_min x_max y_min y_max indentation_depth work dissipation_shortest_octave");
@@ -351,7 +374,8 @@ fn problem_of(answer: &Answer) -> Option<String> {
     is_below.then(|| format!("the peak pressure {value} ± {error} is below the mean {mean}"))
 }
 
-/// All numbers with their errors; those of theories are exact, and those of the corners of a contact share one.
+/// All numbers of an answer by name, with their absolute errors. The extremes of a contact share that of `contact_box`; a
+/// number without an error, such as one of a closed theory, counts as exact.
 pub(super) fn quantities(answer: &Answer) -> Vec<(String, Estimate)> {
     let numbers = answer.numbers();
     let find = |name: &str| numbers.iter().find(|(other, _)| other == name)?.1;
@@ -366,7 +390,7 @@ pub(super) fn quantities(answer: &Answer) -> Vec<(String, Estimate)> {
     known.collect()
 }
 
-/// The sum of derivatives that is farthest from what it must be.
+/// The row of [`Relation::Derivatives`], with the sum that is farthest from what it must be; `None` where it does not apply.
 fn added_up(first: Answered) -> Result<Option<Row>> {
     let (sums, cost) = measure(|| derivatives::sums(first));
     let mut row = Row::of(Relation::Derivatives.into());
@@ -380,7 +404,7 @@ fn added_up(first: Answered) -> Result<Option<Row>> {
     Ok((!sums.is_empty()).then(|| row.judged(sums)))
 }
 
-/// Solves the other scene, and compares all that both know.
+/// Solves the derived scene, and compares all quantities that both answers have. Keeps its files if they contradict each other.
 fn compared(relation: Relation, first: Answered, derived: &Derived) -> Result<Row> {
     let mut row = Row::of(relation.into());
     row.method = first.answer.method.name().to_owned();
@@ -416,7 +440,7 @@ fn compared(relation: Relation, first: Answered, derived: &Derived) -> Result<Ro
     Ok(row)
 }
 
-/// The answers of two scenes.
+/// Answers of two scenes between which a relation holds.
 struct Pair<'a> {
     relation: Relation,
     one: &'a Answer,
@@ -425,7 +449,7 @@ struct Pair<'a> {
 }
 
 impl Pair<'_> {
-    /// All quantities with what they may differ by.
+    /// A comparison of each quantity. Under more load only a value that falls is a deviation.
     fn comparisons(&self) -> Result<Vec<Comparison>> {
         let comparison = |(quantity, [one, other]): (String, [Estimate; 2])| Comparison {
             deviation: match self.relation {
@@ -439,6 +463,7 @@ impl Pair<'_> {
         Ok(self.quantities()?.into_iter().map(comparison).collect())
     }
 
+    /// Whether the relation says anything about a quantity.
     fn is_compared(&self, name: &str) -> bool {
         match self.relation {
             // Shares of the dissipation have no bars.
@@ -454,7 +479,8 @@ impl Pair<'_> {
         }
     }
 
-    /// The quantities that both know and the relation compares, in the units of the first.
+    /// The quantities that both answers have and the relation compares, then all points of their curves over time, in the units
+    /// of the first.
     fn quantities(&self) -> Result<Vec<(String, [Estimate; 2])>> {
         let Self { one, other, .. } = self;
         let factors = self.derived.powers.factors(one.is_per_length)?;
@@ -498,7 +524,7 @@ impl Pair<'_> {
         Ok(pairs)
     }
 
-    /// Where the points of a history are in the other one.
+    /// The index in the other history of each point of this one, whose dates are `times`.
     fn places(&self, times: &[f64]) -> Vec<usize> {
         let mut place = usize::from(self.relation == Relation::LaterHistory);
         let has_middles = self.relation == Relation::SubdividedHistory;
@@ -510,7 +536,9 @@ impl Pair<'_> {
         places
     }
 
-    /// By how much a quantity may differ; under another name a scene may have another method.
+    /// By how much a quantity may differ: nothing between numbers of threads; rounding and what iterations leave between forms
+    /// of the same scene, if both are solved by the same method; otherwise the sum of both error bars and what the relation
+    /// adds.
     fn allowed(&self, name: &str, [one, other]: [Estimate; 2]) -> f64 {
         let size = one.value.abs().max(other.value.abs());
         let answers = [self.one, self.other];

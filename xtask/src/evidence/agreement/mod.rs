@@ -19,22 +19,23 @@ use crate::table::{GrowingTable, ROWS_AT_ONCE, markdown_table};
 use judge::{Row, Verdict, judge};
 use relation::Relation;
 
-/// Scenes of a full run and of a quick one.
+/// Number of random scenes of a full run and of a quick one; chosen by the time that they may take.
 const SCENES: [usize; 2] = [5000, 22];
-/// Half the decades of the distances from first touch in a quick run.
+/// Sliding distances from first touch are drawn from this number of decades up and down in a quick run; long ones take long.
 const QUICK_DISTANCE_DECADES: f64 = 0.2;
-/// Memory of one solution in a quick run, which bounds the size of its scenes.
+/// Largest memory of one solution in a quick run, which bounds the size of its grids.
 const QUICK_MEMORY: &str = "16 MiB";
-/// Errors that are asked for in a quick run: smaller ones refine further, in the same way.
+/// Relative errors requested in a quick run; smaller ones would only repeat the refinement on finer grids.
 const QUICK_ERRORS: [f64; 1] = [0.1];
-/// Fraction of the comparisons that may deviate by more than the sum of both bars.
+/// Fraction of the comparisons within error bars that may deviate by more than the sum of both. Each bar is to hold in 95 % of
+/// the cases, their sum much more often.
 const MAX_OUTSIDE_FRACTION: f64 = 0.01;
-/// Largest deviation of these, in sums of both bars.
+/// Largest deviation of these, over the sum of both bars; chosen.
 const MAX_DEVIATION_OVER_BARS: f64 = 3.0;
-/// Contradictions that the page lists by name.
+/// Number of contradictions that the page lists by name, the worst ones.
 const LISTED_CONTRADICTIONS: usize = 20;
 
-/// Judges random scenes, of which `out` may hold some.
+/// Judges random scenes. Those that `agreement.csv` in `out` already has for this seed are not judged again.
 pub(super) fn report(options: &Options, out: &Path, quick: bool) -> Result<Report> {
     let count = options.count(SCENES[usize::from(quick)])?;
     let seed = options.seed();
@@ -63,13 +64,13 @@ pub(super) fn report(options: &Options, out: &Path, quick: bool) -> Result<Repor
     })
 }
 
-/// The names of the relations in the table, that of an answer in itself first, and whether they are exact.
+/// Names of the relations in the table, before them `answer`, and whether each holds up to rounding.
 fn relations() -> impl Iterator<Item = (&'static str, bool)> {
     let all = Relation::iter().map(|relation| (relation.into(), relation.is_exact()));
     std::iter::once(("answer", true)).chain(all)
 }
 
-/// One line per relation: what was tried, refused, and held.
+/// One line per relation: number of rows of each verdict, and the largest deviation over allowed deviation.
 fn relation_table(rows: &[Row]) -> comfy_table::Table {
     use Verdict::{Differs, Holds, Refused, Unfinished, Wrong};
     let header = "relation|holds|scenes|refused|unfinished|hold|outside|wrong|worst deviation";
@@ -97,7 +98,7 @@ fn relation_table(rows: &[Row]) -> comfy_table::Table {
 /// Name of a kind of scenes, and whether one belongs to it.
 type Kind = (&'static str, fn(&Row) -> bool);
 
-/// Kinds of scenes whose bars are counted apart.
+/// Kinds of scenes whose error bars [`calibration`] counts separately; a scene may be of several.
 const KINDS: [Kind; 6] = [
     ("rough surfaces and height maps", |row| {
         row.is_of("self-affine spectrum height-map")
@@ -113,8 +114,8 @@ const KINDS: [Kind; 6] = [
     ("all", |_| true),
 ];
 
-/// How far answers by boundary elements are from those to a quarter of the error, over the sum of both bars, by kind of
-/// scene.
+/// One line per kind of scene for the relation [`Relation::QuarterOfTheError`] of boundary elements: how many deviations are
+/// within the sum of both error bars, the median of that sum over the deviation, and the worst deviation over it.
 fn calibration(rows: &[Row]) -> comfy_table::Table {
     let name: &str = Relation::QuarterOfTheError.into();
     let of = |row: &&Row| row.relation == name && row.method.starts_with("bem");
@@ -134,7 +135,7 @@ fn calibration(rows: &[Row]) -> comfy_table::Table {
     markdown_table(header.split('|'), lines)
 }
 
-/// The worst contradictions by name.
+/// The number of contradictions and a list in Markdown of the worst, under the names of their folders.
 fn contradictions(rows: &[Row]) -> String {
     let found = rows.iter().filter(|row| row.verdict.contradicts());
     let mut found: Vec<&Row> = found.collect();

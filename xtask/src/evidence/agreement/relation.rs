@@ -1,4 +1,4 @@
-//! Relations between two answers that must hold whatever the scene is.
+//! Relations between the answers of two scenes that must hold whatever the scene is (metamorphic testing).
 
 use std::path::Path;
 
@@ -24,15 +24,15 @@ use crate::random::Random;
 pub(super) enum Relation {
     /// Another method answers the same.
     OtherMethod,
-    /// A quarter of the error.
+    /// A quarter of the error is requested.
     QuarterOfTheError,
-    /// On a given number of elements.
+    /// A number of elements is given instead of an error.
     GivenElements,
-    /// The force at the depth that was found, or the depth under the force.
+    /// The depth that was found is given instead of the force, or the force instead of the depth.
     OtherControl,
-    /// A layer that is a million times as thick as the contact is a half space.
+    /// A layer that is [`THICKNESS_OVER_CONTACT`] times as thick as the contact acts as a half space.
     ThickLayer,
-    /// More load, more depth and area.
+    /// Under [`LOAD_FACTOR`] times the load, force, depth and area do not fall.
     MoreLoad,
     /// All lengths, stresses and times multiplied by powers of two.
     OtherUnits,
@@ -48,11 +48,11 @@ pub(super) enum Relation {
     OtherFile,
     /// A height map that repeats itself, with twice as many heights along both edges.
     Resampled,
-    /// Derivatives of the same scene in other units.
+    /// Derivatives by all numbers of the scene add up to what other units demand; see [`super::derivatives`].
     Derivatives,
-    /// One thread and three.
+    /// Three threads give the bits that one gives.
     OtherThreads,
-    /// A track that is so long that everything is forgotten is a straight one.
+    /// A track so long that everything is forgotten before the body comes back acts as a straight one.
     LongTrack,
     /// A motion through more points on the same path, and much later.
     SubdividedMotion,
@@ -62,7 +62,7 @@ pub(super) enum Relation {
     SubdividedHistory,
 }
 
-/// A scene and its answer; its files are in the folder.
+/// A scene, the folder of its files, and its answer.
 #[derive(Clone, Copy)]
 pub(super) struct Answered<'a> {
     pub(super) case: &'a Case,
@@ -70,41 +70,45 @@ pub(super) struct Answered<'a> {
     pub(super) answer: &'a Answer,
 }
 
-/// A scene that was derived from another one, and what its quantities are multiples of.
+/// A scene that was derived from another one, and what follows for its answer.
 pub(super) struct Derived {
+    /// The derived scene with its files.
     pub(super) case: Case,
+    /// Its units over those of the first scene.
     pub(super) powers: Powers,
-    /// The method that is asked; none for that of the scene.
+    /// The method that is to solve it; `None` for that of the scene or the one that is chosen for it.
     pub(super) method: Option<Method>,
-    /// By how much the truth of the other scene may differ, relative to that of the first.
+    /// Relative difference between the exact answers of both scenes, at most; 0 where the relation is exact in theory.
     pub(super) truth_difference: f64,
 }
 
-/// Thickness of a layer that is a half space, over half the contact length.
+/// Thickness of a layer that acts as a half space, over half the contact length; chosen, so that [`LAYER_DIFFERENCE`] is small.
 const THICKNESS_OVER_CONTACT: f64 = 1e6;
-/// Relative difference between such a layer and the half space: some times the contact over the thickness, if long waves find the
-/// material no softer than the contact does.
+/// Relative difference between such a layer and the half space, at most: ten times half the contact length over the thickness,
+/// if long waves find the material no softer than the contact does.
 const LAYER_DIFFERENCE: f64 = 1e-5;
-/// Relative difference above which the relation says nothing.
+/// Relative difference between layer and half space above which the relation is not tried, because it would say nothing.
 const MAX_LAYER_DIFFERENCE: f64 = 0.01;
-/// Factor by which the larger load is larger.
+/// The larger load over the given one; chosen: well above the error bars of what it changes.
 const LOAD_FACTOR: f64 = 1.5;
-/// Elements along a contact.
+/// Number of elements along a contact for [`Relation::GivenElements`]; chosen, cheap and not a power of two.
 const ELEMENTS: usize = 40;
-/// Elements along the period of a surface that slides or rests.
+/// The same along the period of a surface that slides or rests; a power of two for the Fourier transform.
 const ELEMENTS_OF_PERIOD: usize = 256;
-/// Elements along the period of a surface that reciprocates or follows points: a cycle takes as many steps as there are elements in
-/// a stroke.
+/// The same along the period of a surface that reciprocates or follows points. Fewer, since a cycle takes as many steps as
+/// there are elements in a stroke.
 const ELEMENTS_OF_MOTION: usize = 64;
-/// Relative error of another series.
+/// Relative error that [`other_series`] makes and states; of the order of those of fitted series.
 const SERIES_ERROR: f64 = 1e-4;
-/// Factor by which the times for which it holds go beyond its shortest and longest relaxation time.
+/// Factor by which the times for which that error is stated go beyond the shortest and the longest relaxation time, so that no
+/// scene asks for others.
 const SERIES_RANGE_FACTOR: f64 = 1e12;
-/// Length of a track on which everything is forgotten, over half the contact length.
+/// Length of a track over half the contact length. By far larger than the ratio of any relaxation time of the drawn materials
+/// to the time of a contact.
 const TRACK_OVER_CONTACT: f64 = 1e15;
-/// Time at which the later motion begins, over its duration.
+/// Date at which the later motion begins, over its duration: an elapsed time that must be subtracted without losing digits.
 const START_OVER_DURATION: f64 = 1e6;
-/// Largest power of two of a unit.
+/// A unit is changed by 2^n with |n| up to this: by factors of up to 4096.
 const MAX_POWER_OF_TWO: f64 = 12.0;
 
 impl Relation {
@@ -120,14 +124,14 @@ impl Relation {
         )
     }
 
-    /// Whether it is the same scene in other words, of which both forms are answered or none.
+    /// Whether both scenes are the same one in another form, so that both are answered or none.
     pub(super) const fn is_same(self) -> bool {
         use Relation::{LaterHistory, Mirrored, SubdividedHistory};
         let motions = matches!(self, Self::SubdividedMotion);
         self.is_exact() || motions || matches!(self, LaterHistory | SubdividedHistory | Mirrored)
     }
 
-    /// The other scene; none where the relation says nothing.
+    /// The derived scene; `None` where the relation does not apply. [`Relation::Derivatives`] derives none.
     pub(super) fn derive(self, first: Answered, random: &mut Random) -> Result<Option<Derived>> {
         let mut derived = Derived {
             case: first.case.clone(),
@@ -169,7 +173,7 @@ impl Relation {
         Ok(changed.map(|()| derived))
     }
 
-    /// Changes a scene whose files stay as they are.
+    /// Changes a scene without its files, as the relation demands; `None` where it does not apply.
     fn change(self, scene: &mut Scene, answer: &Answer) -> Option<()> {
         match self {
             Self::QuarterOfTheError => *scene.solve.relative_error.as_mut()? *= 0.25,
@@ -214,7 +218,7 @@ impl Relation {
     }
 }
 
-/// Another method that answers the scene.
+/// A random one of the other methods that answer the scene in the same model; `None` where there is none.
 fn other_method(first: Answered, random: &mut Random) -> Option<Method> {
     let scene = &first.case.scene;
     // Where nothing slides both models are the same.
@@ -233,7 +237,8 @@ fn other_method(first: Answered, random: &mut Random) -> Option<Method> {
     (!offered.is_empty()).then(|| random.choice(&offered))
 }
 
-/// The lowest layer of a body that does not repeat itself.
+/// Puts a thick layer on a rigid base in place of the half space; `None` where the surface of the body is periodic, or the
+/// scene has a layer or the one-dimensional model.
 fn thick_layer(case: &mut Case) -> Option<()> {
     let thickness = THICKNESS_OVER_CONTACT * case.contact;
     let scene = &mut case.scene;
@@ -243,7 +248,7 @@ fn thick_layer(case: &mut Case) -> Option<()> {
     scene.layer.map(|_| ())
 }
 
-/// A track of a stationary state of a body that does not repeat itself.
+/// Closes the path of a body that slides in a stationary state into a long track; `None` of others and of periodic surfaces.
 fn long_track(case: &mut Case) -> Option<()> {
     let track = TRACK_OVER_CONTACT * case.contact;
     let Scene {
@@ -259,6 +264,7 @@ fn long_track(case: &mut Case) -> Option<()> {
     load.track.map(|_| ())
 }
 
+/// Whether the surface of the body repeats itself.
 fn is_periodic(indenter: &Indenter) -> bool {
     match indenter {
         Indenter::SelfAffine(_) | Indenter::Spectrum(_) => true,
@@ -267,8 +273,8 @@ fn is_periodic(indenter: &Indenter) -> bool {
     }
 }
 
-/// How much softer the material is for waves as long as a thick layer than for those of the contact that slides over it; 1 at
-/// rest.
+/// Creep compliance J(L/v) for the length L of a thick layer over that for half the contact length, at the speed v: how much
+/// softer the material is for waves as long as the layer. 1 at rest; infinite where a compliance is.
 fn softening(Answered { case, folder, .. }: Answered) -> Result<f64> {
     let velocity = case.scene.load.velocity.unwrap_or_default();
     if velocity <= 0.0 {
@@ -282,6 +288,7 @@ fn softening(Answered { case, folder, .. }: Answered) -> Result<f64> {
     }
 }
 
+/// Random powers of two up to [`MAX_POWER_OF_TWO`], positive and negative.
 fn drawn(random: &mut Random) -> Powers {
     #[expect(clippy::cast_possible_truncation, reason = "whole and small")]
     let [length, stress, time] = [0; 3].map(|_| {
@@ -296,7 +303,8 @@ fn drawn(random: &mut Random) -> Powers {
     }
 }
 
-/// Whether another unit rounds the numbers of a scene, which may move an element over the edge of the contact.
+/// Whether the scene has powers of numbers with exponents that are not whole, which round differently in other units. That may
+/// move an element over the edge of the contact.
 pub(super) const fn has_powers(scene: &Scene) -> bool {
     use MaterialTable::{FractionalMaxwell, Springpot};
     let material = matches!(scene.material, Springpot { .. } | FractionalMaxwell { .. });
@@ -308,7 +316,8 @@ pub(super) const fn has_powers(scene: &Scene) -> bool {
         )
 }
 
-/// What was found, given; only of states that do not depend on how they were reached.
+/// Gives the depth that was found instead of the force, or the force instead of the depth; `None` where the state depends on
+/// how it was reached, and where neither or both are given.
 fn other_control(scene: &mut Scene, answer: &Answer) -> Option<()> {
     let is_elastic = matches!(scene.material, MaterialTable::Elastic { .. });
     let solve = &scene.solve;
@@ -329,14 +338,16 @@ fn other_control(scene: &mut Scene, answer: &Answer) -> Option<()> {
     Some(())
 }
 
-/// Other names of bodies and materials.
+/// Contents of `other_names.toml`: how a body or a material of one kind is written as one of another kind.
 #[derive(Deserialize)]
 struct Names {
+    /// For each kind of body a table of the other kind, with the keys of the first for numbers.
     indenter: Table,
+    /// The same of materials.
     material: Table,
 }
 
-/// The body or the material under another name; none where there is no other one.
+/// Replaces body and material by equivalent ones of other kinds; `None` where neither has an equivalent.
 fn renamed(case: &mut Case) -> Result<Option<()>> {
     let names: Names = toml::from_str(include_str!("other_names.toml"))?;
     let scene = &mut case.scene;
@@ -365,7 +376,7 @@ fn renamed(case: &mut Case) -> Result<Option<()>> {
     Ok(is_changed.then_some(()))
 }
 
-/// The same under its other name, if it has one.
+/// The equivalent of a body or a material `of` by the rules of `names`; `None` where there is no rule for its kind.
 fn other_name<T: Serialize + DeserializeOwned>(of: &T, names: &Table) -> Result<Option<T>> {
     let table = Value::try_from(of)?;
     let kinds = table.as_table().into_iter().flatten();
@@ -383,7 +394,8 @@ fn other_name<T: Serialize + DeserializeOwned>(of: &T, names: &Table) -> Result<
     Ok(other.map(Value::try_into).transpose()?)
 }
 
-/// What a file of a material holds, at a temperature.
+/// The Prony series of a file, shifted to a temperature \[°C]: moduli times b_T, relaxation times times a_T, without a shift
+/// function. `None` where the shift does not hold.
 fn at(of_file: &MaterialTable, temperature: Option<f64>) -> Option<MaterialTable> {
     let mut material = of_file.clone();
     let [exponent, of_moduli] = match (of_file.shift(), temperature) {
@@ -417,7 +429,8 @@ fn at(of_file: &MaterialTable, temperature: Option<f64>) -> Option<MaterialTable
     Some(material)
 }
 
-/// Another Prony series, which stands for the same material with an error that it states: every other term is too large.
+/// Makes every other term of a Prony series too large by [`SERIES_ERROR`] and the others too small, and states this as the
+/// error of the series. `None` of other materials and of a series that already states one.
 fn other_series(material: &mut MaterialTable) -> Option<()> {
     let MaterialTable::Prony {
         equilibrium_modulus,
@@ -447,7 +460,7 @@ fn other_series(material: &mut MaterialTable) -> Option<()> {
     Some(())
 }
 
-/// Each branch as a quarter and three quarters, in the opposite order.
+/// Each branch as two of the same relaxation time, with a quarter and three quarters of its modulus, in the opposite order.
 fn split(branches: &[Branch]) -> Option<Vec<Branch>> {
     let part = |branch: &Branch, part: f64| Branch {
         modulus: part * branch.modulus,
@@ -458,7 +471,7 @@ fn split(branches: &[Branch]) -> Option<Vec<Branch>> {
     (!branches.is_empty()).then(|| parts.collect())
 }
 
-/// The history after half of its duration without load; only of one that begins with none.
+/// Puts half of the duration of a history without load before it; `None` where it does not begin without load.
 fn later(points: &mut Vec<LoadPoint>) -> Option<()> {
     let first = *points.first()?;
     let is_free = first.normal_force.or(first.indentation_depth)? <= 0.0;
@@ -468,13 +481,14 @@ fn later(points: &mut Vec<LoadPoint>) -> Option<()> {
     is_free.then_some(())
 }
 
-/// With the middles of all straight parts; a part that takes no time has none.
+/// The points with `middle` of each neighbouring pair between them; where that is `None`, nothing is inserted.
 fn with_middles<P: Copy>(points: &[P], middle: impl Fn(P, P) -> Option<P>) -> Vec<P> {
     let pairs = points.windows(2);
     let all = pairs.flat_map(|pair| [Some(pair[0]), middle(pair[0], pair[1])]);
     all.flatten().chain(points.last().copied()).collect()
 }
 
+/// The point halfway between two points of a motion.
 fn middle_of_motion(one: MotionPoint, other: MotionPoint) -> Option<MotionPoint> {
     let time = 0.5 * (one.time + other.time);
     let position = 0.5 * (one.position + other.position);
@@ -485,6 +499,7 @@ fn middle_of_motion(one: MotionPoint, other: MotionPoint) -> Option<MotionPoint>
     })
 }
 
+/// The point halfway between two points of a history; `None` of a jump, which takes no time.
 fn middle_of_history(one: LoadPoint, other: LoadPoint) -> Option<LoadPoint> {
     let mean = |of: fn(&LoadPoint) -> Option<f64>| Some(0.5 * (of(&one)? + of(&other)?));
     (other.time > one.time).then(|| LoadPoint {

@@ -1,4 +1,4 @@
-//! The same rough surface in other words.
+//! The same rough surface in another form.
 
 use std::f64::consts::TAU;
 
@@ -11,7 +11,8 @@ use viscofriction::scene::{
 
 use crate::evidence::sample::{Case, Lengths, SPECTRUM};
 
-/// The map mirrored across the motion, or in another file of the same surface; none of other bodies.
+/// Mirrors a height map across the motion; or, if `is_turned`, replaces it by heights of opposite sign in the opposite order
+/// together with the keys that undo both. `None` of other bodies.
 pub(super) fn other_map(case: &mut Case, is_turned: bool) -> Option<()> {
     let Indenter::HeightMap(map) = &mut case.scene.indenter else {
         return None;
@@ -31,7 +32,9 @@ pub(super) fn other_map(case: &mut Case, is_turned: bool) -> Option<()> {
     Some(())
 }
 
-/// A self-affine surface without roll-off as a table of its spectrum, with the slope that the drawn one has.
+/// A self-affine surface without roll-off as a surface of a tabulated spectrum, and the table: wave numbers \[1/m] and spectral
+/// density \[m⁴] of the two ends of the power law, scaled such that the surface of this seed has the same root mean square
+/// slope.
 pub(super) fn as_spectrum(surface: &SelfAffineSurface) -> Result<(Indenter, Lengths)> {
     let ends = [surface.longest_wavelength, surface.shortest_wavelength];
     let [first, last] = ends.map(|length| TAU / length);
@@ -56,7 +59,7 @@ pub(super) fn as_spectrum(surface: &SelfAffineSurface) -> Result<(Indenter, Leng
     Ok((Indenter::Spectrum(other), table))
 }
 
-/// The waves of a map that repeats itself, on twice as many heights.
+/// Interpolates a periodic height map by its Fourier series on twice as many heights along both edges; `None` of other bodies.
 pub(super) fn resampled(case: &mut Case) -> Option<()> {
     let Indenter::HeightMap(map) = &mut case.scene.indenter else {
         return None;

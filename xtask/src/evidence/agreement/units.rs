@@ -1,7 +1,7 @@
 //! A scene whose lengths, stresses and times are multiplied by powers of two: the same scene in other units.
 //!
-//! The units of the numbers of a scene are those of its schema. `units.csv` holds the powers of length, stress and time of the numbers of
-//! answers, and the power of the extent: of an area, or of a length of a body that is infinite across.
+//! The units of the numbers of a scene are those of its schema. `units.csv` holds the powers of length, stress and time of the
+//! numbers of answers, and the power of the extent: of an area, or of a length of a body that is infinite across.
 
 use std::collections::BTreeMap;
 
@@ -13,27 +13,32 @@ use viscofriction::scene::Indenter;
 use crate::evidence::sample::Case;
 use crate::evidence::unit::Unit;
 
-/// A row of `units.csv`.
+/// A row of `units.csv`: a quantity of answers and its unit.
 #[derive(Deserialize)]
 struct Row {
+    /// Its name in answers.
     quantity: String,
     #[serde(flatten)]
     unit: Unit,
 }
 
-/// Powers of two by which lengths, stresses and times are multiplied.
+/// Powers of two by which lengths, stresses and times are multiplied; they change no mantissa of f64.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Powers {
+    /// All lengths are multiplied by 2 to this power.
     pub(super) length: i32,
+    /// All moduli and pressures.
     pub(super) stress: i32,
+    /// All times.
     pub(super) time: i32,
 }
 
-/// What all quantities are multiplied by, by name.
+/// Factor by which a number of a scene or an answer is multiplied, by its name.
 pub(super) type Factors = BTreeMap<String, f64>;
 
 impl Powers {
-    /// Factors of the quantities of a body, which may be infinite across.
+    /// Factors of all numbers of scenes and answers. `is_per_length`: whether the body is infinite across the motion, so that
+    /// forces are per length.
     pub(super) fn factors(self, is_per_length: bool) -> Result<Factors> {
         let extent = if is_per_length { 1 } else { 2 };
         let mut units = BTreeMap::new();
@@ -57,7 +62,7 @@ impl Powers {
         Ok(factors.map(|(key, unit)| (key, factor(unit))).collect())
     }
 
-    /// Multiplies every number of the scene; those of its files too.
+    /// Multiplies every number of the scene and of its files; fails where one has no unit.
     pub(super) fn apply(self, case: &mut Case) -> Result<()> {
         let is_per_length = matches!(case.scene.indenter, Indenter::Cylinder { .. });
         let factors = self.factors(is_per_length)?;
@@ -77,7 +82,7 @@ impl Powers {
         Ok(())
     }
 
-    /// Multiplies the numbers under a key.
+    /// Multiplies all numbers in `value`, which stands at `key` of its table; tables and lists recursively.
     fn scale(self, value: &mut Value, key: &str, factors: &Factors) -> Result<()> {
         match value {
             Value::Float(number) => {

@@ -24,7 +24,7 @@ use crate::tasks::in_parallel;
 use reference::{SHARP_REFERENCE_RATIO, closed_form, is_numerical, numerical};
 use scene::{Extent, FLAT, Label, Scene};
 
-/// Judges the bars of every method; a quick run takes fewer scenes, larger errors and fewer elements on the half space.
+/// Judges the error bars of every method; a quick run takes fewer scenes, larger errors and fewer elements on the half space.
 pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
     let extent = Extent::new(quick)?;
     let mut random = Random::new(options.seed());
@@ -47,13 +47,14 @@ pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
     })
 }
 
-/// A scene, and one bar.
+/// The scene and one error bar of it; a row of `calibration.csv`.
 type Row = (Label, Bar);
 
-/// One bar; all errors are absolute.
+/// One error bar and the deviation that it should cover. Values and errors are absolute, in the unit of the quantity: a
+/// friction coefficient, or a depth \[m] or a force \[N] where the body is only pressed.
 #[derive(Debug, Clone, Serialize)]
 struct Bar {
-    /// What the table calls the method.
+    /// Method and kind of scene, as [`name`] has them.
     method: String,
     /// Unit of `asked`.
     asked_kind: &'static str,
@@ -75,14 +76,14 @@ struct Bar {
 /// A result or a reference that could not be computed.
 type Refusal = (Label, Reason);
 
-/// By what method, and why it could not.
+/// What could not be computed, and why.
 #[derive(Debug, Clone, Default, Serialize)]
 struct Reason {
     method: String,
     reason: String,
 }
 
-/// Solves a scene by every method that can.
+/// Solves a scene as all `requests` ask that a method offers; a row, a refusal, or nothing, of each.
 fn judge(scene: &Scene, requests: &[Request]) -> Result<Vec<Result<Vec<Row>, Refusal>>> {
     let mut judged = Vec::new();
     for of_model in requests.chunk_by(|one, other| one.model == other.model) {
@@ -115,7 +116,8 @@ fn judge(scene: &Scene, requests: &[Request]) -> Result<Vec<Result<Vec<Row>, Ref
     Ok(judged)
 }
 
-/// One bar, if there is anything to compare it with.
+/// The error bar of the result `got`; `None` where there is nothing to compare it with. `shared` is the numerical reference,
+/// computed at the first use.
 fn bar(
     scene: &Scene,
     request: &Request,
@@ -148,7 +150,7 @@ fn bar(
     }))
 }
 
-/// What the table of the results calls a method.
+/// Method, kind of scene and kind of accuracy in words; a line of the table.
 fn name(request: &Request, scene: &Scene) -> String {
     let group = match request.method {
         _ if presses(&scene.file) && scene.is_at_depth() => ", pressed to a depth",
@@ -166,7 +168,7 @@ fn name(request: &Request, scene: &Scene) -> String {
     format!("{}{group}{resolution}", request.method.name())
 }
 
-/// One line per method: how many bars hold, and how wide they are.
+/// One line per method and kind of scene, as [`line`] makes it, and one of all.
 fn table(rows: &[Row], refusals: &[Refusal]) -> comfy_table::Table {
     let bars = rows.iter().map(|(_, bar)| bar);
     let methods = group_by(bars.clone(), |bar| &*bar.method);
@@ -180,6 +182,8 @@ fn table(rows: &[Row], refusals: &[Refusal]) -> comfy_table::Table {
     markdown_table(header.split('|'), lines)
 }
 
+/// Cells of a line: number of results, how many bars hold, how many have a sharp reference and hold by themselves, the
+/// median of bar over deviation, the worst deviation over bar, and the number of refusals.
 fn line(method: &str, bars: &[&Bar], refused: usize) -> [String; 8] {
     let held: Share = bars.iter().map(|bar| bar.holds).collect();
     // Whether the reference is much more exact than the bar says of the result.
@@ -208,7 +212,7 @@ fn line(method: &str, bars: &[&Bar], refused: usize) -> [String; 8] {
     ]
 }
 
-/// Two digits, or a power of ten.
+/// A number with two decimals, or, below 0.01 and from 1e4 on, with one digit and a power of ten.
 fn short(value: f64) -> String {
     match value {
         _ if !value.is_finite() => "∞".to_owned(),
@@ -217,9 +221,10 @@ fn short(value: f64) -> String {
     }
 }
 
-/// Relative error at which smaller ones are drawn.
+/// Smaller relative errors are drawn here, at the rounding of f64: zero has no place on a logarithmic axis.
 const MIN_DRAWN_ERROR: f64 = 1e-16;
 
+/// How the points of a method are drawn.
 const STYLES: [(Method, Shape, Colour); 5] = [
     (Method::Analytic, Shape::Diamond, Colour::Black),
     (Method::MdrSteady, Shape::Circle, Colour::Blue),
@@ -248,7 +253,8 @@ fn figure(rows: &[Row]) -> Figure {
     })
 }
 
-/// Relative bar and deviation; an elastic body has no friction to which they could be related.
+/// Method, and error bar and deviation relative to the reference; `None` where the reference is zero within the bar, as the
+/// friction of elastic materials is.
 fn point((_, bar): &Row) -> Option<(Method, [f64; 2])> {
     let value = bar.reference.abs();
     let point = [bar.error_bar, bar.deviation].map(|error| (error / value).max(MIN_DRAWN_ERROR));

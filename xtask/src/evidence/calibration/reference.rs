@@ -12,19 +12,21 @@ use viscofriction::solve::{Body, Motion, Problem, Revolution, SolveError};
 use super::scene::{FLAT, Scene};
 use crate::evidence::request::{ROUNDING, Reference, Request, first_reached, presses};
 
-/// Half the lengths of contacts over the radius of a cylinder, between which a force is sought.
+/// Half the contact length over the radius of a cylinder is sought between these; above 1 the contact would be wider than the
+/// cylinder.
 const HALF_LENGTHS: [f64; 2] = [1e-6, 1.0];
-/// Relative error of the friction of a contact whose length is found to rounding.
+/// Relative error assumed of the friction of Hunter's cylinder: the root is found to rounding, and the formula amplifies it.
 const CYLINDER_ERROR: f64 = 1e-12;
-/// Relative errors of the line; the first that is reached is taken.
+/// Relative errors requested of references in the one-dimensional model; the first that is reached is taken.
 const LINE_ERRORS: [f64; 3] = [1e-12, 1e-11, 1e-10];
-/// Errors of references, as a part of the bars that they judge sharply, at most.
+/// A reference judges an error bar sharply if its own error is at most this part of it.
 pub(super) const SHARP_REFERENCE_RATIO: f64 = 1.0 / 3.0;
-/// Smallest and largest relative errors asked of the half space.
+/// Relative errors requested of references on the half space are limited to this range, at its lower end because smaller ones
+/// take too long.
 const HALF_SPACE_ERRORS: [f64; 2] = [1e-5, 1e-3];
 
-/// The closed form that a result is compared with, if there is one that is not of the same method, and is sharp for a bar
-/// of this relative length.
+/// The closed form with which a result of another method is compared, sharp for an error bar of the relative length `bar`;
+/// `None` where there is none.
 pub(super) fn closed_form(scene: &Scene, request: &Request, bar: f64) -> Result<Option<Reference>> {
     let (file, presses) = (&scene.file, presses(&scene.file));
     match request.method {
@@ -41,18 +43,19 @@ pub(super) fn closed_form(scene: &Scene, request: &Request, bar: f64) -> Result<
     reference.transpose()
 }
 
-/// Whether a stationary solver can judge a result that no closed form does.
+/// Whether a result for which there is no closed form is compared with that of a stationary solver.
 pub(super) fn is_numerical(scene: &Scene, request: &Request) -> bool {
     request.method != Method::Analytic || scene.is_stationary()
 }
 
+/// Relative error of a reference that judges an error bar of the relative length `bar`, within [`HALF_SPACE_ERRORS`].
 fn sharp_for(bar: f64) -> f64 {
     let [smallest, largest] = HALF_SPACE_ERRORS;
     (SHARP_REFERENCE_RATIO * bar).max(smallest).min(largest)
 }
 
-/// The stationary solver of a model, sharp for bars of this relative length; where its error is not reached, what was
-/// reached is the reference, with the error that it has.
+/// The result of the stationary solver of a model, sharp for error bars of the relative length `bar`. Where the solver does
+/// not reach that, what it reached is the reference, with its larger error.
 pub(super) fn numerical(scene: &Scene, model: Model, bar: f64) -> Result<Reference> {
     if scene.is("elastic") && !presses(&scene.file) {
         let source = "no friction on an elastic material";
@@ -77,7 +80,8 @@ pub(super) fn numerical(scene: &Scene, model: Model, bar: f64) -> Result<Referen
     })
 }
 
-/// The contact of Hunter's cylinder (1961) that carries the force.
+/// Friction coefficient of a cylinder that rolls on a standard solid (Hunter 1961). The formula takes the contact length, so
+/// that the length under which the given force is carried is sought first, in logarithms of both.
 fn cylinder(scene: &scene::Scene) -> Result<Reference> {
     let problem = Problem::try_from(scene)?;
     let (Body::Cylinder(cylinder), Motion::Sliding(load)) = (problem.body(), problem.motion())
@@ -100,7 +104,8 @@ fn cylinder(scene: &scene::Scene) -> Result<Reference> {
     Ok(Reference::new(friction, error, "Hunter's cylinder"))
 }
 
-/// The closed form of powers beside the quadrature that solves any body.
+/// Depth \[m] of a power profile under a constant force by its closed form, with which the quadrature for any body is compared;
+/// `None` of other bodies and where the depth is given.
 fn power_pressed(scene: &scene::Scene) -> Result<Option<Reference>> {
     let problem = Problem::try_from(scene)?;
     let (Body::Revolution(Revolution::Power(profile)), Control::NormalForce(force)) =

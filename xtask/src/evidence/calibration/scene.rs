@@ -13,12 +13,15 @@ use crate::evidence::request::{Request, presses};
 use crate::evidence::sample::{Source, sample};
 use crate::random::Random;
 
+/// A random scene.
 pub(super) struct Scene {
+    /// What the tables say of it.
     pub(super) label: Label,
+    /// The scene itself, without a model and an accuracy.
     pub(super) file: scene::Scene,
 }
 
-/// Its number and its parts, which are inline tables of a scene file.
+/// Number of a scene and its parts, as inline tables in TOML.
 #[derive(Debug, Clone, Default, Serialize)]
 pub(super) struct Label {
     scene: usize,
@@ -28,13 +31,13 @@ pub(super) struct Label {
     solve: String,
 }
 
-/// One scene in so many slides from first touch.
+/// One scene of this number slides from first touch; the others are stationary or pressed.
 const SCENES_PER_FIRST_TOUCH: usize = 6;
-/// Bodies that end in a flat.
+/// Kinds of bodies that end in a flat, at whose edge the pressure has no bound.
 pub(super) const FLAT: &str = "flat-cone truncated-paraboloid";
 
 impl Scene {
-    /// The scene with this number, from the next numbers of the generator.
+    /// The scene with this number, from the next numbers of `random`; `memory` is the largest that a solution may take.
     pub(super) fn new(number: usize, random: &mut Random, memory: &str) -> Result<Self> {
         let mut source = Source::new(match number % SCENES_PER_FIRST_TOUCH {
             0 => "from-first-touch",
@@ -54,28 +57,30 @@ impl Scene {
         Ok(Self { label, file })
     }
 
-    /// Whether its body or its material is one of those between blanks.
+    /// Whether its body or its material is of one of the kinds that `kinds` names, separated by blanks.
     pub(super) fn is(&self, kinds: &str) -> bool {
         let own = [self.file.indenter.key(), self.file.material.key()];
         let is_own = |kind: &str| own.iter().any(|key| key.split('.').nth(1) == Some(kind));
         kinds.split(' ').any(is_own)
     }
 
+    /// Whether the depth is given instead of the force.
     pub(super) const fn is_at_depth(&self) -> bool {
         self.file.load.indentation_depth.is_some()
     }
 
+    /// Whether it slides in a stationary state.
     pub(super) fn is_stationary(&self) -> bool {
         !presses(&self.file) && self.file.solve.sliding_distance.is_none()
     }
 
-    /// Whether a dashpot carries a part of the load.
+    /// Whether the material has a viscosity beside its springs, so that its stress follows the strain rate without a bound.
     fn has_dashpot(&self) -> bool {
         let problem = Problem::try_from(&self.file);
         problem.is_ok_and(|problem| problem.material().relaxation().viscosity() > 0.0)
     }
 
-    /// Whether the equivalent line is infinitely steep somewhere.
+    /// Whether the profile of the one-dimensional model is infinitely steep somewhere.
     fn is_sharp(&self) -> bool {
         let has_cusp = match &self.file.indenter {
             Indenter::Power { exponent, .. } => *exponent < 1.0,
@@ -86,17 +91,22 @@ impl Scene {
     }
 }
 
+/// A part of a scene as an inline table in TOML.
 fn inline(part: &impl Serialize) -> Result<String> {
     Ok(Value::try_from(part)?.to_string())
 }
 
-/// How much is computed.
+/// What is computed: a table of `requests.toml`.
 #[derive(Deserialize)]
 pub(super) struct Extent {
+    /// Number of scenes.
     pub(super) scenes: usize,
-    /// Memory of one solution.
+    /// Largest memory of one solution, such as `16 MiB`.
     pub(super) memory: String,
+    /// One of this number of scenes, on average, is also solved on the half space.
     half_space_every: f64,
+    /// What is asked of scenes that are only pressed; then of those that slide: in the one-dimensional model, on the half
+    /// space, of cylinders and of rough surfaces.
     pressed: Vec<Asked>,
     line: Vec<Asked>,
     half_space: Vec<Asked>,
@@ -104,25 +114,32 @@ pub(super) struct Extent {
     rough: Vec<Asked>,
 }
 
-/// A method, and between what its accuracy is drawn.
+/// A method, and the range from which its accuracy is drawn. Without errors and elements [`CLOSED_FORM_ERROR`] is requested.
 #[derive(Deserialize)]
 struct Asked {
     method: Method,
+    /// Relative error: decimal logarithms of the ends of the range, as all errors of this table.
     errors: Option<[f64; 2]>,
+    /// Instead of `errors` for bodies that end in a flat.
     errors_of_flat_ends: Option<[f64; 2]>,
+    /// Numbers of elements.
     elements: Option<Vec<usize>>,
+    /// Instead of `elements` on a viscous material.
     elements_on_dashpot: Option<Vec<usize>>,
 }
 
-/// Relative error requested of closed forms, with which the table of s(p) takes part.
+/// Relative error requested of closed forms: so large that the tabulated factor s(p) of power profiles, whose error is not of
+/// rounding only, is admitted.
 const CLOSED_FORM_ERROR: f64 = 1e-2;
 
 impl Extent {
+    /// That of a quick run or of a full one.
     pub(super) fn new(quick: bool) -> Result<Self> {
         extent(include_str!("requests.toml"), quick)
     }
 
-    /// What is asked of a scene, by model.
+    /// What is asked of a scene, requests of one model next to each other. Cases in which friction is infinite or a method
+    /// converges too slowly are left out.
     pub(super) fn requests(&self, random: &mut Random, scene: &Scene) -> Vec<Request> {
         let mut draw = |model, asked: &[Asked]| -> Vec<Request> {
             let asked = asked.iter().map(|asked| asked.draw(model, random, scene));
@@ -157,6 +174,7 @@ impl Extent {
 }
 
 impl Asked {
+    /// A request with a random accuracy: errors are uniformly distributed in their logarithm.
     fn draw(&self, model: Model, random: &mut Random, scene: &Scene) -> Request {
         let of_flat_end = self.errors_of_flat_ends.filter(|_| scene.is(FLAT));
         let on_dashpot = self.elements_on_dashpot.as_ref();

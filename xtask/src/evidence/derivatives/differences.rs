@@ -1,4 +1,4 @@
-//! One scene: its derivatives, and differences of far more exact answers.
+//! Derivatives of the answer to one scene, compared with central differences of far more exact answers.
 
 use anyhow::{Context as _, Result};
 use serde::{Deserialize, Serialize};
@@ -11,35 +11,41 @@ use crate::evidence::request::{derivatives, number_at};
 use crate::evidence::sample::NumberedScene;
 use crate::random::Random;
 
-/// Distances of the answers in steps with their weights: `12 f' = 8 (f₁ − f₋₁) − (f₂ − f₋₂)`, to the fourth order.
+/// Positions in steps h and weights of a central difference of fourth order: `12 h f' = 8 (f₁ − f₋₁) − (f₂ − f₋₂)`.
 const STENCIL: [[f64; 2]; 4] = [[-2.0, 1.0], [-1.0, -8.0], [1.0, 8.0], [2.0, -1.0]];
+/// The sum of weight times value is this times h f'.
 const STENCIL_DIVISOR: f64 = 12.0;
-/// What the fourth order leaves, h⁴ f⁽⁵⁾/30, times f′ over the square of what the second one does, h² f‴/6, of a logarithm of the
-/// distance to any place.
+/// Estimates the remainder r₄ = h⁴ f⁽⁵⁾/30 of the fourth order by the remainder r₂ = h² f‴/6 of the second: r₄ = 7.2 r₂²/f′,
+/// which is exact of f = ln |x − x₀| for any x₀, the shape of a quantity that follows a power law near x₀.
 const REMAINDER_RATIO: f64 = 7.2;
 /// Bodies that end in a flat or have an edge.
 const FLAT_ENDED: [&str; 3] = ["flat-punch", "flat-cone", "truncated-paraboloid"];
 
-/// A method, and how accurate its answers are to be.
+/// A method, on which scenes it is judged, and how accurate its answers are to be; a table of the file of the experiment.
 #[derive(Debug, Clone, Deserialize)]
 pub(super) struct Asked {
-    /// What its scenes are drawn from, and of how many one is taken.
+    /// Name of the range from which its scenes are drawn.
     pub(super) range: String,
+    /// One of this number of scenes is taken.
     pub(super) one_scene_of: usize,
     pub(super) method: Method,
     model: Model,
+    /// Requested of the answer that is differentiated.
     relative_error: f64,
+    /// Requested of the answers that are differenced.
     reference_error: f64,
+    /// h: step of the logarithm of the number that is changed.
     step: f64,
-    /// Scenes from which those are taken.
+    /// Number of scenes from which those are taken.
     pub(super) scenes: usize,
-    /// Memory of an answer, if not as much as the scene allows.
+    /// Largest memory of an answer, if not that of the scene.
     memory: Option<String>,
-    /// Memory of an answer that is differenced, if not as much as of the one that is differentiated.
+    /// Largest memory of an answer that is differenced, if not that of the one that is differentiated.
     reference_memory: Option<String>,
 }
 
-/// One derivative of the logarithm of a quantity by that of a number.
+/// One derivative of the logarithm of a quantity by that of a number of the scene, and the difference that is its reference.
+/// All values are without a unit; errors are absolute.
 #[derive(Debug, Clone, Serialize)]
 pub(super) struct Derivative {
     scene: usize,
@@ -75,6 +81,7 @@ pub(super) struct Refusal {
 }
 
 impl Refusal {
+    /// The refusal of the scene with the number `scene`.
     pub(super) fn new(scene: usize, asked: &Asked, error: &anyhow::Error) -> Self {
         Self {
             scene,
@@ -84,7 +91,8 @@ impl Refusal {
     }
 }
 
-/// The derivatives of a scene by some of its numbers, or none where the method has none.
+/// The derivatives of a scene by up to `count` of its numbers, with their references; empty where the method does not offer the
+/// scene or has no derivatives.
 pub(super) fn compared(
     NumberedScene { number, scene }: &NumberedScene,
     asked: &Asked,
@@ -124,7 +132,7 @@ pub(super) fn compared(
     Ok(rows)
 }
 
-/// Some numbers of a scene that may be larger and smaller.
+/// Up to `count` random derivatives by numbers that may be larger by two steps; one at its upper bound may not.
 fn chosen<'a>(
     known: &'a [Sensitivity],
     scene: &Scene,
@@ -145,12 +153,15 @@ fn chosen<'a>(
     chosen
 }
 
+/// The largest modulus of the derivatives of a quantity; 0 if there is none.
 fn largest(known: &[Sensitivity], quantity: &str) -> f64 {
     let known = known.iter().filter_map(|one| one.derivatives.of(quantity));
     known.map(|known| known.value.abs()).fold(0.0, f64::max)
 }
 
-/// The derivative of the logarithm of a quantity, whose answers err independently of each other, with what the step leaves.
+/// The derivative of the logarithm of the quantity `name` from `answers` at the positions of [`STENCIL`]. Its error has two
+/// parts: those of the answers, as if independent of each other, and the estimated remainder of the difference. `None` where an
+/// answer has no such quantity or it is not positive.
 fn difference(answers: &[Answer], name: &str, step: f64) -> Option<Estimate> {
     let (mut sum, mut near, mut squares) = (0.0, 0.0, 0.0);
     for (answer, [steps, weight]) in answers.iter().zip(STENCIL) {
@@ -164,6 +175,7 @@ fn difference(answers: &[Answer], name: &str, step: f64) -> Option<Estimate> {
     let width = STENCIL_DIVISOR * step;
     let fourth = sum / width;
     let second = near / (2.0 * step);
+    // The distance of both orders is the remainder of the second.
     let apart = (fourth - second).abs();
     let left = apart * (REMAINDER_RATIO * apart / fourth.abs()).min(1.0);
     let known = Estimate::new(fourth, squares.sqrt() / width + left);
@@ -171,6 +183,7 @@ fn difference(answers: &[Answer], name: &str, step: f64) -> Option<Estimate> {
 }
 
 impl Asked {
+    /// The scene with this method, its model and memory, and a relative error.
     fn scene(&self, scene: &Scene, relative_error: f64) -> Scene {
         let mut scene = scene.clone();
         scene.solve.method = Some(self.method);
@@ -182,7 +195,7 @@ impl Asked {
         scene
     }
 
-    /// The answers around a scene, for differences by a number.
+    /// The exact answers at the positions of [`STENCIL`] around a scene, of whose numbers that at the path `parameter` changes.
     fn answers(&self, scene: &Scene, parameter: &str) -> Result<Vec<Answer>> {
         let mut exact = self.scene(scene, self.reference_error);
         if self.reference_memory.is_some() {
@@ -198,7 +211,7 @@ impl Asked {
         STENCIL.into_iter().map(solved).collect()
     }
 
-    /// A scene with a number that is so many steps larger.
+    /// The scene with the number at `path` multiplied by exp(`steps` h).
     fn changed(&self, scene: &Scene, path: &str, steps: f64) -> Result<Scene> {
         let mut value = Value::try_from(scene)?;
         let number = number_at(&mut value, path).with_context(|| format!("no number {path}"))?;
@@ -206,7 +219,7 @@ impl Asked {
         Ok(value.try_into()?)
     }
 
-    /// What the table calls such scenes.
+    /// Method and, for the stationary half space, kind of body in words; a line of the table.
     fn group(&self, scene: &Scene) -> String {
         let kind = scene.indenter.key();
         let kind = kind.split('.').nth(1).unwrap_or_default();

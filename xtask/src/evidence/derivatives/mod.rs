@@ -1,4 +1,5 @@
-//! Do the error bars of derivatives hold on random scenes? They are compared with differences of answers that are far more exact.
+//! Do the error bars of derivatives hold on random scenes? They are compared with differences of answers that are far more
+//! exact.
 
 mod differences;
 
@@ -12,16 +13,18 @@ use crate::table::{Column, group_by, table_of};
 use crate::tasks::in_parallel;
 use differences::{Asked, Derivative, Refusal, compared};
 
-/// Fraction of the derivatives of each method that must be within their bars.
+/// Fraction of the derivatives of each method whose deviation must be within both error bars.
 const MIN_COVERAGE: f64 = 0.95;
-/// Standard deviations by which the fraction of a few derivatives may be lower.
+/// Binomial standard deviations by which the observed fraction may fall short of [`MIN_COVERAGE`]. Fewer than elsewhere: the
+/// numbers of one scene are not independent of each other, so that the binomial distribution is only a guide.
 const ALLOWED_SCATTER: f64 = 1.5;
 
-/// What `requests.toml` holds.
+/// What is computed: a table of `requests.toml`.
 #[derive(Debug, Deserialize)]
 struct Requests {
-    /// Numbers of each scene that are changed.
+    /// By how many numbers of each scene is differentiated.
     numbers: usize,
+    /// One entry for each method.
     method: Vec<Asked>,
 }
 
@@ -49,7 +52,7 @@ pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
     })
 }
 
-/// Each method for itself, so that none is outvoted by the others.
+/// Why the command fails: a method whose bars hold too seldom. Each is judged for itself, so that none is outvoted by others.
 fn failure(rows: &[Derivative]) -> Option<String> {
     let missed = group_by(rows, |row| row.method).into_iter();
     let missed = missed.filter_map(|(method, rows)| {
@@ -65,6 +68,7 @@ fn failure(rows: &[Derivative]) -> Option<String> {
     }
 }
 
+/// How many derivatives are within their bars.
 fn held(rows: &[&Derivative]) -> Share {
     rows.iter().map(|row| row.holds()).collect()
 }
@@ -87,16 +91,17 @@ fn columns<'a>() -> [Column<(&'a String, Vec<&'a Derivative>)>; 8] {
     ]
 }
 
+/// A number with two significant digits and a power of ten.
 fn short(value: f64) -> String {
     format!("{value:.1e}")
 }
 
-/// A number of each derivative, over the largest derivative of the same quantity.
+/// An error or a deviation of each derivative, over the largest derivative of the same quantity in its scene.
 fn parts(rows: &[&Derivative], number: fn(&Derivative) -> f64) -> Vec<f64> {
     rows.iter().map(|row| number(row) / row.largest).collect()
 }
 
-/// The deviation that so many per cent of the derivatives do not exceed.
+/// The relative deviation that `percent` per cent of the derivatives do not exceed.
 fn below(rows: &[&Derivative], percent: usize) -> String {
     let mut deviations = parts(rows, |row| row.deviation);
     deviations.sort_by(f64::total_cmp);

@@ -23,50 +23,59 @@ use crate::tasks::in_parallel;
 const TRUTH_ERROR: f64 = 1e-3;
 /// Relative error of the friction in the one-dimensional model before random errors are added.
 const TRUTH_ERROR_ON_LINE: f64 = 1e-9;
-/// Decades by which the moduli of a start may be off.
+/// Largest deviation of a start: moduli are multiplied by 10^x with |x| up to this. Chosen, a factor of three, as from a data
+/// sheet.
 const START_DECADES: f64 = 0.5;
-/// Smallest and largest percentage of the experiments in which an interval of 95 % may hold.
+/// Smallest and largest percentage of the experiments in which an interval that claims 95 % may hold; chosen.
 const ALLOWED_COVERAGE: [f64; 2] = [93.0, 97.0];
 
 /// What `cases.toml` holds.
 #[derive(Deserialize)]
 struct Cases {
+    /// One entry for each material and kind of errors.
     case: Vec<Case>,
 }
 
 /// A material behind many experiments.
 #[derive(Deserialize)]
 struct Case {
+    /// For the table.
     name: String,
+    /// Number of experiments of a full run.
     experiments: usize,
-    /// Of a quick run.
+    /// The same of a quick run; 0 leaves the case out.
     quick: usize,
     /// The slowest and the fastest, \[m/s].
     speeds: [f64; 2],
+    /// Number of speeds, evenly spaced in their logarithm.
     points: usize,
-    /// Standard error over friction.
+    /// Standard error of a point over its friction.
     noise: f64,
+    /// Whether the fit is told the standard errors; otherwise it estimates them from the residuals.
     is_known: bool,
-    /// With any speed.
+    /// The scene with the true material; its speed is replaced.
     scene: Scene,
 }
 
-/// How often the intervals of a quantity hold.
+/// How often the intervals of a quantity hold; percentages of all experiments.
 #[derive(Debug, Clone, Serialize)]
 struct Row {
     case: String,
     experiments: usize,
     quantity: String,
+    /// The modulus or the viscosity with which friction was computed, in SI.
     truth: f64,
+    /// How often the interval holds it.
     holds_percent: f64,
+    /// Binomial standard deviation of `holds_percent`.
     holds_percent_error: f64,
-    /// Experiments in which one end is missing at least.
+    /// Experiments in which at least one end of the interval is missing, because the points do not bound the quantity.
     open_percent: f64,
     /// Experiments without a fit, which count as intervals that do not hold.
     failed: usize,
 }
 
-/// Fits all cases; a quick run takes fewer experiments of the cheap ones.
+/// Fits the experiments of all cases; a quick run takes fewer, of the cheap cases.
 pub(super) fn report(quick: bool) -> Result<Report> {
     let Cases { mut case } = toml::from_str(include_str!("cases.toml"))?;
     if quick {
@@ -95,6 +104,7 @@ pub(super) fn report(quick: bool) -> Result<Report> {
 }
 
 impl Row {
+    /// Whether the percentage is within [`ALLOWED_COVERAGE`], up to two of its standard deviations on either side.
     fn is_as_asked(&self) -> bool {
         let margin = 2.0 * self.holds_percent_error;
         (ALLOWED_COVERAGE[0] - margin..=ALLOWED_COVERAGE[1] + margin).contains(&self.holds_percent)
@@ -102,6 +112,7 @@ impl Row {
 }
 
 impl Case {
+    /// Fits all experiments; a row for each quantity that is fitted. Fails where no experiment has a fit.
     fn rows(&self) -> Result<Vec<Row>> {
         let truth = self.truth()?;
         let mut scene = Value::try_from(&self.scene)?;
@@ -140,7 +151,7 @@ impl Case {
         quantities.map(row).collect()
     }
 
-    /// Friction without errors.
+    /// Friction at all speeds with the true material, to an error far below the random ones that are added later.
     fn truth(&self) -> Result<Vec<FrictionPoint>> {
         let [slowest, fastest] = self.speeds;
         let numbers: Vec<usize> = (0..self.points).collect();
@@ -164,6 +175,8 @@ impl Case {
         })
     }
 
+    /// What the fit finds in the experiment of this number: friction gets normally distributed errors, and moduli start from
+    /// wrong values, both from a generator of this seed.
     fn findings(&self, truth: &[FrictionPoint], number: u64) -> Result<Vec<Finding>> {
         // Neighbouring seeds give numbers that have nothing in common.
         let mut random = Random::new(number);
@@ -188,7 +201,8 @@ impl Case {
     }
 }
 
-/// Multiplies all moduli and viscosities below a value that are not zero by random factors.
+/// Multiplies all positive moduli and viscosities within `value`, a table of a scene, by random factors of up to
+/// [`START_DECADES`].
 fn move_moduli(value: &mut Value, random: &mut Random) {
     match value {
         Value::Table(table) => {

@@ -1,4 +1,4 @@
-//! One experiment: a material that is known, measured with errors, fitted, and slid over.
+//! One experiment: a known material is measured with errors, a series is fitted to the points, and a body slides over both.
 
 use std::f64::consts::{LN_10, TAU};
 
@@ -14,87 +14,121 @@ use viscofriction::solve::{Problem, solve};
 use crate::evidence::request::{answer, differentiated};
 use crate::random::Random;
 
-/// What `experiments.toml` holds.
+/// What `experiments.toml` holds; there the keys are described. Numbers are drawn between the two ends of a range.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Experiments {
-    /// Of a full run and of a quick one.
+    /// Number of experiments of a full run and of a quick one.
     pub(super) count: [u32; 2],
+    /// Relative standard deviation of the errors of G' and of G''.
     noise: [f64; 2],
+    /// Standard deviation of the true temperature of an isotherm from the stated one, \[K].
     temperature: [f64; 2],
+    /// Relative standard deviation of the factor that all moduli of an isotherm share.
     factor: [f64; 2],
+    /// Number of isotherms.
     isotherms: [f64; 2],
+    /// Temperature between neighbouring isotherms, \[K].
     step: [f64; 2],
+    /// Number of frequencies of an isotherm.
     points: [f64; 2],
+    /// Lowest and highest frequency of every isotherm, \[Hz]; not a range.
     frequency: [f64; 2],
+    /// C₁ and C₂ \[K] of the law by Williams, Landel & Ferry of the true materials; not a range.
     wlf: [f64; 2],
+    /// Where ln(v/a) is between the ends of the measured window, from 0 to 1; a is the radius of the contact.
     inside: [f64; 2],
+    /// Factor by which v/a is beyond an end of the window, where the answer must warn.
     outside: [f64; 2],
+    /// The materials, taken in turn.
     material: Vec<TrueMaterial>,
+    /// Body, load and options; material and speed are replaced.
     scene: Scene,
 }
 
+/// A material whose branches follow a smooth spectrum H(τ), at 20 °C.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct TrueMaterial {
+    /// For the tables.
     name: String,
+    /// \[Pa].
     equilibrium_modulus: f64,
+    /// Branches per decade of τ.
     per_decade: f64,
+    /// Terms of H.
     #[serde(default)]
     peaks: Vec<Peak>,
+    /// A further term of H.
     power: Option<Power>,
 }
 
+/// modulus · exp(−(log₁₀(τ/time)/decades)²).
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Peak {
+    /// \[Pa].
     modulus: f64,
+    /// \[s].
     time: f64,
+    /// Width.
     decades: f64,
 }
 
+/// modulus · (τ/1 s)^(−exponent).
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Power {
+    /// \[Pa].
     modulus: f64,
+    /// Without a unit.
     exponent: f64,
 }
 
-/// What came of an experiment.
+/// The outcome of an experiment, and what was drawn for it; a row of `material.csv`.
 #[derive(Debug, Clone, Serialize)]
 pub(super) struct Found {
+    /// Name of the true material.
     pub(super) material: String,
+    /// Number of isotherms.
     pub(super) isotherms: usize,
     /// Whether the moduli change with the absolute temperature.
     pub(super) is_entropic: bool,
+    /// Standard deviations of the errors, as in [`Experiments`].
     noise_storage: f64,
     noise_loss: f64,
     temperature_scatter_k: f64,
     factor_scatter: f64,
+    /// Of the fitted series.
     branches: usize,
+    /// Speed within the window.
     velocity_m_per_s: f64,
+    /// Friction coefficient on the fitted material.
     friction: f64,
+    /// The same on the true material.
     true_friction: f64,
     /// Standard uncertainty of the friction by the covariance of the moduli.
     pub(super) material_error: f64,
-    /// Deviation over this uncertainty.
+    /// `friction` minus `true_friction` over this uncertainty.
     pub(super) deviation: f64,
-    /// Whether the answer beyond the window says so.
+    /// Whether the answer at a speed beyond the window says that the material is extrapolated.
     pub(super) warns_outside: bool,
 }
 
 impl Found {
+    /// Standard uncertainty of the friction by the material over the friction.
     pub(super) fn relative_error(&self) -> f64 {
         self.material_error / self.friction
     }
 }
 
-/// Decades of τ of the true materials.
+/// Decimal logarithms of the shortest and the longest relaxation time of the true materials, \[s].
 const DECADES: [f64; 2] = [-9.0, 3.0];
 /// Temperature of the middle isotherm, at which the material is wanted, \[°C].
 const REFERENCE_TEMPERATURE: f64 = 20.0;
 
 impl TrueMaterial {
+    /// The branches at 20 °C, each with the modulus H(τ).
     fn spectrum(&self) -> Result<RelaxationSpectrum> {
         let n = ((DECADES[1] - DECADES[0]) * self.per_decade).round();
         let branch = |k: usize| {
@@ -115,18 +149,24 @@ impl TrueMaterial {
     }
 }
 
-/// The numbers of one experiment, drawn in this order.
+/// What was drawn for one experiment; units as in [`Experiments`].
 struct Drawn {
+    /// For what is drawn later.
     random: Random,
+    /// Number of isotherms.
     isotherms: usize,
+    /// Whether moduli are proportional to the absolute temperature, b_T = T/T_r.
     is_entropic: bool,
+    /// Of G' and of G''.
     noise: [f64; 2],
+    /// Standard deviation of the temperature of an isotherm.
     temperature: f64,
+    /// Standard deviation of the factor of an isotherm.
     factor: f64,
 }
 
 impl Experiments {
-    /// The experiment of a number.
+    /// Carries out the experiment of this number, which is also the seed of all that is drawn.
     pub(super) fn run(&self, number: u32) -> Result<Found> {
         let mut random = Random::new(u64::from(number));
         let [fewest, most] = self.isotherms;
@@ -145,6 +185,7 @@ impl Experiments {
         found.with_context(|| format!("experiment {number}"))
     }
 
+    /// Measures and fits a material, and slides over it at one speed within the window of frequencies and at one beyond.
     fn fitted(&self, material: &TrueMaterial, mut drawn: Drawn) -> Result<Found> {
         let truth = material.spectrum()?;
         let isotherms = self.measured(&truth, &mut drawn)?;
@@ -153,6 +194,7 @@ impl Experiments {
             series(&truth, None, window),
             series(&fit.spectrum, Some(&fit), window),
         ];
+        // Within the window: friction on both materials, and the uncertainty that the covariance of the moduli gives it.
         let part = drawn.random.between(self.inside);
         let omega = (window[0].ln() + part * (window[1] / window[0]).ln()).exp();
         let velocity = self.velocity(&truth, omega)?;
@@ -160,6 +202,7 @@ impl Experiments {
         let scene = self.slid(&fitted_table, velocity);
         let problem = Problem::try_from(&scene)?;
         let found = differentiated(&scene, &problem, solve(&problem)?)?;
+        // Beyond one end of the window: only whether the answer warns.
         let factor = drawn.random.between(self.outside);
         let omega = match drawn.random.uniform() {
             ..0.5 => window[0] / factor,
@@ -188,7 +231,7 @@ impl Experiments {
         })
     }
 
-    /// The isotherms as they are measured.
+    /// Isotherms of the material with all errors. The middle one is at [`REFERENCE_TEMPERATURE`].
     fn measured(&self, truth: &RelaxationSpectrum, drawn: &mut Drawn) -> Result<Vec<Isotherm>> {
         let law = WlfShift::new(self.wlf[0], self.wlf[1], REFERENCE_TEMPERATURE)?;
         let step = drawn.random.between(self.step);
@@ -225,7 +268,8 @@ impl Experiments {
         (0..drawn.isotherms).map(isotherm).collect()
     }
 
-    /// The speed at which the radius of Hertz' contact is passed in 1/ω.
+    /// The speed \[m/s] at which the ball slides over the radius a of its contact in 1/ω: v = ω a, with a³ = 3 F R/(16 |G*(ω)|)
+    /// by Hertz for an incompressible half space.
     fn velocity(&self, truth: &RelaxationSpectrum, omega: f64) -> Result<f64> {
         let modulus = truth.complex_modulus(omega)?;
         let modulus = modulus.storage.hypot(modulus.loss);
@@ -233,6 +277,7 @@ impl Experiments {
         Ok(omega * (3.0 * force * BALL_RADIUS / (16.0 * modulus)).cbrt())
     }
 
+    /// The scene on a material at a speed \[m/s].
     fn slid(&self, material: &MaterialTable, velocity: f64) -> Scene {
         let mut scene = self.scene.clone();
         scene.material = material.clone();
@@ -241,7 +286,7 @@ impl Experiments {
     }
 }
 
-/// The series of isotherms as `fit-material` finds it, and the window of frequencies.
+/// The series that `fit-material` identifies from isotherms, and the window \[rad/s] of the master curve.
 fn fit(isotherms: &[Isotherm]) -> Result<(Identification, [f64; 2])> {
     let shifting = Shifting {
         reference_temperature: Some(REFERENCE_TEMPERATURE),
@@ -253,10 +298,10 @@ fn fit(isotherms: &[Isotherm]) -> Result<(Identification, [f64; 2])> {
     Ok((found, curve.frequencies()))
 }
 
-/// Of the ball, \[m]; only for the speed.
+/// Radius of the ball \[m], as in the scene of `experiments.toml`; only for the choice of the speed.
 const BALL_RADIUS: f64 = 5e-3;
 
-/// The material of a scene, measured in a window.
+/// The material of a scene: a series with the window \[rad/s] in which it was measured, and the covariance of `fit`.
 fn series(
     spectrum: &RelaxationSpectrum,
     fit: Option<&Identification>,

@@ -1,4 +1,5 @@
-//! Whether the band that the covariance of a fitted material gives a friction coefficient holds the friction of the true material.
+//! Whether the band that the covariance of a fitted material gives a friction coefficient holds the friction of the true
+//! material.
 
 mod experiment;
 
@@ -10,21 +11,26 @@ use crate::table::{Table, group_by};
 use crate::tasks::in_parallel;
 use experiment::{Experiments, Found};
 
-/// Standard deviations of a normal distribution that hold 95 per cent of it to either side.
+/// 95 % of a normal distribution are within this number of standard deviations from its mean.
 const OF_95_PERCENT: f64 = 1.96;
-/// Smallest and largest share of the true frictions that may be inside the band of 95 %.
+/// Smallest and largest share of the true frictions that may be inside the band of 95 %; chosen.
 const ALLOWED_COVERAGE: [f64; 2] = [0.92, 0.98];
-/// Standard deviations by which the share of a few experiments may be outside.
+/// Binomial standard deviations by which the share in a quick run may be outside of [`ALLOWED_COVERAGE`].
 const ALLOWED_SCATTER: f64 = 3.0;
 
 /// Experiments that have something in common.
 #[derive(Debug, Serialize)]
 struct Group {
+    /// What they have in common.
     experiments: String,
+    /// How many there are.
     number: usize,
+    /// Fraction of them whose true friction is within 1.96 standard uncertainties of the found one; then within one.
     inside_95_percent_band: f64,
     inside_68_percent_band: f64,
+    /// Standard uncertainty by the material over friction.
     median_relative_material_error: f64,
+    /// Fraction of them that warn beyond the measured window.
     warns_outside: f64,
 }
 
@@ -65,8 +71,8 @@ pub(super) fn report(quick: bool) -> Result<Report> {
     })
 }
 
-/// All experiments, those of each material, those of each number of isotherms, and those with and without moduli that change with
-/// temperature.
+/// All experiments, those of each material, those of each number of isotherms, and those with b_T = 1 and b_T = T/T_r; the
+/// first is all.
 fn groups(found: &[Found]) -> Vec<Group> {
     let kinds: [fn(&&Found) -> String; 4] = [
         |_| "all".to_owned(),
@@ -81,6 +87,7 @@ fn groups(found: &[Found]) -> Vec<Group> {
 }
 
 impl Group {
+    /// Fractions and median of some experiments, which have `experiments` in common; at least one.
     fn of(experiments: String, found: &[&Found]) -> Self {
         let share = |is: fn(&Found) -> bool| {
             let share: Share = found.iter().map(|one| is(one)).collect();

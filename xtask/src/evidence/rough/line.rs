@@ -13,23 +13,27 @@ use indenters::rough::{PeriodicSurface, Wave};
 use numerics::{MaxElements, Request};
 use rheology::{Compressible, Material};
 
-/// How many periods of the surface the line is long, so that its waves are rounded to whole numbers by a thirtieth at most.
+/// Length of the line over the period of the surface. Each wave must fit a whole number of times, at least 16 here, so that
+/// rounding changes its length by a thirtieth at most.
 const LINE_PERIODS: f64 = 16.0;
-/// Thickness of the layer, as a part of the shortest wave; its square is the error that it makes.
+/// Thickness of the layer over the shortest wavelength; the relative error of the limit of a thin layer is its square.
 const THICKNESS_OVER_WAVE: f64 = 1e-5;
-/// Of the friction.
+/// Relative error requested of the friction; half of what still counts as a right theory.
 const RELATIVE_ERROR: f64 = 0.05;
-/// Along the line.
+/// Largest number of elements along the line; a power of two, affordable for thousands of lines.
 const MAX_LINE_ELEMENTS: MaxElements = MaxElements(1 << 17);
 
-/// The length of the line that carries the force on its square.
+/// The length L of line that carries the force on an area L²: the theory does not say which.
 #[derive(Clone, Copy)]
 pub(super) enum Carrying {
+    /// Longest wavelength of the surface.
     LongestWave,
+    /// Period of the surface.
     Period,
 }
 
-/// The friction coefficient under a mean pressure, to 5 %; none where it is not known as well.
+/// The friction coefficient of the line under a mean pressure \[Pa] at a velocity \[m/s], to [`RELATIVE_ERROR`]; `None` where
+/// that is not reached.
 pub(super) fn friction(
     surface: &PeriodicSurface,
     material: &dyn Material,

@@ -18,16 +18,20 @@ use crate::output::WrongInput;
 use crate::picture::chart;
 use crate::table::{GrowingTable, ROWS_AT_ONCE, Table, group_by};
 
-/// Rows that were computed; an interrupted run goes on where it was.
+/// File of the rows that were computed, from which an interrupted run goes on.
 const ROWS: &str = "rough.csv";
 
-/// What a theory says of a quantity that is solved for, by the columns of both.
+/// A theory of a quantity that is also solved for.
 struct Theory {
+    /// Quantity over theory, for people.
     name: &'static str,
+    /// Column of the solution.
     solved: &'static str,
+    /// Column of what the theory says.
     predicted: &'static str,
 }
 
+/// A theory of the friction coefficient.
 const fn friction(name: &'static str, predicted: &'static str) -> Theory {
     let solved = "friction_coefficient";
     Theory {
@@ -37,6 +41,7 @@ const fn friction(name: &'static str, predicted: &'static str) -> Theory {
     }
 }
 
+/// A theory of the area fraction.
 const fn area(name: &'static str, predicted: &'static str) -> Theory {
     let solved = "area_fraction";
     Theory {
@@ -46,6 +51,7 @@ const fn area(name: &'static str, predicted: &'static str) -> Theory {
     }
 }
 
+/// All theories, those of friction first; the indices of [`DRAWN_THEORIES`] and of the tables belong to this order.
 const THEORIES: [Theory; 7] = [
     friction("friction / Persson (2001)", "persson_friction_coefficient"),
     friction(
@@ -58,20 +64,24 @@ const THEORIES: [Theory; 7] = [
     area("area / Persson (2001)", "persson_area_fraction"),
     area("area / Xu (2024)", theories::COLUMNS[3]),
 ];
-/// Those of which there is a picture.
+/// Indices in [`THEORIES`] of those of which there is a panel in the picture.
 const DRAWN_THEORIES: [usize; 6] = [0, 1, 3, 4, 5, 6];
 
 /// A solid under the rough surfaces.
 struct Solid {
+    /// For tables and the picture.
     name: &'static str,
+    /// Contents of its scene file.
     scene: &'static str,
-    /// About the geometric mean of its moduli at rest and in the glass, \[Pa].
+    /// About the geometric mean of its moduli at rest and in the glass, in the unit of its scene; it scales the pressures.
     stiffness: f64,
-    /// The slowest and the fastest speed around its transition, \[m/s].
+    /// `slowest:fastest` speed around its transition, in the unit of its scene.
     speeds: &'static str,
+    /// How its points are drawn.
     marker: (Shape, Colour),
 }
 
+/// Two three-element solids of the ratio of moduli in their name, and a rubber of many branches.
 const SOLIDS: [Solid; 3] = [
     Solid {
         name: "standard-10",
@@ -95,7 +105,7 @@ const SOLIDS: [Solid; 3] = [
         marker: (Shape::Diamond, Colour::Green),
     },
 ];
-/// Hurst exponents, and how often the longest and the shortest wave fit into the period.
+/// Of each spectrum: Hurst exponent, and how often the longest and the shortest wave fit into the period.
 const SPECTRA: [[f64; 3]; 10] = [
     [0.6, 2.0, 8.0],
     [0.6, 4.0, 16.0],
@@ -110,16 +120,17 @@ const SPECTRA: [[f64; 3]; 10] = [
 ];
 /// Surfaces of each spectrum in a full run and in a quick one.
 const SURFACES: [usize; 2] = [10, 2];
-/// Speeds under each pressure, likewise.
+/// Number of speeds under each pressure in a full run and in a quick one.
 const SPEEDS: [usize; 2] = [5, 2];
-/// Relative deviation from the surfaces up to which a theory is right.
+/// A ratio of solution to theory counts as right if it deviates from 1 by no more than this; chosen.
 const RIGHT_WITHIN: f64 = 0.1;
-/// Ratios that are drawn.
+/// Ratios of solution to theory that are drawn; those beyond are left out of the picture, not of the tables.
 const DRAWN_RATIOS: RangeInclusive<f64> = 0.01..=10.0;
-/// Ends of the classes of the area fraction; what is below the first is not drawn.
+/// Lower ends of the classes of the area fraction in the tables; points below the first are not drawn.
 const AREAS: [f64; 7] = [1e-3, 0.01, 0.03, 0.1, 0.3, 0.6, 0.9];
 
-/// Compares the theories with all scenes, of which `out` may hold some; a quick run takes a few cheap ones.
+/// Compares the theories with the solutions of all scenes; those in a file in `out` are not computed again. A quick run takes
+/// a few cheap ones.
 pub(super) fn report(out: &Path, quick: bool) -> Result<Report> {
     let surfaces = SURFACES[usize::from(quick)];
     let spectra = if quick { &SPECTRA[..1] } else { &SPECTRA };
@@ -164,6 +175,7 @@ pub(super) fn report(out: &Path, quick: bool) -> Result<Report> {
     })
 }
 
+/// The sweep of one solid and one spectrum over seeds (outermost), mean pressures and speeds (innermost).
 fn plan(
     solid: &Solid,
     [hurst_exponent, longest, shortest]: [f64; 3],
@@ -188,10 +200,10 @@ fn plan(
     Ok(Plan::new(source, &vary, |_, _| Ok(Vec::new()))?)
 }
 
-/// The header, and rows of sweeps behind the name of the solid.
+/// The header, then rows; each is the name of the solid, a row of a sweep, and the numbers of [`theories::COLUMNS`].
 type Rows = Vec<Vec<String>>;
 
-/// What is in the file, if it is there.
+/// The rows of a file, or only the header if it is not there; fails where the file has another header.
 fn read(file: &Path, plan: &Plan) -> Result<Rows> {
     let header = std::iter::once("solid".to_owned()).chain(header(plan));
     let header: Vec<String> = header.chain(theories::COLUMNS.map(str::to_owned)).collect();
@@ -215,22 +227,23 @@ struct Point<'a> {
     shortest_waves_in_longest: f64,
     mean_pressure: f64,
     velocity: f64,
-    /// Mean over the surfaces, with the mean of its error bars.
+    /// Mean over the surfaces, and the mean of their error bars.
     #[serde(serialize_with = "five_digits")]
     area_fraction: f64,
     #[serde(serialize_with = "five_digits")]
     area_fraction_error: f64,
-    /// One for each theory.
+    /// One for each of [`THEORIES`]; `None` where the theory has no number for some surface.
     #[serde(skip)]
     ratios: [Option<Ratio>; THEORIES.len()],
-    /// Friction and what it is by both forms of Persson's theory, surface by surface.
+    /// For each surface: friction coefficient, and that by Persson's theory of 2001 and of 2006.
     #[serde(skip)]
     frictions: Vec<[f64; 3]>,
 }
 
-/// What was solved over what one theory says, in the mean over the surfaces.
+/// Mean of the solutions over the mean of what one theory says.
 #[derive(Clone, Copy, Serialize)]
 struct Ratio {
+    /// Name of the theory.
     quantity: &'static str,
     #[serde(serialize_with = "five_digits")]
     ratio: f64,
@@ -238,11 +251,13 @@ struct Ratio {
     standard_error: f64,
 }
 
+/// Writes a number with five significant digits, as far as such ratios are reproducible.
 fn five_digits<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_str(&format_args!("{value:.4e}"))
 }
 
-/// What all surfaces answer; the others would be chosen by their contact.
+/// The points at which all `surfaces` have an answer. A mean over fewer would be biased, because whether a surface is answered
+/// depends on its contact.
 fn points(rows: &Rows, surfaces: usize) -> Vec<Point<'_>> {
     let place = |name: &str| rows[0].iter().position(|column| column == name);
     let number =
@@ -254,6 +269,7 @@ fn points(rows: &Rows, surfaces: usize) -> Vec<Point<'_>> {
         "load.mean_pressure",
         "load.velocity",
     ];
+    // Rows of one point differ in the seed only.
     let groups = group_by(&rows[1..], |row| -> Vec<&str> {
         let of_point = given.iter().filter_map(|name| Some(&*row[place(name)?]));
         std::iter::once(&*row[0]).chain(of_point).collect()
@@ -295,7 +311,8 @@ fn points(rows: &Rows, surfaces: usize) -> Vec<Point<'_>> {
     known.collect()
 }
 
-/// Of two means of numbers that belong together.
+/// The ratio of the means of paired numbers, solution and theory of each surface, with its standard error to first order
+/// (ratio estimator of survey sampling).
 fn ratio(quantity: &'static str, solved: &[f64], theory: &[f64]) -> Ratio {
     let count = solved.len() as f64;
     let [sum, of_theory] = [solved, theory].map(|numbers| numbers.iter().sum::<f64>());
@@ -311,7 +328,7 @@ fn ratio(quantity: &'static str, solved: &[f64], theory: &[f64]) -> Ratio {
     }
 }
 
-/// What was solved over what each theory says, over the area.
+/// A panel for each drawn theory: ratio of solution to theory over the area fraction, both logarithmic.
 fn figure(points: &[Point]) -> Figure {
     let charts = DRAWN_THEORIES.map(|theory| {
         let series = SOLIDS.iter().map(|solid| {

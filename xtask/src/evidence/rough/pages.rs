@@ -8,15 +8,17 @@ use super::{AREAS, Point, RIGHT_WITHIN, Ratio, SOLIDS, THEORIES};
 use crate::meter::median;
 use crate::table::{group_by, markdown_table};
 
-/// Theories of the friction, and the others, which stand in two tables.
+/// Indices in [`THEORIES`] of the first table: Persson's theories and Wang & Müser's.
 const FRICTIONS: Range<usize> = 0..3;
+/// Indices of the second table: the line and the theories of the area.
 const OTHERS: Range<usize> = 3..THEORIES.len();
-/// Longest waves in the period from which a surface is more than a few summits.
+/// Longest waves along the period from which a surface counts as large: with fewer it has only a few summits.
 const MIN_WAVES: f64 = 4.0;
-/// Area fraction from which γ is sought: below it no γ helps.
+/// Points with a smaller area fraction do not take part in the fit of γ: no value of it brings the theory close to them.
 const MIN_AREA: f64 = 0.03;
 
-/// Tables by area, by solid and area, and by spectrum and area, and what weight the theory would take.
+/// The page in Markdown: tables by class of area, by solid and class, and by spectrum and class, and the best weight γ of each
+/// solid. `n_scenes` is the number of all rows computed.
 pub(super) fn summary(points: &[Point], n_scenes: usize) -> String {
     let answered: usize = points.iter().map(|point| point.frictions.len()).sum();
     let is_large = |point: &&Point| point.longest_waves_in_period >= MIN_WAVES;
@@ -45,7 +47,7 @@ pub(super) fn summary(points: &[Point], n_scenes: usize) -> String {
     )
 }
 
-/// Rows of the file: each point with each of its ratios.
+/// Rows of `rough_points.csv`: each point with each of its ratios.
 pub(super) fn rows<'a>(points: &'a [Point<'a>]) -> Vec<(&'a Point<'a>, &'a Ratio)> {
     let rows = |point: &'a Point<'a>| {
         let ratios = point.ratios.iter().flatten();
@@ -54,11 +56,11 @@ pub(super) fn rows<'a>(points: &'a [Point<'a>]) -> Vec<(&'a Point<'a>, &'a Ratio
     points.iter().flat_map(rows).collect()
 }
 
-/// What tells a point in the first columns of a table.
+/// First cells of the line in which a point is counted.
 type Label = fn(&Point) -> Vec<String>;
 
-/// By label and class of area: points, their typical standard error and error bar of the area, and for each theory the median
-/// ratio, between what nine of ten are, and how many are within a tenth.
+/// A table with one line per label and class of area: number of points, the medians of the relative standard error of the first
+/// ratio and of the relative error bar of the area, and for each theory the [`spread`] of its ratios.
 fn table(labels: &[&str], points: &[&Point], label: Label, theories: Range<usize>) -> Table {
     let class = |point: &&Point| {
         let class = AREAS.partition_point(|end| point.area_fraction >= *end);
@@ -92,6 +94,7 @@ fn table(labels: &[&str], points: &[&Point], label: Label, theories: Range<usize
     markdown_table(header.chain(names), lines)
 }
 
+/// Median, 5th and 95th percentile of ratios, and how many are within [`RIGHT_WITHIN`] of 1; empty of none.
 fn spread(mut values: Vec<f64>) -> String {
     values.sort_by(f64::total_cmp);
     let Some(last) = values.len().checked_sub(1) else {
@@ -106,7 +109,9 @@ fn spread(mut values: Vec<f64>) -> String {
     format!("{median:.2} ({low:.2} to {high:.2}), {within} %")
 }
 
-/// The γ of S = γ + (1 − γ) P² that suits every second surface best, and how well it suits the others.
+/// The weight γ of the energy factor S = γ + (1 − γ) P² in Persson's theory that suits every second surface best (least squares
+/// of the relative deviation), and how well it suits the others; `None` without points. P is the fraction of area in contact.
+/// Persson's theory of 2001 has S = 1, that of 2006 γ = 1/2.
 fn weight(solid: &str, points: &[Point]) -> Option<String> {
     let points = points.iter().filter(|point| {
         point.solid == solid

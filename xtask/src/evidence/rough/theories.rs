@@ -1,4 +1,4 @@
-//! What theories that the program does not compute say of a scene.
+//! Theories that the program `viscofriction` does not print, evaluated for a scene.
 
 use anyhow::{Context, Result};
 use friction_analytic::EnergyFactor;
@@ -6,7 +6,7 @@ use viscofriction::solve::{Body, Motion, Problem, persson};
 
 use super::line::{Carrying, friction};
 
-/// Columns of what is computed here.
+/// Names of the columns of [`solve`], in its order.
 pub(super) const COLUMNS: [&str; 4] = [
     "wang_muser_friction_coefficient",
     "line_friction_coefficient",
@@ -16,7 +16,8 @@ pub(super) const COLUMNS: [&str; 4] = [
 /// γ of the theory of Xu, who finds 0.42 to 0.45; with 0.42 the area is at most 4 % larger.
 const XU_GAMMA: f64 = 0.45;
 
-/// The numbers of all columns; none where the line is not known to its error.
+/// The numbers of [`COLUMNS`]; `None` where the friction of a line does not reach its error. Fails unless the body is a
+/// periodic surface that slides under a force on a half space.
 pub(super) fn solve(problem: &Problem) -> Result<[Option<f64>; COLUMNS.len()]> {
     let (Body::Periodic(surface), Motion::Sliding(load)) = (problem.body(), problem.motion())
     else {

@@ -1,4 +1,4 @@
-//! What is drawn for a random scene: numbers by the names that they have in `recipes.toml`, load, motion and what is asked.
+//! What is drawn for a random scene: numbers under the names that they have in `recipes.toml`, load, motion and accuracy.
 
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -16,33 +16,36 @@ use super::{HEIGHTS, Lengths, Motion, PROFILE, Range, SPECTRUM, keys_of, read};
 use crate::evidence::unit::Unit;
 use crate::random::Random;
 
-/// Relative error that is asked of a motion on the half space.
+/// Relative error requested of motions to and fro or through points on the half space: a smaller one takes too long.
 const ERROR_OF_MOTION: f64 = 0.1;
-/// Of materials that know their shift law, \[°C].
+/// Range of validity of drawn shift laws; reference and actual temperature are drawn from it. \[°C].
 const TEMPERATURES: [f64; 2] = [10.0, 40.0];
 
-/// A scene that is drawn.
+/// A scene that is being drawn.
 pub(super) struct Sample<'a> {
+    /// Source of everything drawn.
     pub(super) random: &'a mut Random,
     /// Units in which the numbers of the scene are moderate, \[m], \[Pa], \[s].
     pub(super) length: f64,
     pub(super) stress: f64,
     pub(super) time: f64,
-    /// Half the length of the contact, and the time in which the body slides over it or is pressed.
+    /// Half the length of the contact \[m], and the time \[s] in which the body slides over it or is pressed.
     pub(super) contact: f64,
     pub(super) contact_time: f64,
+    /// The file of the body, if it has one.
     pub(super) lengths: Option<Lengths>,
-    /// Numbers and other values by their names in the recipes.
+    /// Numbers and other values drawn so far, by their names in the recipes.
     pub(super) drawn: Table,
 }
 
 impl Sample<'_> {
-    /// Adds values under the names between blanks.
+    /// Adds values to [`Self::drawn`] under `names`, separated by blanks, in the same order.
     fn draw<V: Into<Value>, const N: usize>(&mut self, names: &str, values: [V; N]) {
         let names = names.split(' ').map(str::to_owned);
         self.drawn.extend(names.zip(values.map(Into::into)));
     }
 
+    /// Draws what a body of this kind may need: slopes, radii and what no range of a key describes.
     pub(super) fn draw_body(&mut self, kind: &str) -> Result<()> {
         let slope = 10_f64.powf(self.random.between([-2.5, -0.3]));
         let radius = self.length * 10_f64.powf(self.random.between([0.3, 1.5]));
@@ -75,7 +78,8 @@ impl Sample<'_> {
         Ok(())
     }
 
-    /// Draws the numbers of a kind that nothing else draws: within their bounds, or of about the size 1 in the units of the scene.
+    /// Draws the required numbers of a kind that neither its recipe has nor anything else has drawn: within the bounds of the
+    /// schema if it has both, otherwise within half a decade of 1 in the units of the scene.
     pub(super) fn draw_numbers(&mut self, kind: &str, recipes: &Table) -> Result<()> {
         let own = recipes.get(kind).and_then(Value::as_table);
         for Key { name, words, .. } in keys_of(kind).filter(|key| key.is_required) {
@@ -104,7 +108,7 @@ impl Sample<'_> {
         Ok(())
     }
 
-    /// A smooth profile, or one with a kink, straight between some radii.
+    /// Draws the file of a profile: a power of the radius \[m], given at a few or many radii, between which it is straight.
     fn draw_table(&mut self, slope: f64) {
         let exponent = self.random.between([1.0, 3.0]);
         let count = self.random.choice(&[4, 12, 40]);
@@ -119,7 +123,8 @@ impl Sample<'_> {
         });
     }
 
-    /// A rippled dome, or a wavy surface that repeats itself.
+    /// Draws the file of a height map, gaps \[m] row by row: a rippled dome within walls, or a wavy surface that repeats
+    /// itself.
     fn draw_height_map(&mut self, slope: f64) -> Result<()> {
         let edges = [Edges::Wall, Edges::Periodic, Edges::Mirrored];
         let edges = self.random.choice(&edges);
@@ -157,7 +162,7 @@ impl Sample<'_> {
         Ok(())
     }
 
-    /// Amplitude, and how many times it fits into the map along and across.
+    /// A wave of a height map: amplitude over the unit of length, and how many times it fits into the map along and across.
     fn wave(&mut self, slope: f64) -> [f64; 3] {
         let counts = [1.0, 2.0, 3.0, 4.0];
         let [along, across] = [(); 2].map(|()| self.random.choice(&counts));
@@ -165,7 +170,8 @@ impl Sample<'_> {
         [slope * self.random.between([0.1, 1.0]) / TAU, along, across]
     }
 
-    /// A table of two rows of a self-affine spectrum, from 2π ∫ q³ C dq = slope².
+    /// Draws the file of a spectrum: both ends of a self-affine one, wave number q \[1/m] and density C \[m⁴]. C ∼ q^(−2 − 2H)
+    /// is scaled to the root mean square slope: 2π ∫ q³ C dq = slope².
     fn draw_spectrum(&mut self, slope: f64) {
         let [hurst_exponent, longest, shortest] = self.draw_self_affine();
         let [first, last] = [longest, shortest].map(|length| TAU / length);
@@ -180,6 +186,7 @@ impl Sample<'_> {
         });
     }
 
+    /// Draws a self-affine surface; returns its Hurst exponent and its longest and shortest wavelength \[m].
     fn draw_self_affine(&mut self) -> [f64; 3] {
         let longest = self.length * self.random.choice(&[1.0, 0.5]);
         let period = vec![self.length, self.length * self.random.choice(&[1.0, 1.5])];
@@ -195,6 +202,7 @@ impl Sample<'_> {
         numbers
     }
 
+    /// Draws what a material of this kind may need; all are drawn for every kind but the series and the shift.
     pub(super) fn draw_material(&mut self, kind: &str) -> Result<()> {
         let compressible = self.random.between([-0.9, 0.5]);
         let poisson_ratio = self.random.choice(&[0.5, compressible]);
@@ -239,7 +247,8 @@ impl Sample<'_> {
         Ok(())
     }
 
-    /// A solid, a rubber that flows, or a liquid, with up to eight branches.
+    /// Draws a Prony series of up to eight branches: with or without an equilibrium modulus, a viscosity and a window of
+    /// validity.
     fn draw_prony(&mut self) -> Result<()> {
         let count = self.random.choice(&[1, 2, 3, 8]);
         let branch = |_| Branch {
@@ -260,7 +269,8 @@ impl Sample<'_> {
         Ok(())
     }
 
-    /// Load, motion, model and what is asked.
+    /// Draws load, motion, model and accuracy into `scene`, whose body and material are drawn and whose files are in `folder`.
+    /// A body that is refused keeps no load.
     pub(super) fn motion(&mut self, scene: &mut Scene, range: &Range, folder: &Path) -> Result<()> {
         let files = Files::of(scene, folder, read)?;
         // A body that is refused, such as one of a file of lengths beyond 1e30 m, needs no load to be refused.
@@ -307,7 +317,9 @@ impl Sample<'_> {
         Ok(())
     }
 
-    /// Force \[N] and depth \[m] of a contact of about the length that was drawn: D = h(a) = 2 (1 − ν) F J(t)/(4 a).
+    /// Force \[N] and depth D \[m] of a contact of about the radius a that was drawn, by D = h(a) = 2 (1 − ν) F J(t)/(4 a): the
+    /// depth of a flat punch of this radius on the half space, which is enough for the order of magnitude. ν is Poisson's
+    /// ratio, J the creep compliance.
     fn load(&mut self, scene: &Scene, body: &Body, files: &Files<'_>) -> Result<[f64; 2]> {
         let material = half_space(&scene.material, files)?.material;
         let compliance =
@@ -332,8 +344,8 @@ impl Sample<'_> {
         Ok([4.0 * self.contact * depth / compliance, depth])
     }
 
-    /// To and fro over a part of a contact or some, or through up to five points with dwells, of about a speed; elements are
-    /// asked for no more than they reach.
+    /// Draws a motion at about `velocity` \[m/s]: to and fro over a part of a contact or some contacts, or through up to five
+    /// points, at some of which the body rests. On the half space it is solved to [`ERROR_OF_MOTION`].
     fn move_along(&mut self, scene: &mut Scene, velocity: f64) {
         if scene.solve.model.is_none() {
             scene.solve.relative_error = Some(ERROR_OF_MOTION);
@@ -364,7 +376,7 @@ impl Sample<'_> {
         scene.load.motion = Some(points);
     }
 
-    /// Up to six points that rise and fall, with dwells and jumps, of a force or, without one, of a depth.
+    /// Up to six points of a force \[N] or, without one, of a depth \[m] that rises and falls, with dwells and jumps.
     fn history(&mut self, force: Option<f64>, depth: f64) -> Vec<LoadPoint> {
         let count = self.random.choice(&[2, 3, 4, 6]);
         let (mut time, mut level) = (0.0, 0.0);

@@ -1,5 +1,5 @@
-//! Random scenes over all that a scene can be: every kind of body and material of the scene file, with numbers within the ranges of its
-//! keys, or as `recipes.toml` describes it.
+//! Random scenes over all that a scene can be: every kind of body and material of the scene file, with numbers within the
+//! ranges of its keys, or as `recipes.toml` describes it.
 
 mod draw;
 
@@ -26,7 +26,8 @@ use draw::Sample;
 /// Which scenes.
 #[derive(Debug, Default, Args)]
 pub(super) struct Options {
-    /// Number of scenes, from 1 to 100000 [default: 5000 of agreement, 300 of calibration, 200 of derivatives, fewer of a quick run].
+    /// Number of scenes, from 1 to 100000 [default: 5000 of agreement, 300 of calibration, 200 of derivatives, fewer of a quick
+    /// run].
     #[arg(long, value_name = "N")]
     scenes: Option<usize>,
     /// Which scenes; the same seed gives the same ones [default: 2014].
@@ -34,15 +35,18 @@ pub(super) struct Options {
     seed: Option<u64>,
 }
 
+/// Seed unless the command line gives one; any number would do.
 const SEED: u64 = 2014;
+/// Largest number of scenes that may be asked for, so that a mistyped number is refused.
 const MAX_SCENES: usize = 100_000;
 
 impl Options {
+    /// The seed asked for, or [`SEED`].
     pub(super) fn seed(&self) -> u64 {
         self.seed.unwrap_or(SEED)
     }
 
-    /// How many scenes, if that is a number that can be.
+    /// The number of scenes asked for, or `usual`; fails unless it is from 1 to [`MAX_SCENES`].
     pub(super) fn count(&self, usual: usize) -> Result<usize> {
         let count = self.scenes.unwrap_or(usual);
         let wrong = format!("--scenes {count} is not from 1 to {MAX_SCENES}");
@@ -51,33 +55,39 @@ impl Options {
     }
 }
 
-/// A scene, and what the files hold that it names.
+/// A scene and the contents of the files that it names.
 #[derive(Debug, Clone)]
 pub(super) struct Case {
     pub(super) scene: Scene,
-    /// Lengths of a profile or a height map.
+    /// The file of its body: a profile, a height map or a spectrum.
     pub(super) lengths: Option<Lengths>,
-    /// The material of a file.
+    /// The material in the file of its material.
     pub(super) material: Option<MaterialTable>,
     /// About half the length of the contact, \[m].
     pub(super) contact: f64,
 }
 
-/// A file of lengths \[m], or of wave numbers \[1/m] and densities \[m⁴], row by row.
+/// A file of lengths \[m], or of wave numbers \[1/m] and densities \[m⁴].
 #[derive(Debug, Clone)]
 pub(super) struct Lengths {
+    /// Its name.
     pub(super) file: &'static str,
+    /// Numbers in a row.
     pub(super) columns: usize,
+    /// All numbers, row by row.
     pub(super) values: Vec<f64>,
 }
 
-/// Files that scenes name.
+/// Names of files of height maps, which a scene refers to; the others follow.
 const HEIGHTS: [&str; 2] = ["heights.npy", "heights.csv"];
+/// Name of the file of a profile.
 const PROFILE: &str = "profile.csv";
+/// Name of the file of a spectrum.
 pub(super) const SPECTRUM: &str = "spectrum.csv";
+/// Name of the file of a material.
 const MATERIAL: &str = "material.toml";
 
-/// Reads a file of a case.
+/// Reads a file of a case, whatever its size; a reader of files as [`Problem::new`] needs one.
 fn read(path: &Path, _: u64) -> Result<Vec<u8>, WrongInput> {
     std::fs::read(path).map_err(|error| WrongInput(format!("{}: {error}", path.display())))
 }
@@ -90,6 +100,7 @@ impl Case {
         self.write_files(folder)
     }
 
+    /// Writes the files of the case without the scene.
     fn write_files(&self, folder: &Path) -> Result<()> {
         if let Some(lengths) = &self.lengths {
             write_atomically(&folder.join(lengths.file), &lengths.contents())?;
@@ -101,7 +112,7 @@ impl Case {
         Ok(())
     }
 
-    /// The problem that the scene states, or what is wrong with it.
+    /// The problem that the scene states, or what is wrong with it. Writes its files into `folder`, from where they are read.
     pub(super) fn problem(&self, folder: &Path) -> Result<Problem> {
         self.write_files(folder)?;
         Ok(Problem::new(&self.scene, folder, read)?)
@@ -109,7 +120,7 @@ impl Case {
 }
 
 impl Lengths {
-    /// In a unit that is smaller by a factor.
+    /// Multiplies all lengths by `factor`; wave numbers and densities accordingly.
     pub(super) fn scale(&mut self, factor: f64) {
         // Of a spectrum wave numbers and densities.
         let powers = if self.file == SPECTRUM {
@@ -121,6 +132,7 @@ impl Lengths {
         values.for_each(|(place, value)| *value *= factor.powi(powers[place % 2]));
     }
 
+    /// Contents of the file: NPY, or CSV with every number in full, under a header unless it is a height map.
     fn contents(&self) -> Vec<u8> {
         let rows = self.values.chunks(self.columns);
         if self.file == HEIGHTS[0] {
@@ -141,32 +153,35 @@ impl Lengths {
     }
 }
 
-/// What scenes are drawn from.
+/// From what random scenes are drawn; a range of `recipes.toml`.
 #[derive(Debug, Clone, Deserialize)]
 pub(super) struct Range {
-    /// Kinds of bodies and materials that are left out, and those that alone are drawn; all if there are none.
+    /// Kinds of bodies and materials that are left out.
     #[serde(default)]
     without: Vec<String>,
+    /// Kinds that alone are drawn; all if it is empty.
     #[serde(default)]
     only: Vec<String>,
+    /// One of them is drawn; those listed several times more often.
     motions: Vec<Motion>,
-    /// Half the decades over which the units of length and time are spread; stresses over twice as many.
+    /// One value n is drawn: units of length and time are 10^x in SI with |x| up to n, units of stress with |x| up to 2 n.
     decades: Vec<f64>,
-    /// Half the decades over which the time of contact is spread around that of the material.
+    /// The time of contact is that of the material times 10^x with |x| up to this.
     speeds: f64,
     /// Part of the scenes that are on a layer.
     layers: f64,
     /// Part of them that are held at a depth.
     depths: f64,
-    /// Half the decades over which the distances from first touch are spread around three contacts.
+    /// Distances from first touch are three times half the contact length, times 10^x with |x| up to this.
     pub(super) distances: f64,
-    /// Relative errors that are asked for.
+    /// One of these relative errors is requested.
     #[serde(default = "errors")]
     pub(super) errors: Vec<f64>,
-    /// Memory of one solution, which bounds the size of a scene.
+    /// Largest memory of one solution, such as `48 MiB`, which bounds the size of its grids.
     pub(super) memory: String,
 }
 
+/// Relative errors of a range that names none.
 fn errors() -> Vec<f64> {
     vec![0.1, 0.05, 0.02, 0.01]
 }
@@ -191,12 +206,15 @@ enum Motion {
 /// What `recipes.toml` holds.
 #[derive(Debug, Clone, Deserialize)]
 struct Recipes {
+    /// By name.
     range: BTreeMap<String, Range>,
+    /// For kinds of bodies that need one: a table in which `$NAME` stands for what was drawn under this name.
     indenter: Table,
+    /// The same for kinds of materials.
     material: Table,
 }
 
-/// A scene of a seed, counted from 1.
+/// A scene and its number among those of a seed, counted from 1.
 pub(super) struct NumberedScene {
     pub(super) number: usize,
     pub(super) scene: Scene,
@@ -210,14 +228,14 @@ pub(super) struct Source {
 }
 
 impl Source {
-    /// A range of the file by its name.
+    /// The range of `recipes.toml` with this name.
     pub(super) fn new(range: &str) -> Result<Self> {
         let recipes: Recipes = toml::from_str(include_str!("recipes.toml"))?;
         let range = recipes.range.get(range).context("a range")?.clone();
         Ok(Self { range, recipes })
     }
 
-    /// So many scenes of a seed, from a range that draws no files.
+    /// The first `count` scenes of a seed, from a range that draws no files.
     pub(super) fn scenes(&self, seed: u64, count: usize) -> Result<Vec<NumberedScene>> {
         let mut random = Random::new(seed);
         let scene = |number| {
@@ -227,6 +245,7 @@ impl Source {
         (1..=count).map(scene).collect()
     }
 
+    /// Those kinds among `all` that the range allows.
     fn kinds<K: Into<&'static str>>(&self, all: impl Iterator<Item = K>) -> Vec<&'static str> {
         let Range { only, without, .. } = &self.range;
         let is_in = |list: &[String], kind: &str| list.iter().any(|one| one == kind);
@@ -236,7 +255,8 @@ impl Source {
     }
 }
 
-/// The one table of this kind, with the numbers of these names. Keys that its recipe leaves out have the number of their own name.
+/// The body or the material of a kind, as its recipe describes it, filled with what was drawn. A key that the recipe leaves out
+/// has what was drawn under its own name.
 pub(super) fn made<T: DeserializeOwned>(recipes: &Table, kind: &str, drawn: &Table) -> Result<T> {
     let mut recipe: Table = keys_of(kind)
         .map(|key| (key.name.to_owned(), format!("${}", key.name).into()))
@@ -248,7 +268,7 @@ pub(super) fn made<T: DeserializeOwned>(recipes: &Table, kind: &str, drawn: &Tab
     Ok(Value::from(Table::from_iter([(kind.to_owned(), value)])).try_into()?)
 }
 
-/// The keys of a body or a material that must be given, or have a number unless they are.
+/// The keys of a kind of body or material that are required, and those whose default is a number.
 pub(super) fn keys_of(kind: &str) -> impl Iterator<Item = Key> {
     let all = ["Indenter", "MaterialTable"]
         .map(kinds)
@@ -260,7 +280,8 @@ pub(super) fn keys_of(kind: &str) -> impl Iterator<Item = Key> {
     keys.filter(|key| key.is_required || key.words["default"].is_number())
 }
 
-/// A value with what was drawn in the place of names; none where that was not.
+/// A value of a recipe in which each text `$NAME` is replaced by what was drawn under NAME. `None` where that was not drawn; in
+/// a table, the key is then left out.
 pub(super) fn filled(value: &Value, drawn: &Table) -> Option<Value> {
     match value {
         Value::String(text) => match text.strip_prefix('$') {
@@ -279,9 +300,11 @@ pub(super) fn filled(value: &Value, drawn: &Table) -> Option<Value> {
     }
 }
 
-/// The next scene of the generator; its files are tried in `folder`.
+/// The next scene of the generator. Its files are written to `folder`, where the problem is tried. Up to [`MAX_DRAWN_MOTIONS`]
+/// motions are drawn until a method exists, so that few scenes are wasted on combinations that are refused.
 pub(super) fn sample(random: &mut Random, source: &Source, folder: &Path) -> Result<Case> {
     let Source { range, recipes } = source;
+    // Draw the units and the contact first: all other numbers are moderate in these units.
     let decades = random.choice(&range.decades);
     let [length, stress, time] = [1.0, 2.0, 1.0].map(|more| random.decades(decades * more));
     let contact = 0.3 * random.decades(0.3) * length;
@@ -304,6 +327,7 @@ pub(super) fn sample(random: &mut Random, source: &Source, folder: &Path) -> Res
     sample.draw_material(material_kind)?;
     sample.draw_numbers(material_kind, &recipes.material)?;
     let material = made(&recipes.material, material_kind, &sample.drawn)?;
+    // The file of a material holds a series with the numbers that were drawn for it.
     let is_of_file = material_kind == "file";
     let of_file = is_of_file.then(|| made(&recipes.material, "prony", &sample.drawn));
     let is_thin = sample.random.uniform() < range.layers;
@@ -333,5 +357,6 @@ pub(super) fn sample(random: &mut Random, source: &Source, folder: &Path) -> Res
     Ok(case)
 }
 
-/// Motions that are drawn for a body until one has a method, or the last one is refused.
+/// Number of motions that are drawn for a body and a material until some method takes one; the last stays even if refused,
+/// since refusals have to be right too.
 const MAX_DRAWN_MOTIONS: usize = 3;

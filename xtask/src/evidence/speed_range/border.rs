@@ -1,4 +1,4 @@
-//! Lowest and highest speed at which the viscous law is right within ten per cent.
+//! Lowest and highest speed at which the friction of the paper's viscous law is right within ten per cent.
 
 use anyhow::{Context, Result};
 use numerics::{Estimate, bracketed_root};
@@ -9,12 +9,13 @@ use super::sliding::LINE_ERROR;
 use super::{Law, MODELS, Prediction, plateau};
 use crate::tasks::in_parallel;
 
-/// Largest |prediction/friction − 1| that is right.
+/// Largest |prediction/friction − 1| at which the law counts as right; chosen.
 const RIGHT_WITHIN: f64 = 0.1;
-/// Step of the difference that gives the slope of the deviation.
+/// Step in ln v of the central difference that gives the slope of the deviation, by which an error of the friction becomes one
+/// of the speed; a rough slope suffices.
 const SLOPE_STEP: f64 = 0.02;
 
-/// The range of one profile and stiffness ratio; no speeds where the law is right at none of the map.
+/// The range of speeds of one profile and stiffness ratio; without speeds where the law is right at none of the map.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(super) struct Row {
     pub(super) exponent: f64,
@@ -35,11 +36,12 @@ pub(super) struct Row {
     smallest_deviation_error: f64,
 }
 
-/// Columns that are printed.
+/// Columns that are printed; the file has all.
 pub(super) const COLUMNS: &str = "exponent model stiffness_ratio lowest_speed highest_speed \
                                   loss_tangent_at_lowest loss_tangent_at_highest smallest_deviation";
 
-/// The ranges of all rows of the map; `error` is the relative one that the half space has on them.
+/// The ranges of all profiles and stiffness ratios of the map, of both models. `error` is the relative error of the friction on
+/// the half space on the map.
 pub(super) fn find(map: &[Prediction], error: f64) -> Result<Vec<Row>> {
     let key = |(at, _): &Prediction| [at.exponent, at.stiffness_ratio].map(f64::to_bits);
     let speeds = || map.chunk_by(|one, other| key(one) == key(other));
@@ -51,12 +53,13 @@ pub(super) fn find(map: &[Prediction], error: f64) -> Result<Vec<Row>> {
     Ok(rows)
 }
 
-/// The range of one stiffness ratio, of which the map has some speeds.
+/// The range of one profile and stiffness ratio, whose points on the map are `speeds`, ascending.
 fn row(model: Model, speeds: &[Prediction], error: f64) -> Result<Row> {
     let (first, _) = &speeds[0];
     let deviations = || speeds.iter().map(|(_, law)| law.deviation(model));
     let right = |deviation: f64| deviation <= RIGHT_WITHIN;
     let crossing = |low, high| crossing(model, speeds, [low, high], error);
+    // The first and the last point where the law is right; the border is between each and its neighbour where it is not.
     let lowest = deviations().position(right);
     let lowest = lowest.map(|at| crossing(at.checked_sub(1), Some(at)));
     let highest = deviations().rposition(right);
@@ -94,7 +97,8 @@ fn row(model: Model, speeds: &[Prediction], error: f64) -> Result<Row> {
     })
 }
 
-/// The speed at which the deviation is the one allowed, between two neighbours on the map.
+/// The speed at which the deviation is [`RIGHT_WITHIN`] between the points `low` and `high` of the map; fails where one of them
+/// is beyond its ends.
 fn crossing(
     model: Model,
     speeds: &[Prediction],
@@ -115,21 +119,22 @@ fn crossing(
     }
 }
 
-/// Two speeds; at one of them the law is right, at the other it is not.
+/// Two points, ascending in speed; at one of them the law is right, at the other it is not.
 struct Border {
     model: Model,
     ends: [Prediction; 2],
 }
 
-/// Where the deviation is the one allowed.
+/// Where the deviation is [`RIGHT_WITHIN`].
 struct Crossing {
+    /// vτ/a.
     speed: f64,
-    /// Change of the deviation over the logarithm of the speed.
+    /// Derivative of the deviation by ln v.
     slope: f64,
 }
 
 impl Crossing {
-    /// The speed, if friction has a relative error.
+    /// The speed with the error that follows from a relative error of the friction.
     fn with_error(&self, relative_error: f64) -> Estimate {
         let error = self.speed * (1.0 + RIGHT_WITHIN) * relative_error / self.slope.abs();
         Estimate::new(self.speed, error)
@@ -137,8 +142,8 @@ impl Crossing {
 }
 
 impl Border {
-    /// The ratio of half space and line changes slowly: it is interpolated first, and then solved anew at the border that
-    /// this gives, twice.
+    /// The crossing on the half space. The ratio of half space to line changes slowly with speed: it is interpolated, and then
+    /// computed anew to `relative_error` at the speed that follows, twice. The last change is added to the error.
     fn of_half_space(mut self, relative_error: f64) -> Result<Estimate> {
         let Crossing { speed, slope } = self.between()?;
         let mut border = Estimate::exact(speed);
@@ -157,8 +162,8 @@ impl Border {
         Ok(border)
     }
 
-    /// The speed at which the deviation is the one allowed, if friction is that of the line, solved anew, times the ratio
-    /// of the two models, interpolated.
+    /// The crossing, if friction is that of the line, computed at each speed tried, times the ratio of the two models,
+    /// interpolated linearly in ln v between the two points.
     fn between(&self) -> Result<Crossing> {
         let plateau = plateau(self.ends[0].0.exponent)?;
         let [low, high] = self.ends.each_ref().map(|(_, law)| match self.model {

@@ -18,31 +18,39 @@ use sliding::Sliding;
 /// Exponents of the profiles: cone and paraboloid, in this order in every table.
 const EXPONENTS: [f64; 2] = [1.0, 2.0];
 
-/// From 10^first to 10^last, and so many values, evenly spaced in the logarithm.
+/// Exponents of the first and the last power of ten, and number of values between and including them, evenly spaced in the
+/// logarithm.
 #[derive(Debug, Clone, Copy, Deserialize)]
 struct Decades(i32, i32, i32);
 
 impl Decades {
+    /// The values, ascending.
     fn values(self) -> impl Iterator<Item = f64> {
         let place = move |index: i32| f64::from(self.0) + f64::from(index) * self.step();
         (0..self.2).map(move |index| 10_f64.powf(place(index)))
     }
 
-    /// Decades between two values.
+    /// Decades between neighbouring values.
     fn step(self) -> f64 {
         let Self(first, last, count) = self;
         f64::from(last - first) / f64::from(count - 1)
     }
 }
 
-/// What is computed, of `extent.toml`; errors are relative.
+/// What is computed: a table of `extent.toml`. Ratios are γ = G₁/G₂, speeds vτ/a, errors relative ones of the half space.
 #[derive(Deserialize)]
 struct Extent {
+    /// One curve for each ratio.
     curve_ratios: Vec<f64>,
+    /// Points of a curve.
     curve_speeds: Decades,
+    /// Of all curves.
     curve_error: f64,
+    /// Rows of the map.
     map_ratios: Decades,
+    /// Columns of the map.
     map_speeds: Decades,
+    /// Of the whole map.
     map_error: f64,
 }
 
@@ -54,8 +62,10 @@ type Point = (Sliding, Friction);
 struct Friction {
     /// F_N/(G₂ a d).
     normal_force: f64,
+    /// By the one-dimensional model.
     line: f64,
     line_error: f64,
+    /// On the half space, under the force of the line.
     half_space: f64,
     half_space_error: f64,
     /// s(p, vτ/a, γ), half space over line.
@@ -66,16 +76,18 @@ struct Friction {
 /// A contact, and its friction beside that of the viscous law.
 type Prediction = (Sliding, Law);
 
-/// Friction and what the viscous law of the same loss modulus predicts of it.
+/// Friction and its prediction by the viscous law with the same loss modulus, both in units of the mean slope d/a.
 #[derive(Debug, Clone, Serialize)]
 struct Law {
+    /// tan δ at ω = v/a.
     loss_tangent: f64,
+    /// By the one-dimensional model.
     line: f64,
-    /// By (12) and (16).
+    /// By Eqs. (12) and (16) of the paper.
     predicted_line: f64,
     half_space: f64,
     half_space_error: f64,
-    /// s_p times that of the line.
+    /// s_p times `predicted_line`.
     predicted_half_space: f64,
 }
 
@@ -109,7 +121,7 @@ pub(super) fn report(quick: bool) -> Result<Report> {
     })
 }
 
-/// Speed by speed for each stiffness ratio of each profile.
+/// All contacts in the order of the tables: by profile, then stiffness ratio, then speed.
 fn problems(ratios: impl Iterator<Item = f64>, speeds: Decades) -> Vec<Sliding> {
     let ratios: Vec<f64> = ratios.collect();
     let mut problems = Vec::new();
@@ -126,6 +138,7 @@ fn problems(ratios: impl Iterator<Item = f64>, speeds: Decades) -> Vec<Sliding> 
 }
 
 impl Friction {
+    /// Friction of a contact by both models, that of the half space to `relative_error`.
     fn of(sliding: Sliding, relative_error: f64) -> Result<Self> {
         let (line, normal_force) = sliding.line()?;
         let half_space = sliding.half_space(normal_force, relative_error)?;
@@ -143,6 +156,7 @@ impl Friction {
 }
 
 impl Law {
+    /// Friction of a contact, that of the half space to `relative_error`, and its prediction.
     fn of(sliding: Sliding, relative_error: f64) -> Result<Self> {
         let friction = Friction::of(sliding, relative_error)?;
         let predicted_line = sliding.viscous_law(friction.normal_force)?;
@@ -156,13 +170,13 @@ impl Law {
         })
     }
 
-    /// |prediction/friction − 1|.
+    /// |prediction/friction − 1| of a model.
     fn deviation(&self, model: Model) -> f64 {
         let [friction, predicted] = self.pair(model);
         (predicted / friction - 1.0).abs()
     }
 
-    /// Friction and its prediction.
+    /// Friction of a model and its prediction.
     const fn pair(&self, model: Model) -> [f64; 2] {
         match model {
             Model::Line => [self.line, self.predicted_line],
@@ -171,9 +185,11 @@ impl Law {
     }
 }
 
+/// Both models, in the order of tables and panels.
 const MODELS: [Model; 2] = [Model::Line, Model::HalfSpace];
 
-/// s_p, the plateau between 1/2 and 1.
+/// s_p: friction of the half space over that of the line on a viscous material, which the ratio passes as a plateau between 1/2
+/// of slow and 1 of fast sliding.
 fn plateau(exponent: f64) -> Result<f64> {
     Ok(scaling_factor(exponent)?.value)
 }

@@ -11,25 +11,29 @@ use crate::output::points;
 use crate::picture::{chart as chart_of, guide};
 use crate::scene::solid;
 
-/// Colours of the stiffness ratios.
+/// Colours of the stiffness ratios of the curves, in their order.
 const COLOURS: [Colour; 3] = [Colour::Blue, Colour::Green, Colour::Red];
+/// Range of the axis of the ratio of half space to line, which is between 1/2 and 1.
 const RATIOS: [f64; 2] = [0.4, 1.1];
-/// Steps of the outline of the window tan δ > 1.
+/// Points along each side of the outline of tan δ > 1; chosen, so that it looks smooth.
 const WINDOW_STEPS: i32 = 60;
 
+/// Name of a profile of [`super::EXPONENTS`].
 fn name(exponent: f64) -> &'static str {
     if exponent < 1.5 { "cone" } else { "paraboloid" }
 }
 
+/// Smallest and largest value.
 fn range(Decades(first, last, _): Decades) -> [f64; 2] {
     [first, last].map(|power| 10_f64.powi(power))
 }
 
+/// Whether two parameters are the same number; they are copies of each other.
 fn same(one: f64, other: f64) -> bool {
     one.total_cmp(&other).is_eq()
 }
 
-/// A panel for each profile, whose rows follow each other.
+/// A figure with the charts that `panel` makes of each profile from its exponent and its rows, which follow each other.
 fn panels<R>(
     rows: &[(Sliding, R)],
     panel: impl Fn(f64, &[(Sliding, R)]) -> Result<Vec<Chart>>,
@@ -47,6 +51,7 @@ fn curves(rows: &[Point]) -> impl Iterator<Item = (&[Point], Colour, String)> {
     named.map(|(rows, colour)| (rows, colour, format!("γ = {:e}", rows[0].0.stiffness_ratio)))
 }
 
+/// Points of a curve: speed and a value of the friction.
 fn values(rows: &[Point], value: fn(&Friction) -> f64) -> Vec<[f64; 2]> {
     points(rows, |(at, _)| at.speed, |(_, friction)| value(friction))
 }
@@ -65,6 +70,7 @@ fn circles(
     }
 }
 
+/// A chart over the speed, under the name of a profile.
 fn chart(exponent: f64, extent: &Extent, y: Axis, series: Vec<Series>) -> Chart {
     let x = Axis::log10("speed vτ/a", range(extent.curve_speeds));
     Chart {
@@ -145,14 +151,14 @@ pub(super) fn validity(
     })
 }
 
-/// Every value in the middle of its cell.
+/// A linear axis over decimal logarithms, which ends half a step beyond the values, so that each is in the middle of its cell.
 fn map_axis(label: &str, decades: Decades) -> Axis {
     let half = 0.5 * decades.step();
     let [first, last] = [decades.0, decades.1].map(f64::from);
     Axis::linear(label, [first - half, last + half])
 }
 
-/// Up along the lowest speeds and down along the highest.
+/// Outline of the region where the law is right; `None` where there is no such region.
 fn outline<'a>(borders: impl Iterator<Item = &'a border::Row>) -> Option<Series> {
     let ends = borders.filter_map(|row| {
         let (lowest, highest) = row.lowest_speed.zip(row.highest_speed)?;
@@ -163,7 +169,7 @@ fn outline<'a>(borders: impl Iterator<Item = &'a border::Row>) -> Option<Series>
     (points.len() > 1).then(|| Series::line(points, line, Colour::Black))
 }
 
-/// The outline of tan δ > 1.
+/// Outline of the region tan δ > 1 at ω = v/a.
 fn window(extent: &Extent) -> Result<Series> {
     let lowest = range(extent.map_ratios)[0];
     let steps = StandardSolid::LARGEST_VISCOUS_RATIO / lowest;
@@ -176,8 +182,8 @@ fn window(extent: &Extent) -> Result<Series> {
     Ok(Series::line(points, Line::thick(Dash::Dashed), Colour::Red))
 }
 
-/// Stiffness ratios with a lowest and a highest speed each: points up along the lowest and down along the highest, in
-/// logarithms.
+/// Outline of a region, given by stiffness ratios with a lowest and a highest speed each: points (speed, ratio) in decimal
+/// logarithms, up along the lowest speeds and down along the highest.
 fn around(ends: impl IntoIterator<Item = (f64, [f64; 2])>) -> Vec<[f64; 2]> {
     let side =
         |end: usize| move |(ratio, ends): &(f64, [f64; 2])| [ends[end], *ratio].map(f64::log10);

@@ -24,12 +24,13 @@ use serde::Serialize;
 
 use crate::scene::{as_far_as_reached, refined_to, solid};
 
-/// Relative error asked of the line.
+/// Relative error requested of the line; far below that of the half space, with which it is compared.
 pub(super) const LINE_ERROR: f64 = 1e-6;
-/// Lengths b in which the contact length of the viscous law is looked for; it is about 1 where the law holds.
+/// Lengths between which the contact length b of the viscous law is sought; it is about 1 where the law holds and may be far
+/// from it elsewhere.
 const LENGTHS: [f64; 2] = [1e-8, 1e12];
 
-/// One contact, by its three numbers.
+/// A contact, identified by three numbers without a unit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub(super) struct Sliding {
     /// Exponent p of the profile.
@@ -41,10 +42,12 @@ pub(super) struct Sliding {
 }
 
 impl Sliding {
+    /// The same profile and solid at another speed vτ/a.
     pub(super) fn at_speed(self, speed: f64) -> Self {
         Self { speed, ..self }
     }
 
+    /// The three-dimensional profile c r^p whose one-dimensional one is |x|^p.
     fn body(&self) -> Result<PowerProfile> {
         let coefficient = stretch(self.exponent)?.recip();
         Ok(PowerProfile::new(coefficient, self.exponent)?)
@@ -55,7 +58,7 @@ impl Sliding {
         Ok(solid(self.stiffness_ratio)?.loss_tangent(self.speed)?)
     }
 
-    /// Friction of the line whose contact reaches to a, and the force that this takes.
+    /// Friction coefficient of the line at the depth d = 1, so that its contact reaches to a, and the force F_N/(G₂ a d).
     pub(super) fn line(&self) -> Result<(Estimate, f64)> {
         let load = SlidingLoad::at_depth(1.0, self.speed)?;
         let (body, solid) = (self.body()?, solid(self.stiffness_ratio)?);
@@ -64,7 +67,7 @@ impl Sliding {
         Ok((state.friction_coefficient, state.normal_force.value))
     }
 
-    /// Friction of the half space under a force; what was reached has an honest bar, if a wider one.
+    /// Friction coefficient of the half space under a force; if `relative_error` is not reached, with the wider bar that was.
     pub(super) fn half_space(&self, normal_force: f64, relative_error: f64) -> Result<Estimate> {
         let (body, solid) = (self.body()?, solid(self.stiffness_ratio)?);
         let load = SlidingLoad::new(normal_force, self.speed)?;
@@ -73,14 +76,15 @@ impl Sliding {
             .with_context(|| format!("the half space of {self:?}"))
     }
 
-    /// Friction of the line under a force by the viscous law of the same loss modulus.
+    /// Friction coefficient of the line under a force by the viscous law of the same loss modulus.
     pub(super) fn viscous_law(&self, normal_force: f64) -> Result<f64> {
         let (body, material) = (self.body()?, Viscous::new(self.viscosity(normal_force)?)?);
         let load = SlidingLoad::new(normal_force, self.speed)?;
         Ok(power_sliding(&body, &material, &load)?.friction_coefficient)
     }
 
-    /// η = G''(ω)/ω at ω = v/b.
+    /// η = G''(ω)/ω at ω = v/b, with the contact length b that solves F_N = 4 G''(v/b) b h̃(b). Fails where no b in [`LENGTHS`]
+    /// does.
     fn viscosity(&self, normal_force: f64) -> Result<f64> {
         let solid = solid(self.stiffness_ratio)?;
         let modulus = |length: f64| solid.complex_modulus(self.speed / length);

@@ -1,4 +1,4 @@
-//! A case: a computation at the edge of what is possible, what it must come to, and what it is worth.
+//! A case: a computation at the edge of what is possible, its right result, and the verdict about it.
 
 use std::fmt::{Debug, Display};
 use std::time::Instant;
@@ -16,13 +16,14 @@ pub(super) struct Family {
     pub(super) name: String,
     /// What differs from case to case.
     pub(super) parameter: String,
-    /// First and last power of ten, and the step of the exponent.
+    /// Powers of ten as values: exponents of the first and the last, and the step of the exponent.
     decades: Vec<(i32, i32, usize)>,
+    /// Further values.
     values: Vec<f64>,
 }
 
 impl Family {
-    /// Values of the parameter; powers of ten are the nearest numbers, because `powi` rounds more than once.
+    /// Values of the parameter. Powers of ten are parsed, which gives the nearest f64, because `powi` rounds more than once.
     pub(super) fn values(&self) -> impl Iterator<Item = f64> {
         let powers = self.decades.iter();
         let powers = powers.flat_map(|&(first, last, step)| (first..=last).step_by(step));
@@ -30,43 +31,48 @@ impl Family {
         powers.chain(self.values.iter().copied())
     }
 
+    /// Name of the case with this value, for people and for `--only`.
     pub(super) fn case(&self, value: f64) -> String {
         format!("{}, {} = {value:e}", self.name, self.parameter)
     }
 }
 
-/// What a case is worth.
+/// Verdict about a case.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(super) enum Verdict {
     /// All numbers within their tolerances.
     Accurate,
-    /// The typed error that is right.
+    /// The error that is right, by its type.
     Refused,
     /// A number outside its tolerance, an error where there is a solution, a solution where there is none.
     #[default]
     Wrong,
 }
 
-/// A case in the table: what it came to, and, of [`judge`], which one it is.
+/// A case in the table: result and verdict; [`judge`] fills in which case it is.
 #[derive(Debug, Clone, Default, Serialize)]
 pub(super) struct Row {
     pub(super) family: String,
     pub(super) parameter: String,
     pub(super) value: f64,
-    /// Of several numbers the one that is closest to its tolerance.
+    /// Quantity that was compared; of several the one with the largest deviation over tolerance.
     quantity: String,
     /// The right number, or the pattern of the right error.
     expected: String,
+    /// The number that was computed, or the error.
     got: String,
+    /// Relative, or in the unit that the case chooses; none of errors.
     deviation: Option<f64>,
+    /// Largest deviation of an accurate result, in the same unit.
     tolerance: Option<f64>,
     pub(super) verdict: Verdict,
+    /// Time on the wall clock \[s].
     pub(super) seconds: f64,
 }
 
 impl Row {
-    /// A number beside the right one; their difference in units of `scale` is the deviation.
+    /// Compares a number with the right one. Their difference over `scale` is the deviation.
     pub(super) fn number(
         quantity: &str,
         [got, expected]: [f64; 2],
@@ -84,12 +90,12 @@ impl Row {
         }
     }
 
-    /// A number beside the right one, within a relative tolerance.
+    /// Compares a number with the right one, within a relative tolerance.
     pub(super) fn relative(quantity: &str, pair: [f64; 2], tolerance: f64) -> Self {
         Self::number(quantity, pair, pair[1].abs(), tolerance)
     }
 
-    /// The worst of several numbers.
+    /// Of several compared numbers the one with the largest deviation over tolerance.
     pub(super) fn worst(numbers: impl IntoIterator<Item = Self>) -> Self {
         let part = |row: &Self| row.part_of_tolerance().unwrap_or(f64::INFINITY);
         let numbers = numbers.into_iter();
@@ -97,7 +103,7 @@ impl Row {
         worst.unwrap_or_else(|| Self::wrong("a number", "nothing was compared"))
     }
 
-    /// The error that a problem must end in; see [`refused!`](super::refused).
+    /// Judges a problem that must end in an error, of the pattern `expected`; see [`refused!`](super::refused).
     pub(super) fn refusal<T: Debug, E: Display>(
         result: std::result::Result<T, E>,
         expected: &str,
@@ -116,6 +122,7 @@ impl Row {
         }
     }
 
+    /// A wrong case, unless the caller changes the verdict.
     fn wrong(expected: impl Into<String>, got: impl Into<String>) -> Self {
         Self {
             expected: expected.into(),
@@ -124,7 +131,7 @@ impl Row {
         }
     }
 
-    /// Which case is wrong, and how.
+    /// A line that says which case is wrong, and how.
     pub(super) fn complaint(&self) -> String {
         let Self {
             family,
@@ -137,19 +144,20 @@ impl Row {
         format!("{family}, {parameter} = {value:e}: expected {expected}, got {got}")
     }
 
-    /// Deviation as a part of what is allowed, where numbers were compared.
+    /// Deviation over tolerance; `None` where no numbers were compared or the deviation is not finite.
     pub(super) fn part_of_tolerance(&self) -> Option<f64> {
         Some(self.deviation? / self.tolerance?)
     }
 }
 
 impl Verdict {
+    /// This verdict if `right`, otherwise `Wrong`.
     fn provided(self, right: bool) -> Self {
         if right { self } else { Self::Wrong }
     }
 }
 
-/// What comes of a problem whose right result is an error of the given pattern.
+/// The row of a problem whose right result is an error that matches a pattern.
 macro_rules! refused {
     ($result:expr => $pattern:pat) => {
         Ok($crate::evidence::stability::case::Row::refusal(
@@ -161,14 +169,16 @@ macro_rules! refused {
 }
 pub(super) use refused;
 
-/// What is computed of a family for one value of its parameter.
+/// One value of the parameter of a family.
 pub(super) struct Case<'a, F> {
     pub(super) family: &'a Family,
+    /// Computes and judges the case with a value of the parameter.
     pub(super) run: F,
+    /// The value.
     pub(super) value: f64,
 }
 
-/// Runs all cases on all threads; rows in the order of the cases.
+/// Runs all cases on all threads; rows in the order of the cases. An error of `run` makes the case wrong.
 pub(super) fn judge<F: Fn(f64) -> Result<Row> + Sync>(cases: &[Case<'_, F>]) -> Result<Vec<Row>> {
     in_parallel("stability", cases, |case| {
         let start = Instant::now();

@@ -1,4 +1,5 @@
-//! The cone on a line of any linear viscoelastic material, by its own formulas: the judge of the one-dimensional solvers.
+//! The cone in the one-dimensional model of any linear viscoelastic material in closed form up to integrals: an exact solution
+//! with which the solvers of that model are judged.
 //!
 //! With h̃ = s |x|, in contact from −y to x_r, each branch has the length l = v τ, and
 //!
@@ -14,11 +15,14 @@ use rheology::{RelaxationBranch, RelaxationSpectrum};
 
 /// Stationary sliding of a cone.
 pub(super) struct ConeOnSolid {
+    /// F_N, in the unit of the moduli times the square of x_r.
     pub(super) normal_force: f64,
+    /// F_h/F_N.
     pub(super) friction_coefficient: f64,
 }
 
-/// A cone whose line has the slope s = 1, with its front at x_r = 1, at speed v.
+/// Solves a cone whose line has the slope s = 1, with its front at x_r = 1, at speed v. Fails where no place y behind the apex
+/// is found at which the load vanishes.
 pub(super) fn cone_on_solid(material: &RelaxationSpectrum, velocity: f64) -> Result<ConeOnSolid> {
     let branch = |branch: &RelaxationBranch| Branch {
         modulus: branch.modulus,
@@ -27,6 +31,8 @@ pub(super) fn cone_on_solid(material: &RelaxationSpectrum, velocity: f64) -> Res
     let branches: Vec<Branch> = material.branches().iter().map(branch).collect();
     let spring = material.equilibrium_modulus();
     let dashpot = material.viscosity() * velocity;
+    // The load at the distance y behind the apex vanishes at the rear of the contact. A dashpot pulls there, so that the
+    // contact may end at the apex itself; a material that is nearly elastic is symmetric up to y = x_r.
     let behind = |y: f64| {
         let stresses: f64 = branches.iter().map(|branch| branch.behind(y)).sum();
         spring * (1.0 - y) - dashpot + stresses
@@ -38,6 +44,7 @@ pub(super) fn cone_on_solid(material: &RelaxationSpectrum, velocity: f64) -> Res
     } else {
         bracketed_root(behind, [0.0, 1.0]).context("no place where the load vanishes")?
     };
+    // Load and work of the spring and the dashpot in closed form; those of each branch by quadrature.
     let left = 1.0 - rear;
     let mut load = 0.5 * spring * (2.0 - left * left) + dashpot * left;
     let mut work = dashpot * (1.0 + rear) + 0.5 * spring * left * left;
@@ -54,17 +61,21 @@ pub(super) fn cone_on_solid(material: &RelaxationSpectrum, velocity: f64) -> Res
     })
 }
 
-/// From the end of the contact or its apex, next to which short branches fade.
+/// Integral of a stress over the distance from the front or the apex, where quadrature refines: short branches fade there.
 fn integral(stress: impl Fn(f64) -> f64, length: f64) -> f64 {
     integrate(stress, [0.0, length], 1e-12).value
 }
 
+/// A spring in series with a dashpot.
 struct Branch {
+    /// G.
     modulus: f64,
+    /// l = v τ.
     length: f64,
 }
 
 impl Branch {
+    /// G l: the stress that sliding at constant slope 1 approaches.
     fn stiffness(&self) -> f64 {
         self.modulus * self.length
     }

@@ -1,4 +1,4 @@
-//! All families, in the order of the table: `families.toml` holds their values, and here is what is computed of each.
+//! All families, in the order of the table: `families.toml` holds the values of their parameters; the computations are here.
 
 use anyhow::{Result, bail};
 use indenters::{Hyperboloid, PowerProfile, RoundTippedCone, Sphere};
@@ -13,12 +13,14 @@ use crate::scene::solid;
 /// What `families.toml` holds.
 #[derive(Deserialize)]
 struct Families {
+    /// In the order of the table.
     family: Vec<Family>,
 }
 
-/// What a case comes to.
+/// Computes and judges the case with a value of the parameter.
 pub(super) type Run = fn(f64) -> Result<Row>;
 
+/// All families with their computations; fails if one has none.
 pub(super) fn all() -> Result<Vec<(Family, Run)>> {
     let Families { family } = toml::from_str(include_str!("families.toml"))?;
     let with_run = |family: Family| {
@@ -28,6 +30,7 @@ pub(super) fn all() -> Result<Vec<(Family, Run)>> {
     family.into_iter().map(with_run).collect()
 }
 
+/// The computation of the family with this name. Parameters are described by the functions called.
 fn run(family: &str) -> Result<Run> {
     Ok(match family {
         "line, cone with round tip" => |tip| line::both(&RoundTippedCone::new(tip, 1.0)?),

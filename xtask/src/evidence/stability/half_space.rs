@@ -1,4 +1,4 @@
-//! The half space: stationary sliding, the march in time, and pressing.
+//! Extreme cases of the half space: stationary sliding, the march in time, and pressing.
 
 use anyhow::Result;
 use bem_halfspace::HistoryPoint;
@@ -21,14 +21,15 @@ use super::case::{Row, refused};
 use super::line::{on_dashpot, under};
 use crate::scene::{Scene, solid};
 
-/// Enough unknowns for all of these cases, and seconds at most.
+/// Accuracy of all stationary cases; the unknowns suffice for each of them, and bound its time.
 const OPTIONS: RefinementOptions = RefinementOptions {
     relative_error: 1e-2,
     aspect: 0.5,
     max_unknowns: 40_000,
 };
 
-/// Friction within the error asked for, that of the right value, and a part of it.
+/// Judges the stationary friction by `expected`, within the error requested, that of `expected`, and the relative difference
+/// `part` between this problem and the one to which `expected` belongs.
 fn judged(
     body: &dyn Surface,
     material: &dyn Material,
@@ -42,13 +43,14 @@ fn judged(
     Ok(Row::relative("friction coefficient", pair, tolerance))
 }
 
-/// A body beside the table of s(p) for the scene of the profile that it is nearly, from which its shape differs by `part`.
+/// Compares a body with the tabulated s(p) for the power profile of `scene`, to which it is nearly equal: `part` bounds the
+/// relative difference between the frictions of both.
 fn beside_table(body: &dyn Surface, scene: &Scene, part: f64) -> Result<Row> {
     let expected = half_space_power_friction(&scene.body, &scene.material, &scene.load)?;
     judged(body, &scene.material, &scene.load, expected, part)
 }
 
-/// The table of s(p), whose errors are far below what is asked here.
+/// A power profile with an exponent p on a dashpot, compared with the tabulated s(p), whose errors are far below the tolerance.
 ///
 /// Friction diverges at p = 1/2; for p = 100 and more the rise at the rim is narrower than the elements allowed.
 pub(super) fn power_profile(exponent: f64) -> Result<Row> {
@@ -68,24 +70,26 @@ pub(super) fn power_profile(exponent: f64) -> Result<Row> {
     beside_table(&scene.body, &scene, 0.0)
 }
 
-/// A profile on a dashpot, where the depth (12) is 1 m.
+/// A profile on a dashpot under such a load that the depth by Eq. (12) of the paper is 1 m.
 fn on_unit_dashpot(body: PowerProfile) -> Result<Scene> {
     let unit = Scene::unit(1.0)?;
     Ok(Scene { body, ..unit })
 }
 
+/// A cone with this slope: friction is proportional to it, however steep the cone.
 pub(super) fn any_slope(slope: f64) -> Result<Row> {
     let scene = on_unit_dashpot(PowerProfile::cone(slope)?)?;
     beside_table(&scene.body, &scene, 0.0)
 }
 
-/// Of the cone a part is missing that is as large as the end.
+/// A cone whose tip is cut off at the radius `end` \[m], compared with a whole one; a part of the order of `end` is missing.
 pub(super) fn flat_end(end: f64) -> Result<Row> {
     let cone = on_unit_dashpot(PowerProfile::cone(1.0)?)?;
     beside_table(&FlatCone::new(end, 1.0)?, &cone, 10.0 * end)
 }
 
-/// A cone whose tip is much smaller than the contact, or a paraboloid whose cone begins far outside it.
+/// A cone with a tip rounded up to the radius `tip` \[m]: a cone if this is much smaller than the contact of 1 m, and a
+/// paraboloid if it is much larger.
 pub(super) fn round_tip(tip: f64) -> Result<Row> {
     let (profile, part) = if tip < 1.0 {
         (PowerProfile::cone(1.0)?, 10.0 * tip)
@@ -96,13 +100,15 @@ pub(super) fn round_tip(tip: f64) -> Result<Row> {
     beside_table(&body, &on_unit_dashpot(profile)?, part)
 }
 
+/// A function for the exact friction in the limit of slow or of fast sliding.
 type Limit = fn(
     &dyn Axisymmetric,
     &dyn Material,
     ElasticContact,
 ) -> Result<ElasticLimitFriction, FrictionError>;
 
-/// The elastic limit of a three-element solid under a paraboloid, in contact to 1 m, at a speed.
+/// Compares a paraboloid on the three-element solid of the stiffness ratio γ with an elastic limit, at a contact radius of 1 m
+/// and a speed \[m/s], where τ = 1 s.
 fn at_limit(gamma: f64, velocity: f64, limit: Limit) -> Result<Row> {
     let (profile, solid) = (PowerProfile::paraboloid(0.1)?, solid(gamma)?);
     let contact = ElasticContact {
@@ -116,19 +122,19 @@ fn at_limit(gamma: f64, velocity: f64, limit: Limit) -> Result<Row> {
     judged(&profile, &solid, &load, expected, 0.0)
 }
 
-/// Slow sliding, v τ (1 + γ)/γ = 1e-4 a: friction by the exact elastic limit.
+/// Slow sliding, v τ (1 + γ)/γ = 1e-4 a, where τ (1 + γ)/γ is the retardation time and a the contact radius.
 pub(super) fn slow(gamma: f64) -> Result<Row> {
     let velocity = 1e-4 * gamma / (1.0 + gamma);
     at_limit(gamma, velocity, low_speed_friction)
 }
 
-/// Fast sliding, v τ = 1e4 a.
+/// Fast sliding, v τ = 1e4 a, with the relaxation time τ and the contact radius a.
 pub(super) fn fast(gamma: f64) -> Result<Row> {
     at_limit(gamma, 1e4, high_speed_friction)
 }
 
-/// Two estimates of h = x² + (y/r)², on elements that are as slender as the body and of half the width, agree within their
-/// error bars.
+/// Friction of h = x² + (y/r)², r = `aspect`, on elements of the same aspect and of half the width must agree within both error
+/// bars.
 ///
 /// Under this force the contact is about as long as one, however wide.
 pub(super) fn slender(aspect: f64) -> Result<Row> {
@@ -148,8 +154,8 @@ pub(super) fn slender(aspect: f64) -> Result<Row> {
     Ok(Row::relative("friction coefficient", pair, tolerance))
 }
 
-/// Under a constant force any number of steps of any length ends where one elastic step of compliance J(t) does, on the
-/// same elements.
+/// A paraboloid pressed by a constant force in three steps of the length `step` \[s]. The depth and the area must be those of
+/// one elastic step of the compliance J(t), t = 3 `step`, on the same elements (correspondence of Lee & Radok, 1960).
 pub(super) fn pressed(material: &dyn Material, step: f64) -> Result<Row> {
     let body = PowerProfile::paraboloid(0.1)?;
     let times = [step, 2.0 * step, 3.0 * step];
@@ -171,7 +177,8 @@ pub(super) fn pressed(material: &dyn Material, step: f64) -> Result<Row> {
     ]))
 }
 
-/// The last row of a short march over elements of 0.1 m, at a speed of one element in the given time.
+/// The last row of a march of a paraboloid under a force \[N] over 1.5 m on elements of 0.1 m, with one element in a time step
+/// \[s].
 fn marched(material: &dyn Material, time_step: f64, force: f64) -> Result<SlideRow> {
     let body = PowerProfile::paraboloid(0.1)?;
     let options = GridOptions::new([0.1; 2], Footprint::square(3.0));
@@ -180,7 +187,7 @@ fn marched(material: &dyn Material, time_step: f64, force: f64) -> Result<SlideR
     Ok(march.last().clone())
 }
 
-/// A march beside one on the simpler material that is left in the limit of the ratio Δt/τ.
+/// Compares a march with one on the simpler material to which the first tends with `ratio` = Δt/τ, τ = 1 s.
 fn beside_limit(
     material: &dyn Material,
     limit: &dyn Material,
@@ -200,7 +207,7 @@ fn beside_limit(
     ]))
 }
 
-/// A spring in the short run, a dashpot in the long one.
+/// Maxwell's material: a spring in steps much shorter than τ, a dashpot in much longer ones.
 pub(super) fn march_on_maxwell(ratio: f64) -> Result<Row> {
     let material = Maxwell::new(1.0, 1.0)?;
     if ratio < 1.0 {
@@ -210,13 +217,14 @@ pub(super) fn march_on_maxwell(ratio: f64) -> Result<Row> {
     }
 }
 
-/// The stiff spring in the short run, the soft one in the long one.
+/// The three-element solid with γ = 0.1: the stiff spring in steps much shorter than τ, the soft one in much longer ones.
 pub(super) fn march_on_solid(ratio: f64) -> Result<Row> {
     let modulus = if ratio < 1.0 { 1.1 } else { 0.1 };
     beside_limit(&solid(0.1)?, &Elastic::new(modulus)?, ratio, modulus)
 }
 
-/// The smallest force leaves no depth.
+/// A paraboloid under a force \[N] near an end of the range of f64. Under the smallest ones the depth underflows to 0, which
+/// has to be refused.
 pub(super) fn half_space_under(force: f64) -> Result<Row> {
     let scene = under(force)?;
     if force < 1e-320 {

@@ -1,4 +1,4 @@
-//! Theorems and the one-dimensional model beside closed forms: stationary sliding, the march in time, and pressing.
+//! Extreme cases of the one-dimensional model, compared with closed forms: stationary sliding, the march in time, and pressing.
 
 use std::f64::consts::FRAC_2_PI;
 
@@ -17,10 +17,10 @@ use super::case::{Row, refused};
 use super::cone_on_solid::cone_on_solid;
 use crate::scene::Scene;
 
-/// Relative error requested of the stationary solver, its default.
+/// Relative error requested of the stationary solver (its default) and of pressing; results must be this close to closed forms.
 const REQUESTED_ERROR: f64 = 1e-8;
 
-/// A profile on a dashpot, where the depth (12) is 0.1 m.
+/// A profile on a dashpot under such a load that the depth by Eq. (12) of the paper is 0.1 m.
 pub(super) fn on_dashpot(body: PowerProfile) -> Result<Scene> {
     let (material, load) = (Viscous::new(50.0)?, SlidingLoad::new(2.0, 0.1)?);
     Ok(Scene {
@@ -38,15 +38,17 @@ pub(super) fn sixteen_branches() -> Prony {
     prony([0.1, 0.0], &branches)
 }
 
+/// A cone of slope 0.1.
 pub(super) fn cone() -> Result<PowerProfile> {
     Ok(PowerProfile::cone(0.1)?)
 }
 
+/// h = 0.1 r², in metres.
 pub(super) fn paraboloid() -> Result<PowerProfile> {
     Ok(PowerProfile::paraboloid(0.1)?)
 }
 
-/// The stationary state.
+/// The stationary state in the one-dimensional model, to [`REQUESTED_ERROR`].
 fn state(
     body: &dyn Axisymmetric,
     material: &dyn Material,
@@ -55,6 +57,7 @@ fn state(
     steady(&EquivalentLine(body), material, load, REQUESTED_ERROR)
 }
 
+/// Compares friction coefficient and depth \[m] with exact ones; the worse of both.
 fn compared(got: &SteadySliding, friction: f64, depth: f64) -> Result<Row> {
     let frictions = [got.friction_coefficient.value, friction];
     let depths = [got.indentation_depth.value, depth];
@@ -64,18 +67,21 @@ fn compared(got: &SteadySliding, friction: f64, depth: f64) -> Result<Row> {
     ]))
 }
 
+/// The same with the closed form on a dashpot.
 fn beside_theorem(got: &SteadySliding, theorem: &StationarySliding) -> Result<Row> {
     compared(got, theorem.friction_coefficient, theorem.indentation_depth)
 }
 
-/// The stationary solver beside the quadrature of (16): two methods that share only the line itself.
+/// Any body on a dashpot: the stationary solver against the quadrature of Eq. (16) of the paper. The two methods share only the
+/// one-dimensional profile.
 pub(super) fn both(body: &dyn Axisymmetric) -> Result<Row> {
     let Scene { material, load, .. } = Scene::unit(1.0)?;
     let expected = axisymmetric_sliding(body, &material, &load)?;
     beside_theorem(&state(body, &material, &load)?, &expected)
 }
 
-/// The closed form (16) of the theorem, which shares nothing with the solver.
+/// A power profile with an exponent p on a dashpot, compared with the closed form of Eq. (16), which shares nothing with the
+/// solver.
 ///
 /// The friction integral diverges up to p = 1/2, and close above it converges too slowly to be summed.
 pub(super) fn power_profile(exponent: f64) -> Result<Row> {
@@ -87,7 +93,7 @@ pub(super) fn power_profile(exponent: f64) -> Result<Row> {
     beside_theorem(&got?, &scene.theory()?)
 }
 
-/// The front is 1 m ahead.
+/// A contact whose front is 1 m ahead of the apex, at a speed \[m/s].
 const fn contact(velocity: f64) -> SlidingContact {
     SlidingContact {
         front: 1.0,
@@ -95,19 +101,21 @@ const fn contact(velocity: f64) -> SlidingContact {
     }
 }
 
-/// Spring and dashpot in parallel with the retardation time 1 s.
+/// A profile on a spring and a dashpot in parallel, of the retardation time 1 s, at a speed \[m/s].
 pub(super) fn kelvin_voigt(profile: &PowerProfile, velocity: f64) -> Result<Row> {
     let material = KelvinVoigt::new(1.0, 1.0)?;
     let expected = kelvin_voigt_sliding(profile, &material, contact(velocity))?;
     closed_form(profile, &material, velocity, &expected)
 }
 
+/// A profile on a spring and a dashpot in series, of the relaxation time 1 s, at a speed \[m/s].
 pub(super) fn maxwell(profile: &PowerProfile, velocity: f64) -> Result<Row> {
     let material = Maxwell::new(1.0, 1.0)?;
     let expected = maxwell_sliding(profile, &material, contact(velocity))?;
     closed_form(profile, &material, velocity, &expected)
 }
 
+/// Compares the stationary solver under the force of a closed form with its friction and depth.
 fn closed_form(
     profile: &PowerProfile,
     material: &dyn Material,
@@ -120,7 +128,7 @@ fn closed_form(
     compared(&got, friction, depth)
 }
 
-/// The cone whose line has the slope 1, held at the depth 1 m.
+/// The cone whose one-dimensional profile has the slope 1, held at the depth 1 m: friction and force against [`cone_on_solid`].
 pub(super) fn cone_at_depth(material: &dyn Material, velocity: f64) -> Result<Row> {
     let profile = PowerProfile::cone(FRAC_2_PI)?;
     let expected = cone_on_solid(&material.relaxation(), velocity)?;
@@ -136,7 +144,8 @@ pub(super) fn cone_at_depth(material: &dyn Material, velocity: f64) -> Result<Ro
     ]))
 }
 
-/// Under a constant force 8 ∫ x h̃' dx = F J(t) at any time; the same as on a dashpot of 1 Pa s after the impulse F J(t).
+/// A cone under a constant force at a time \[s]: 8 ∫ x h̃' dx = F J(t), with the contact radius as the upper limit, is the same
+/// equation as on a dashpot of 1 Pa s after the impulse F J(t), for which there is a closed form.
 pub(super) fn pressed(material: &dyn Material, time: f64) -> Result<Row> {
     let profile = cone()?;
     let last = material.creep_compliance(time)?;
@@ -150,10 +159,11 @@ pub(super) fn pressed(material: &dyn Material, time: f64) -> Result<Row> {
     Ok(Row::relative("indentation depth", depths, REQUESTED_ERROR))
 }
 
-/// Elements along the stationary contact of a march.
+/// Elements along the stationary contact of [`march`]; chosen.
 const MARCH_ELEMENTS: usize = 400;
 
-/// The contact ends between two elements, and on a part of an element loads are linear: second order in 1/n.
+/// A march of a cone on Maxwell's material into the stationary state, at a speed \[m/s]; compared with the closed form to 4/n
+/// on n elements. Loads are linear on the parts of elements at both ends of the contact: the error is of second order in 1/n.
 pub(super) fn march(velocity: f64) -> Result<Row> {
     let profile = cone()?;
     let material = Maxwell::new(1.0, 1.0)?;
@@ -173,7 +183,7 @@ pub(super) fn march(velocity: f64) -> Result<Row> {
     ]))
 }
 
-/// A paraboloid on a dashpot; all numbers but the force are one.
+/// A paraboloid on a dashpot under a force \[N]; all other numbers are 1 in SI.
 pub(super) fn under(force: f64) -> Result<Scene> {
     let (body, material) = (PowerProfile::paraboloid(1.0)?, Viscous::new(1.0)?);
     let load = SlidingLoad::new(force, 1.0)?;
@@ -184,7 +194,8 @@ pub(super) fn under(force: f64) -> Result<Scene> {
     })
 }
 
-/// Depth and friction beside Eqs. (12) and (22) as the paper prints them, in an order that neither overflows nor underflows.
+/// Compares depth \[m] and friction coefficient of [`under`] with Eqs. (12) and (22) of the paper, evaluated in an order in
+/// which nothing overflows or underflows.
 fn beside_paper([depth, friction]: [f64; 2], force: f64, tolerance: f64) -> Result<Row> {
     let expected = 0.25 * force;
     // A depth below the normal numbers has fewer digits.
@@ -196,7 +207,8 @@ fn beside_paper([depth, friction]: [f64; 2], force: f64, tolerance: f64) -> Resu
     ]))
 }
 
-/// The smallest force leaves no depth.
+/// The closed form under a force \[N] near an end of the range of f64; under the smallest one the depth underflows to 0, which
+/// has to be refused.
 pub(super) fn theorem_under(force: f64) -> Result<Row> {
     let scene = under(force)?;
     let got = power_sliding(&scene.body, &scene.material, &scene.load);
@@ -211,7 +223,8 @@ pub(super) fn theorem_under(force: f64) -> Result<Row> {
     )
 }
 
-/// Small forces leave a depth with fewer digits than others have.
+/// The stationary solver under a force \[N] near an end of the range of f64; below the normal numbers the depth has too few
+/// digits, which has to be refused.
 pub(super) fn line_under(force: f64) -> Result<Row> {
     let scene = under(force)?;
     let got = state(&scene.body, &scene.material, &scene.load);

@@ -26,7 +26,7 @@ pub(super) struct Options {
     only: Option<String>,
 }
 
-/// Part of the tolerance at which smaller ones are drawn.
+/// Smaller deviations over tolerance are drawn here: zero has no place on a logarithmic axis.
 const MIN_DRAWN_PART: f64 = 1e-9;
 
 /// Runs all cases, also in a quick run.
@@ -35,6 +35,7 @@ pub(super) fn report(options: &Options) -> Result<Report> {
     report_of(&case::judge(&chosen(&families, options)?)?)
 }
 
+/// The report on judged cases; it fails if one of them is wrong.
 fn report_of(rows: &[Row]) -> Result<Report> {
     let wrong = rows.iter().filter(|row| row.verdict == Verdict::Wrong);
     let wrong: Vec<String> = wrong.map(Row::complaint).collect();
@@ -49,7 +50,7 @@ fn report_of(rows: &[Row]) -> Result<Report> {
     })
 }
 
-/// The cases that are asked for.
+/// The cases whose name contains the text asked for; fails where there is none.
 fn chosen<'a>(families: &'a [(Family, Run)], options: &Options) -> Result<Vec<Case<'a, Run>>> {
     let text = options.only.as_deref().unwrap_or_default();
     let mut cases = Vec::new();
@@ -64,6 +65,7 @@ fn chosen<'a>(families: &'a [(Family, Run)], options: &Options) -> Result<Vec<Ca
     Ok(cases)
 }
 
+/// Number of cases with a verdict, as a cell.
 fn count(rows: &[Row], verdict: Verdict) -> String {
     let of_verdict = rows.iter().filter(|row| row.verdict == verdict);
     of_verdict.count().to_string()
@@ -90,7 +92,7 @@ fn columns<'a>() -> [Column<&'a [Row]>; 8] {
     ]
 }
 
-/// All cases over the decade of their parameter, those at the ends of floating-point numbers in a panel of their own.
+/// All cases over the decimal logarithm of their parameter, those beyond 10^±13 in a panel of their own.
 fn picture(rows: &[Row]) -> Figure {
     let is_usual = |row: &&Row| row.value.log10().abs() < 13.0;
     let (usual, ends): (Vec<&Row>, Vec<&Row>) = rows.iter().partition(is_usual);
@@ -99,7 +101,7 @@ fn picture(rows: &[Row]) -> Figure {
     Figure::new(panels.map(|(rows, end)| panel(&rows, end)), 2)
 }
 
-/// Deviations over decades from −`end` to `end`; what has none stands above the tolerance.
+/// Deviation over tolerance over the decimal logarithm of the parameter, from −`end` to `end`.
 fn panel(rows: &[&Row], end: f64) -> Chart {
     let kinds = [
         ("theorem", Shape::Circle, Colour::Black),
@@ -126,7 +128,7 @@ fn panel(rows: &[&Row], end: f64) -> Chart {
     chart(x, y, series)
 }
 
-/// Where a case stands: an accurate one at its part of the tolerance, the others above all of these.
+/// Ordinate of a case: deviation over tolerance of an accurate one; fixed places above the tolerance of the others.
 fn height(row: &Row) -> f64 {
     match row.verdict {
         Verdict::Accurate => row.part_of_tolerance().unwrap_or(0.0).max(MIN_DRAWN_PART),

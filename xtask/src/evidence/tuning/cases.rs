@@ -10,8 +10,10 @@ use serde::Deserialize;
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Cases {
+    /// Scenes to which cases refer by name.
     #[serde(rename = "scene")]
     scenes: Vec<BenchmarkScene>,
+    /// One for each constant.
     #[serde(rename = "case")]
     pub(super) cases: Vec<Case>,
 }
@@ -36,6 +38,7 @@ pub(super) struct BenchmarkScene {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Case {
+    /// Its name.
     pub(super) constant: String,
     /// The source file that declares it, or a folder in which one file does, from the root of the checkout.
     pub(super) source: PathBuf,
@@ -49,15 +52,18 @@ pub(super) struct Case {
     pub(super) larger: Vec<String>,
     /// Names of scenes.
     pub(super) scenes: Vec<String>,
+    /// Whether a quick run tries it.
     #[serde(default)]
     pub(super) is_quick: bool,
 }
 
 impl Cases {
+    /// Parses `cases.toml`.
     pub(super) fn read() -> Result<Self> {
         toml::from_str(include_str!("cases.toml")).context("xtask/src/evidence/tuning/cases.toml")
     }
 
+    /// The scene with this name; fails where there is none.
     pub(super) fn scene(&self, name: &str) -> Result<&BenchmarkScene> {
         let scene = self.scenes.iter().find(|scene| scene.name == name);
         scene.with_context(|| format!("cases.toml has no scene {name:?}"))
@@ -65,11 +71,12 @@ impl Cases {
 }
 
 impl Case {
+    /// All initialisers that are tried.
     pub(super) fn tried(&self) -> impl Iterator<Item = &String> {
         self.smaller.iter().chain(&self.larger)
     }
 
-    /// The one of some source files that declares the constant.
+    /// The one file among `tracked`, paths from `root`, that declares the constant; fails where there is none or more than one.
     pub(super) fn file<'a>(
         &self,
         root: &Path,
@@ -95,11 +102,13 @@ impl Case {
         Ok(found[0])
     }
 
+    /// Begin of the declaration of the constant, as its source has it.
     fn declaration(&self) -> String {
         format!("const {}: ", self.constant)
     }
 
-    /// A source text with another value of the constant in place of the present one.
+    /// The text of a source file with the initialiser `tried` in place of the present one. Fails unless the constant is
+    /// declared once and its initialiser is that of `cases.toml`.
     pub(super) fn edit(&self, text: &str, tried: &str) -> Result<String> {
         let Self {
             constant, present, ..

@@ -11,7 +11,8 @@ use super::program::Program;
 use crate::ci::{cargo, output, workspace_root};
 use crate::output::write_atomically;
 
-/// Build of the program; many units of code, which are kept, make it short after a change of one file.
+/// Arguments of cargo that build the program. Incremental compilation and many units of code make the build short after a
+/// change of one constant.
 const BUILD: &str = "build --quiet --profile ci --workspace --all-features --bin viscofriction \
                      --config profile.ci.incremental=true \
                      --config profile.ci.package.bem-halfspace.codegen-units=32 \
@@ -19,11 +20,14 @@ const BUILD: &str = "build --quiet --profile ci --workspace --all-features --bin
 
 /// The copy, in a folder with all that is built from it.
 pub(super) struct Checkout {
+    /// Of the copy and the builds.
     folder: PathBuf,
+    /// Files that are copied, from the root of the checkout.
     tracked: Vec<PathBuf>,
 }
 
 impl Checkout {
+    /// The copy in `target/tuning`, which [`Self::update`] makes or brings up to date.
     pub(super) fn new() -> Result<Self> {
         Ok(Self {
             folder: workspace_root().join("target/tuning"),
@@ -31,7 +35,8 @@ impl Checkout {
         })
     }
 
-    /// Makes the copy equal to the checkout but for one constant; files that do not change keep their time.
+    /// Makes the copy equal to the checkout but for one constant. Files whose contents stay are not written, so that cargo does
+    /// not build them anew.
     pub(super) fn update(&self, change: Option<(&Case, &str)>) -> Result<()> {
         let root = workspace_root();
         let edited = change.map(|(case, _)| case.file(&root, &self.tracked));
@@ -92,6 +97,7 @@ pub(super) fn tracked_files() -> Result<Vec<PathBuf>> {
     Ok(files.filter(|file| root.join(file).exists()).collect())
 }
 
+/// Contents of a file; an error names it.
 fn read(file: &Path) -> Result<Vec<u8>> {
     fs::read(file).with_context(|| format!("reading {}", file.display()))
 }

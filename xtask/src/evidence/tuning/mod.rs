@@ -1,5 +1,5 @@
-//! In which range the constants that steer the solvers and their error bars may change: each is changed in a copy of the checkout,
-//! whose program solves a few scenes.
+//! In which range the constants that steer the solvers and their error bars may change: each is changed in a copy of the
+//! checkout, whose program solves a few scenes.
 //!
 //! The copy and all that is built from it are in `target/tuning`; the checkout itself is only read.
 
@@ -31,7 +31,8 @@ pub(super) struct Options {
     constants: Vec<String>,
 }
 
-/// One quantity of one scene, with one value of a constant beside the present one.
+/// One quantity of one scene with a tried value of a constant, next to that with the present value; a row of `tuning.csv`.
+/// Values are in SI, errors absolute, times those of one run.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 struct Row {
     constant: String,
@@ -46,7 +47,7 @@ struct Row {
     present_value_error: f64,
     reference: f64,
     reference_error: f64,
-    /// Deviation from the reference over the bar and the error of the reference.
+    /// Deviation from the reference over the sum of the error bar and the error of the reference.
     deviation_over_bar: Option<f64>,
     present_deviation_over_bar: f64,
     unknowns: Option<f64>,
@@ -58,18 +59,21 @@ struct Row {
 }
 
 impl Row {
+    /// Whether the row belongs to this case and this tried value.
     fn is_of(&self, case: &Case, tried: &str) -> bool {
         self.constant == case.constant && self.present == case.present && self.tried == tried
     }
 }
 
-/// What became of the answer.
+/// Whether the answer with the tried value is still right.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 enum Outcome {
     /// Value and bar have the digits that they have with the present value.
     Same,
+    /// The deviation from the reference is within the bar and the error of the reference.
     InsideBar,
+    /// It is not.
     OutsideBar,
     /// The program ended with an error.
     Refused,
@@ -90,7 +94,7 @@ pub(super) fn report(options: &Options, out: &Path, quick: bool) -> Result<Repor
     })
 }
 
-/// Rows of some cases beside those that the file has already.
+/// Rows of the chosen cases and all others that the file has; those that are not in the file are computed and written to it.
 fn measure(cases: &Cases, chosen: &[&Case], file: PathBuf) -> Result<Vec<Row>> {
     let mut table = GrowingTable::<Row>::open(file)?;
     let values = chosen
@@ -140,6 +144,7 @@ fn measure(cases: &Cases, chosen: &[&Case], file: PathBuf) -> Result<Vec<Row>> {
     Ok(table.rows)
 }
 
+/// The cases that the command line names; without names all, or those of a quick run. Fails for an unknown name.
 fn chosen_cases<'a>(cases: &'a Cases, options: &Options, quick: bool) -> Result<Vec<&'a Case>> {
     let names = &options.constants;
     for name in names {
@@ -166,18 +171,20 @@ struct Baseline<'a> {
     limit: f64,
 }
 
-/// Time on the wall after which a run is ended, over that with the present value.
+/// Time on the wall clock after which a run is ended, over that with the present value; chosen: such a slow value is useless.
 const LIMIT_OVER_PRESENT_TIME: f64 = 20.0;
-/// Shortest time on the wall after which a run is ended \[s].
+/// Shortest time on the wall clock after which a run is ended \[s]; a busy machine delays short runs by more than a factor.
 const MIN_LIMIT: f64 = 20.0;
-/// Processor time of all runs of a scene with the present value that makes steps of 10 ms small \[s].
+/// Runs of a scene are repeated until those with the present value took this processor time \[s], against which the steps of
+/// 10 ms, in which it is counted, are 2 %.
 const MEASURED_SECONDS: f64 = 0.5;
-/// The same where the ratio of both times is not close to 1 \[s].
+/// The same where the ratio of both times is not close to 1 \[s], so that a change is not reported by chance.
 const DOUBTED_SECONDS: f64 = 2.0;
-/// Largest number of runs of a scene.
+/// Largest number of runs of a scene, for those too short to be counted at all.
 const MAX_RUNS: u32 = 250;
 
 impl<'a> Baseline<'a> {
+    /// Solves a scene and its reference by the program with the present values; fails if either is refused.
     fn new(scene: &'a BenchmarkScene, checkout: &Checkout, present: &Program) -> Result<Self> {
         let answer_of = |file: &Path| {
             let run = present.solve(scene, file, f64::INFINITY)?;
@@ -196,7 +203,8 @@ impl<'a> Baseline<'a> {
         })
     }
 
-    /// Solves the scene with the present and with the changed program in turn, so that both share what else the machine does.
+    /// Solves the scene in `file` with the changed and the present program in turn, so that other work on the machine slows
+    /// down both alike.
     fn compare(&self, file: &Path, present: &Program, changed: &Program) -> Result<Comparison> {
         let mut seconds = [0.0; 2];
         let mut n_runs = 0;
@@ -225,7 +233,7 @@ impl<'a> Baseline<'a> {
         }
     }
 
-    /// A row for each quantity.
+    /// A row for each quantity of the scene: answer with the `tried` value, with the present one, and reference.
     fn rows(&self, case: &Case, tried: &str, compared: &Comparison) -> Vec<Row> {
         let answer = compared.answer.as_ref();
         let row = |(name, present): (&String, &Estimate)| {

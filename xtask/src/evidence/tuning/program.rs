@@ -30,7 +30,9 @@ pub(super) struct Run {
 /// The parts of an answer that are compared.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Answer {
+    /// By name, in SI.
     pub(super) quantities: BTreeMap<String, Estimate>,
+    /// What the program states of its work, where it does.
     pub(super) unknowns: Option<f64>,
     pub(super) iterations: Option<f64>,
 }
@@ -44,21 +46,24 @@ pub(super) enum Failure {
     Unfinished(f64),
 }
 
-/// Pause between two looks at whether a run has ended.
+/// Pause between two looks at whether a run has ended; short against the shortest runs, and almost no load.
 const POLLING_INTERVAL: Duration = Duration::from_millis(2);
 
 impl Program {
+    /// The program that is kept in `folder` under a name, and need not be there yet.
     pub(super) fn new(folder: &Path, name: &str) -> Self {
         let file = folder.join(format!("viscofriction-{name}"));
         let file = file.with_extension(std::env::consts::EXE_EXTENSION);
         Self { file }
     }
 
+    /// Where the program is.
     pub(super) fn file(&self) -> &Path {
         &self.file
     }
 
-    /// Solves a scene on one thread; a run that takes longer than the limit \[s] is ended.
+    /// Solves the scene in `file` with the arguments of `scene` on one thread. A run that takes longer than the limit on the
+    /// wall clock \[s] is ended. What it prints is kept beside the program.
     pub(super) fn solve(&self, scene: &BenchmarkScene, file: &Path, limit: f64) -> Result<Run> {
         let [printed, errors] =
             ["json", "err"].map(|extension| self.file.with_extension(extension));
@@ -99,7 +104,8 @@ impl Program {
 }
 
 impl Answer {
-    /// Quantities of a printed answer; those inside others have the names of the outer ones in front, separated by a slash.
+    /// Reads the quantities `names` from an answer in JSON; a name is a path within it, separated by slashes. Fails where one
+    /// of them or its error is missing.
     fn read(printed: &Path, names: &[String]) -> Result<Self> {
         let answer: Value = serde_json::from_str(&fs::read_to_string(printed)?)?;
         let number = |name: &str| answer.pointer(&format!("/{name}")).and_then(Value::as_f64);
@@ -117,9 +123,10 @@ impl Answer {
     }
 }
 
-/// Fields before the times of ended children in `/proc/self/stat`, after the name of the program in parentheses.
+/// Number of fields in `/proc/self/stat` between the name of the program, in parentheses, and `cutime` and `cstime`, the user
+/// and system time of ended children (man 5 proc_pid_stat).
 const FIELDS_BEFORE_CHILDREN: usize = 13;
-/// Clock ticks per second in `/proc`, on all architectures that Linux has a Rust compiler for.
+/// Clock ticks per second in `/proc` (`USER_HZ` of Linux), on all architectures for which there is a Rust compiler.
 const TICKS_PER_SECOND: f64 = 100.0;
 
 /// Processor time of all children that have ended \[s], which Linux counts in steps of 10 ms.

@@ -4,13 +4,14 @@ use super::cases::Case;
 use super::{Outcome, Row};
 use crate::table::{known_digits, markdown_table};
 
-/// Largest ratio of processor times, and its inverse the smallest, that counts as no change.
+/// A ratio of processor times between the inverse of this and this counts as no change; chosen above the scatter of repeated
+/// runs.
 pub(super) const MAX_TIME_RATIO: f64 = 1.1;
-/// Largest such ratio of runs shorter than [`SHORT_RUN_SECONDS`], whose times scatter by the steps of the clock.
+/// The same of runs shorter than [`SHORT_RUN_SECONDS`], whose times scatter by the steps of the clock.
 const MAX_TIME_RATIO_OF_SHORT_RUNS: f64 = 1.5;
-/// Three steps of the clock \[s].
+/// Processor time below which a run is short \[s]: three of the steps of 10 ms in which Linux counts.
 const SHORT_RUN_SECONDS: f64 = 0.03;
-/// Largest ratio of error bars, and its inverse the smallest, that counts as no change.
+/// A ratio of error bars between the inverse of this and this counts as no change; chosen, since a bar is an estimate.
 const MAX_BAR_RATIO: f64 = 2.0;
 
 /// A table in Markdown with one row per constant.
@@ -53,7 +54,8 @@ pub(super) fn summary(cases: &[&Case], rows: &[Row]) -> String {
     markdown_table(header.split('|'), lines).to_string()
 }
 
-/// What one value of a constant changes, with the scene where it changes most.
+/// What one value of a constant changes, in words, each with the scene where it changes most; empty if nothing. `rows` are
+/// those of this value.
 fn changes(rows: &[&Row]) -> Vec<String> {
     let mut changes = Vec::new();
     for (outcome, verb) in [

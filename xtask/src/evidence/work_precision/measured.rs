@@ -8,28 +8,31 @@ use viscofriction::scene::{Method, Model, Scene};
 use crate::evidence::request::{Reference, Request, first_reached, presses};
 use crate::meter::{measure, measure_median};
 
-/// What is compared where something slides, and where nothing does.
+/// What is compared in a scene that slides.
 const FRICTION: &str = "friction coefficient";
+/// What is compared in a scene that is only pressed.
 pub(super) const DEPTH: &str = "indentation depth";
-/// Relative errors of references without closed form; the first that is reached is taken.
+/// Relative errors requested of references in the one-dimensional model that have no closed form; the first that is reached is
+/// taken.
 const LINE_REFERENCE: [f64; 2] = [1e-12, 1e-11];
+/// Relative errors requested of references on the half space, likewise.
 const HALF_SPACE_REFERENCE: [f64; 3] = [2e-5, 5e-5, 1e-4];
-/// Rounding of closed forms.
+/// Relative error assumed of closed forms: a few roundings of f64.
 const CLOSED_ROUNDING: f64 = 1e-15;
-/// Errors up to this come from rounding in long sums, and follow no power.
+/// Relative errors up to this come from rounding in long sums and follow no power law, so that no order is fitted to them.
 const ROUNDING: f64 = 1e-12;
 
-/// What a run finds; errors are relative.
+/// The result of a run; errors are relative.
 pub(super) struct Found {
     /// Deviation from the reference; of a field in the mean square.
     pub(super) error: f64,
-    /// What the method claims.
+    /// The error bar of the method, if it has one.
     pub(super) error_bar: Option<f64>,
     /// Unknown pressures, elements or polynomials; none in a closed form.
     pub(super) unknowns: usize,
 }
 
-/// One run in the table.
+/// One run; a row of `work_precision.csv`. Errors are relative.
 #[derive(Debug, Clone, Default, Serialize)]
 pub(super) struct Row {
     pub(super) scene: String,
@@ -53,7 +56,7 @@ pub(super) struct Row {
 }
 
 impl Row {
-    /// Of the half space at one instant.
+    /// The row of a contact at one instant on the half space, everything else empty.
     pub(super) fn of_one_instant() -> Self {
         let (model, method) = (Model::HalfSpace.name(), "bem contact".to_owned());
         Self {
@@ -63,7 +66,7 @@ impl Row {
         }
     }
 
-    /// Of a request, without its results.
+    /// The row of a request, without its results.
     fn of_request(request: &Request, name: &str, scene: &Scene, reference: &Reference) -> Self {
         let is_closed = request.method == Method::Analytic;
         // The stationary half space may be asked for an error or given its elements.
@@ -120,7 +123,7 @@ impl Row {
 /// What was measured, one series after the other, from coarse to fine.
 #[derive(Debug, Default)]
 pub(super) struct Measured {
-    /// Whether each run is timed once, for no more than a hint, and not by the median of several.
+    /// Whether each run is timed once, which gives a rough time only, instead of by the median of several.
     pub(super) is_once: bool,
     pub(super) rows: Vec<Row>,
     /// One line for each run and each reference that could not be computed.
@@ -128,7 +131,7 @@ pub(super) struct Measured {
 }
 
 impl Measured {
-    /// Times a run, which is described by a row without its results.
+    /// Times `solve` and adds `run`, a row without results, with what it gave; an error is added to [`Self::refused`].
     pub(super) fn add(&mut self, run: Row, solve: impl Fn() -> Result<Found>) {
         let timed = if self.is_once {
             let (found, cost) = measure(&solve);
@@ -153,6 +156,7 @@ impl Measured {
         }
     }
 
+    /// Adds a line to [`Self::refused`].
     fn refuse(&mut self, what: &str, error: &anyhow::Error) {
         self.refused += &format!("\nrefused: {what}: {error:#}");
     }
@@ -195,6 +199,7 @@ fn reference(scene: &Scene, closed_form: &Request) -> Result<Reference> {
     first_reached(scene, model, errors)
 }
 
+/// Solves a scene as requested: the deviation of the requested quantity from the reference, and its error bar, both relative.
 fn found(request: &Request, scene: &Scene, reference: &Reference) -> Result<Found> {
     let answer = request.solve(scene)?;
     let known = answer.requested_quantity();

@@ -23,9 +23,11 @@ use measured::{DEPTH, Found, Measured, Row};
 /// What `scenes.toml` holds.
 #[derive(Deserialize)]
 struct Cases {
-    /// By which methods a scene is solved that slides, and one that does not.
+    /// By which methods a scene that slides is solved.
     sliding: Vec<Series>,
+    /// By which methods a scene that is only pressed is solved.
     pressed: Vec<Series>,
+    /// The scenes.
     case: Vec<Case>,
 }
 
@@ -40,15 +42,19 @@ struct Series {
     elements: Vec<usize>,
 }
 
+/// A benchmark scene.
 #[derive(Deserialize)]
 struct Case {
+    /// For tables and pictures.
     name: String,
+    /// Whether a quick run takes it.
     #[serde(default)]
     is_quick: bool,
     scene: Scene,
 }
 
 impl Series {
+    /// The first `runs` requests of the series, from coarse to fine.
     fn requests(&self, runs: usize) -> impl Iterator<Item = Request> {
         let errors = self.errors.iter().copied().map(Accuracy::RelativeError);
         let all = errors.chain(self.elements.iter().copied().map(Accuracy::Elements));
@@ -57,7 +63,7 @@ impl Series {
     }
 }
 
-/// Relative errors whose time is printed, and their names.
+/// Relative errors for which the table has the time that a method takes to reach them, and heads of these columns.
 const PRINTED: [(f64, &str); 5] = [
     (1e-2, "1 %"),
     (1e-3, "0.1 %"),
@@ -89,13 +95,14 @@ pub(super) fn report(quick: bool) -> Result<Report> {
     })
 }
 
-/// Runs of each method in a quick measurement, from the coarsest on.
+/// Number of runs of each method in a quick measurement, from the coarsest on.
 const QUICK_RUNS: usize = 3;
 /// Elements along the edges of the grids of the Hertz contact in a full measurement and in a quick one.
 const HERTZ_EDGES: [&[usize]; 2] = [&[128, 256, 512, 1024, 2048], &[32, 64, 128]];
-/// The same along the edge of the rough surface.
+/// Elements along the edge of the rough surface in a full measurement and in a quick one.
 const ROUGH_EDGE: [usize; 2] = [512, 64];
 
+/// Measures all scenes of the file, then the contacts at one instant.
 fn measure(quick: bool) -> Result<Measured> {
     let Cases {
         sliding,
@@ -119,13 +126,16 @@ fn measure(quick: bool) -> Result<Measured> {
     Ok(measured)
 }
 
-/// Tolerance of the Hertz contact, far below the error of its grids.
+/// Relative residual to which the Hertz contact is solved, so far below the discretisation error of its grids that only this is
+/// seen.
 const HERTZ_TOLERANCE: f64 = 1e-9;
-/// Tolerances on the rough surface.
+/// Relative residuals to which the rough surface is solved.
 const ROUGH_TOLERANCES: [f64; 5] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-10];
+/// Relative residual of the solution on the same grid with which these are compared.
 const ROUGH_REFERENCE_TOLERANCE: f64 = 1e-12;
 
-/// The depth of the Hertz contact on grids with these edges; the convolution is made in the time that is measured.
+/// The depth of the Hertz contact on square grids with these numbers of elements along an edge. The time includes the set-up of
+/// the convolution.
 fn hertz(measured: &mut Measured, edges: &[usize]) {
     for &edge in edges {
         let run = Row {
@@ -167,6 +177,7 @@ fn rough(measured: &mut Measured, edge: usize) -> Result<()> {
     Ok(())
 }
 
+/// The result of a contact whose `values` are compared with `exact` ones.
 fn found(state: &ContactState, values: &[f64], exact: &[f64]) -> Found {
     Found {
         error: deviation(values, exact),
@@ -195,7 +206,7 @@ struct Fit {
 }
 
 impl Fit {
-    /// The fit of the runs of one series, of which there is one at least.
+    /// The fit of the runs of one series; at least one.
     fn of(rows: &[Row]) -> Self {
         let resolved = rows.iter().filter(|row| row.is_resolved());
         let errors = resolved.filter_map(|row| Some([row.fineness()?, row.error]));
@@ -238,12 +249,14 @@ fn table<'a>(series: impl Iterator<Item = (&'a Fit, &'a [Row])>) -> comfy_table:
     markdown_table(header, rows)
 }
 
+/// A cell with an exponent and its standard error; empty without one.
 fn exponent(known: Option<(f64, f64)>) -> String {
     let text = known.map(|(value, error)| format!("{value:.2} ± {error:.2}"));
     text.unwrap_or_default()
 }
 
-/// The time of the coarsest run from which on all finer ones are as exact, because one alone may be so by chance.
+/// The processor time of the coarsest run for which it and all finer ones reach a relative error, as a cell; a single run may
+/// reach it by chance. Empty where none does. `rows` go from coarse to fine.
 fn time_to(rows: &[Row], error: f64) -> String {
     let bad = rows.iter().rposition(|row| row.visible_error() > error);
     let good = rows.get(bad.map_or(0, |bad| bad + 1));
@@ -251,6 +264,7 @@ fn time_to(rows: &[Row], error: f64) -> String {
         .unwrap_or_default()
 }
 
+/// A time with its unit, two or three digits.
 fn duration(seconds: f64) -> String {
     match seconds {
         seconds if seconds < 1e-5 => format!("{:.1} µs", 1e6 * seconds),

@@ -7,7 +7,7 @@ use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series
 use super::measured::Row;
 use crate::picture::{chart as chart_of, guide};
 
-/// Errors of references that are drawn; smaller ones do not matter.
+/// Relative errors of references are drawn if larger than this; smaller ones are below all curves of interest.
 const MIN_DRAWN_FLOOR: f64 = 1e-9;
 
 /// The scenes of one picture; all panels have the same axes.
@@ -23,10 +23,12 @@ pub(super) fn figure(rows: &[&Row]) -> Figure {
     Figure::new(scenes.map(|rows| chart(rows, &axes)), 2)
 }
 
+/// Processor time \[s] and relative error.
 fn point(row: &Row) -> [f64; 2] {
     [row.processor_seconds, row.visible_error()]
 }
 
+/// The panel of one scene: a curve for each method, and the error of the reference of each model.
 fn chart(rows: &[&Row], [x, y]: &[Axis; 2]) -> Chart {
     let title = |row: &&Row| format!("{}: {}", row.scene, row.quantity);
     let runs = rows.chunk_by(|one, other| label(one) == label(other));
@@ -39,6 +41,7 @@ fn chart(rows: &[&Row], [x, y]: &[Axis; 2]) -> Chart {
     }
 }
 
+/// Method in the legend; closed forms of scenes that slide with their model.
 fn label(row: &Row) -> String {
     match row.solver {
         Some(Method::Analytic) if row.slides() => format!("{}, {}", row.method, row.model),
@@ -46,6 +49,7 @@ fn label(row: &Row) -> String {
     }
 }
 
+/// The runs of one method, joined by a line; `None` of no runs.
 fn curve(rows: &[&Row]) -> Option<Series> {
     let (colour, marker) = style(rows.first()?);
     let points = rows.iter().map(|row| point(row)).collect();
@@ -56,7 +60,8 @@ fn curve(rows: &[&Row]) -> Option<Series> {
     Some(series.labelled(label(rows.first()?)))
 }
 
-/// Line and stationary states are filled, elements are open.
+/// Colour by method; markers are filled where an error is requested, and open where elements are given or the closed form is
+/// that of the half space.
 fn style(row: &Row) -> (Colour, Marker) {
     let is_line = row.model == Model::Line.name();
     let by_elements = row.resolution_kind == "elements";
@@ -72,12 +77,12 @@ fn style(row: &Row) -> (Colour, Marker) {
     }
 }
 
-/// The error of the reference, where it is large enough to be in the way.
+/// The relative error of the reference, if it is large enough to be drawn: errors below cannot be told from it.
 fn visible_floor(row: &Row) -> Option<f64> {
     (row.reference_error > MIN_DRAWN_FLOOR).then_some(row.reference_error)
 }
 
-/// The line of that error for one model.
+/// A horizontal line at the error of the reference of one model.
 fn floor(rows: &[&Row], x: &Axis) -> Option<Series> {
     let first = rows.first()?;
     let error = visible_floor(first)?;
