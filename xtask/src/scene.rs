@@ -35,8 +35,8 @@ impl Scene {
         Ok(power_sliding(&self.body, &self.material, &self.load)?)
     }
 
-    /// The half space on square elements of the edge `spacing` \[m], pressed from rest and slid over `lengths` contact lengths
-    /// of the one-dimensional model, step by step.
+    /// The half space on square elements of the edge `spacing` \[m], slid step by step from first touch over `lengths` contact
+    /// lengths of the one-dimensional model.
     pub(crate) fn half_space(&self, spacing: f64, lengths: f64) -> Result<Transient> {
         let footprint = Footprint::sliding(&self.body, &self.material, &self.load)?;
         let options = GridOptions::new([spacing; 2], footprint);
@@ -50,7 +50,7 @@ impl Scene {
     }
 
     /// The stationary half space on one grid, not extrapolated. `spacing`: Δx and Δy \[m]; `phase`: shift of the grid against
-    /// the body in elements; `tolerance`: largest residual of the velocity in contact over v times F_N/(4ηv).
+    /// the body in elements; `tolerance`: largest residual in contact over F_N/(4ηv).
     pub(crate) fn on_one_grid(
         &self,
         spacing: [f64; 2],

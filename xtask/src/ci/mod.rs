@@ -31,7 +31,7 @@ pub(crate) fn run() -> Result<()> {
     result
 }
 
-/// Runs one step after the other, cheap ones first, up to the first that fails.
+/// Runs one step after the other, up to the first that fails.
 fn steps(cargo: &mut Cargo) -> Result<()> {
     let workspace = Workspace::read()?;
     let all = "--profile ci --workspace --all-features";

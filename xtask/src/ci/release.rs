@@ -11,7 +11,7 @@ use super::cargo::{Cargo, cargo, run, workspace_root};
 use super::workspace::{Package, Workspace};
 use super::{PACKAGES, book, step};
 
-/// The program that the installed Python package has to run: the first example of its documentation.
+/// The program that the installed Python package has to run: a first computation, as a user would write it.
 const PROGRAM: &str = "import viscofriction as vf; friction = vf.slide(vf.Cone(0.1), vf.Viscous(1e4), normal_force=1.0, velocity=0.01); \
      print(vf.__version__, friction.mu, '±', friction.mu_error)";
 

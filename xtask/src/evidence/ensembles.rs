@@ -17,7 +17,7 @@ use crate::tasks::in_turn;
 /// standard deviation of 1.5 %.
 const SCENES: [usize; 2] = [200, 3];
 /// Largest number of elements along the edge of a period. Chosen, so that the thousands of surfaces of a full run are
-/// affordable: a surface that needs more is answered on this grid, with a wider error bar.
+/// affordable: a surface that needs more is answered with a wider error bar.
 const MAX_ELEMENTS: usize = 512;
 /// Relative error requested for each surface; of the order of the standard errors, so that few surfaces need fine grids.
 const RELATIVE_ERROR: f64 = 0.05;

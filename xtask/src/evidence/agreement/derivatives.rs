@@ -12,8 +12,8 @@ use super::relation::Answered;
 use super::units::Powers;
 use crate::evidence::request::{derivatives, number_at};
 
-/// Error from rounding that is allowed of a sum, relative to the sum of the moduli of its terms. Chosen: terms of stiff scenes
-/// cancel and each derivative is itself a difference of rounded numbers, so that it is far above the unit of rounding.
+/// Error from rounding that is allowed of a sum, relative to the sum of the moduli of its terms. Chosen far above the unit of
+/// rounding, since large terms of stiff scenes cancel.
 const ROUNDING: f64 = 1e-6;
 
 /// For each quantity q and each of the units of length, stress and time: the sum of ∂ln q/∂ln x · ln(x'/x) over all numbers x

@@ -98,7 +98,7 @@ const ELEMENTS_OF_PERIOD: usize = 256;
 /// The same along the period of a surface that reciprocates or follows points. Fewer, since a cycle takes as many steps as
 /// there are elements in a stroke.
 const ELEMENTS_OF_MOTION: usize = 64;
-/// Relative error that [`other_series`] makes and states; of the order of those of fitted series.
+/// Relative error that [`other_series`] makes and states; chosen.
 const SERIES_ERROR: f64 = 1e-4;
 /// Factor by which the times for which that error is stated go beyond the shortest and the longest relaxation time, so that no
 /// scene asks for others.

@@ -15,8 +15,7 @@ use differences::{Asked, Derivative, Refusal, compared};
 
 /// Fraction of the derivatives of each method whose deviation must be within both error bars.
 const MIN_COVERAGE: f64 = 0.95;
-/// Binomial standard deviations by which the observed fraction may fall short of [`MIN_COVERAGE`]. Fewer than elsewhere: the
-/// numbers of one scene are not independent of each other, so that the binomial distribution is only a guide.
+/// Binomial standard deviations by which the observed fraction may fall short of [`MIN_COVERAGE`]; chosen.
 const ALLOWED_SCATTER: f64 = 1.5;
 
 /// What is computed: a table of `requests.toml`.

@@ -60,8 +60,8 @@ fn curve(rows: &[&Row]) -> Option<Series> {
     Some(series.labelled(label(rows.first()?)))
 }
 
-/// Colour by method; markers are filled where an error is requested, and open where elements are given or the closed form is
-/// that of the half space.
+/// Colour and marker by method. Markers of stationary states to an error, of the closed form of the line and of contacts at one
+/// instant are filled; those of time marches, of given elements and of the closed form of the half space are open.
 fn style(row: &Row) -> (Colour, Marker) {
     let is_line = row.model == Model::Line.name();
     let by_elements = row.resolution_kind == "elements";
