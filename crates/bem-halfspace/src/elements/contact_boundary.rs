@@ -19,7 +19,7 @@
 //! The *boundary weight* is the same sum, weighted with the square of the load x + κ g at which an element leaves the boundary.
 //! It measures the error that the elements leave at the boundary, a product of a load and an adjoint load that both rise like x.
 //!
-//! Theory: docs/sensitivity.md.
+//! Theory: docs/theory/sensitivities.md.
 
 /// Product κ b of the load–gap ratio κ and the second difference b of the kernel (head of this file), for boundaries of many elements,
 /// on which errors of κ average out. Chosen between 0.3 and 0.6; from 0.1 to 2 sensitivities change by at most half of their

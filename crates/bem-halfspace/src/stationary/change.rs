@@ -1,6 +1,6 @@
 //! First-order changes of a stationary contact, of single bodies and of periodic surfaces alike.
 //!
-//! Theory: docs/sensitivity.md.
+//! Theory: docs/theory/sensitivities.md.
 
 use numerics::{Estimate, InvalidParameter, in_range, not_negative};
 

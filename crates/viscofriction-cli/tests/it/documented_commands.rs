@@ -38,7 +38,7 @@ const PAGES: [(&str, &[FileOfPage]); 9] = [
             ["velocity = 0.01 ", "velocity = -0.01 "],
         )],
     ),
-    ("docs/sensitivity.md", &[]),
+    ("docs/numbers.md", &[]),
     ("docs/tutorial.md", &[]),
 ];
 

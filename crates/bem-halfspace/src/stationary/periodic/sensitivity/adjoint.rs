@@ -3,7 +3,7 @@
 //! Fields are row-major over one period. A derivative *by row* is one by the complex compliance of all waves with one q_x, that is one
 //! row of the Fourier transform.
 //!
-//! Theory: docs/sensitivity.md.
+//! Theory: docs/theory/sensitivities.md.
 
 use numerics::transforms::Real;
 use rustfft::num_complex::Complex;

@@ -14,7 +14,7 @@
 //! The contact changes by whole elements, many of them at its boundary, and different ones on each grid. Hence the error bars come
 //! from two grids.
 //!
-//! Theory: docs/sensitivity.md.
+//! Theory: docs/theory/sensitivities.md.
 
 mod adjoint;
 

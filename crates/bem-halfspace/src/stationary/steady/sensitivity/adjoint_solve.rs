@@ -2,7 +2,7 @@
 //!
 //! A contact that is reversed along x has the transposed equations as its own, so that the same kernel and preconditioner serve both.
 //!
-//! Theory: docs/sensitivity.md.
+//! Theory: docs/theory/sensitivities.md.
 
 use crate::BemError;
 use crate::dense;

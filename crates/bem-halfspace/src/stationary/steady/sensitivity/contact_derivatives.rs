@@ -2,7 +2,7 @@
 //!
 //! All derivatives are those under a constant force; those at a constant depth follow from them, because the force is a parameter.
 //!
-//! Theory: the [module](super) and docs/sensitivity.md, "What is known of them".
+//! Theory: the [module](super) and docs/theory/sensitivities.md, "How they are computed".
 
 use indenters::{Control, Surface};
 

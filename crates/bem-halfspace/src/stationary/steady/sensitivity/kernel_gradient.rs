@@ -1,7 +1,7 @@
 //! Derivatives of quantities by the kernel: correlations of adjoint and primal loads, contracted with the kernel of each part of the
 //! creep once.
 //!
-//! Theory: the [module](super) and docs/sensitivity.md, "Which part of a master curve matters".
+//! Theory: the [module](super) and docs/theory/sensitivities.md, "Bands of frequency".
 
 use std::f64::consts::PI;
 

@@ -11,7 +11,7 @@
 //! `K₀(z) = ∫_0^∞ e^(−z cosh u) du`. The integrands in u are analytic and vanish smoothly, so that the trapezoidal rule integrates them
 //! to rounding error.
 //!
-//! Theory: docs/sensitivity.md, "Which part of a master curve matters".
+//! Theory: docs/theory/sensitivities.md, "Bands of frequency".
 
 use std::f64::consts::TAU;
 use std::iter;

@@ -25,7 +25,7 @@
 //! and multiplied by 2. With this correction all derivatives add up exactly under a change of the unit of length, as they do
 //! without it under changes of the units of stress and time.
 //!
-//! Theory: docs/sensitivity.md, "What is known of them".
+//! Theory: docs/theory/sensitivities.md, "How they are computed".
 
 mod adjoint_solve;
 mod collocation_points;

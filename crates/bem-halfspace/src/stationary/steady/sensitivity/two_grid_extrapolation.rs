@@ -1,6 +1,6 @@
 //! Extrapolation of derivatives from two grids, with their errors.
 //!
-//! Theory: docs/sensitivity.md, "What is known of them".
+//! Theory: docs/theory/sensitivities.md, "How they are computed".
 
 use numerics::Estimate;
 
