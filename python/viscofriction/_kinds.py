@@ -185,7 +185,7 @@ class Cylinder(Body):
 
 @dataclass(frozen=True)
 class ProfileFile(Body):
-    """A body of revolution from a table of radii and heights, straight between its rows.
+    """A body of revolution from a table of radii and heights, linear between its rows.
 
     ``file``: CSV file with the columns radius_m and height_m, beside the scene file; both begin with 0, radii increase.
     """
@@ -200,16 +200,16 @@ class HeightMapFile(Body):
 
     ``file``: File beside the scene file: a text of one line of heights for each y, without names; with the extension npy an array of
     NumPy of the shape (n_y, n_x), float64 or float32; with the extensions asc, gsf, sdf, sur, x3p and xyz a measured surface.
-    ``direction``: Direction in which the body moves, from x towards y: 0, 90, 180 or 270 degrees. Results have x along the motion.
+    ``direction``: Direction in which the body moves, degrees from x towards y, 0, 90, 180 or 270. Results have x along the motion.
     ``edges``: What is beyond the grid.
-    ``fill_missing``: Fill heights that were not measured with the mean of their known neighbours, from the edges of holes inwards.
+    ``fill_missing``: True to fill heights that were not measured with the mean of their known neighbours, from the edges of holes inwards.
     ``heights_are``: What the heights are.
-    ``lateral_unit``: Unit of x and y in files that have positions and do not state it (xyz, asc): metres, or in xyz `unit`, unless given.
-    ``level``: Take the plane of least squares out.
-    ``shortest_wavelength``: Wave length > 0 below which waves are left out of a periodic surface, [m]; without it none that the grid knows.
+    ``lateral_unit``: Unit of x and y in files that have positions and do not state it (xyz, asc, gsf); without it metres, or in xyz `unit`.
+    ``level``: True to subtract the least-squares plane, after `fill_missing`.
+    ``shortest_wavelength``: Wavelength > 0 below which waves are left out of a periodic surface, [m]; without it all waves of the grid are kept.
     ``spacing``: Distances of neighbouring heights along x and y, > 0, [m]; not of a measured surface, which has its own, nor of a text
     that states its size.
-    ``unit``: Unit of the heights, metres unless given; files that state it (gsf, sdf, sur, x3p, heads of texts) keep their own.
+    ``unit``: Unit of the heights; files that state it (gsf, sdf, sur, x3p, heads of texts) keep their own; without it metres.
     """
 
     file: str | os.PathLike[str]
@@ -228,18 +228,19 @@ class HeightMapFile(Body):
 
 @dataclass(frozen=True)
 class SelfAffine(Body):
-    """A random self-affine surface that repeats itself along x and y without end; it takes load.mean_pressure.
+    """A random self-affine surface that is periodic along x and y; it takes load.mean_pressure.
 
     ``period``: Periods along x and y, > 0, [m].
     ``hurst_exponent``: Hurst exponent, between 0 and 1.
     ``rms_slope``: Root mean square of the slope, > 0.
-    ``longest_wavelength``: Longest wave length > 0, [m].
-    ``shortest_wavelength``: Shortest wave length > 0, [m].
+    ``longest_wavelength``: Longest wavelength > 0, [m].
+    ``shortest_wavelength``: Shortest wavelength > 0, [m].
     ``seed``: Another seed draws another surface.
-    ``realisations``: How many surfaces are drawn, with this seed and the next ones, from 1 to 1000: the answer is their mean.
-    ``roll_off_wavelength``: Wave length > 0 above which the spectrum is constant, [m]; without it there is none.
-    ``standard_error``: Relative standard error of the mean at which no more surfaces are drawn, between 0 and 1; then `realisations` is the most, 1000
-    without it.
+    ``realisations``: Number of surfaces, with this seed and the next ones, from 1 to 1000: the answer is their mean; without it 1, or with
+    `standard_error` at most 1000.
+    ``roll_off_wavelength``: Wavelength > 0 above which the spectrum is constant, [m]; without it no roll-off.
+    ``standard_error``: Relative standard error of the mean at which no more surfaces are drawn, between 0 and 1; `realisations` is then their largest
+    number.
     """
 
     period: tuple[float, float]
@@ -257,17 +258,18 @@ class SelfAffine(Body):
 
 @dataclass(frozen=True)
 class Spectrum(Body):
-    """A random surface of a power spectrum, which repeats itself along x and y without end; it takes load.mean_pressure.
+    """A random surface of a power spectrum, which is periodic along x and y; it takes load.mean_pressure.
 
     ``file``: CSV file with the columns wave_number q = 2π/λ, [1/m], and density C, [m⁴], beside the scene file; wave numbers increase,
-    and ln C is straight over ln q between the rows. The spectrum.csv of `viscofriction surface` is one.
+    and ln C is linear in ln q between the rows. The spectrum.csv of `viscofriction surface` is one.
     ``period``: Periods along x and y, > 0, [m].
     ``seed``: Another seed draws another surface.
     ``convention``: What the densities are.
-    ``realisations``: How many surfaces are drawn, with this seed and the next ones, from 1 to 1000: the answer is their mean.
-    ``shortest_wavelength``: Wave length > 0 below which waves are left out, [m]; without it none of the table.
-    ``standard_error``: Relative standard error of the mean at which no more surfaces are drawn, between 0 and 1; then `realisations` is the most, 1000
-    without it.
+    ``realisations``: Number of surfaces, with this seed and the next ones, from 1 to 1000: the answer is their mean; without it 1, or with
+    `standard_error` at most 1000.
+    ``shortest_wavelength``: Wavelength > 0 below which waves are left out, [m]; without it all waves of the table are kept.
+    ``standard_error``: Relative standard error of the mean at which no more surfaces are drawn, between 0 and 1; `realisations` is then their largest
+    number.
     """
 
     file: str | os.PathLike[str]
@@ -373,8 +375,8 @@ class StandardSolid(Material):
 class Springpot(Material):
     """Between spring and dashpot: G* = K (iω)^a.
 
-    ``coefficient``: K > 0, [Pa s^a].
-    ``exponent``: a, from 0.01 to 0.99: almost a spring, and almost a dashpot.
+    ``coefficient``: Coefficient K > 0, [Pa s^a].
+    ``exponent``: Exponent a, from 0.01 to 0.99: almost a spring, and almost a dashpot.
     ``time_range``: Shortest and longest time > 0 for which the material is needed, [s]: the time of a contact length and those of a
     history are within it.
     ``equilibrium_modulus``: Shear modulus ≥ 0 of a spring in parallel, [Pa].
@@ -398,7 +400,7 @@ class FractionalMaxwell(Material):
 
     ``shear_modulus``: Shear modulus G > 0 of the spring in series, [Pa].
     ``relaxation_time``: Relaxation time τ > 0, at which spring and springpot have the same modulus |G*|, [s].
-    ``exponent``: a, from 0.01 to 0.99.
+    ``exponent``: Exponent a, from 0.01 to 0.99.
     ``time_range``: Shortest and longest time > 0 for which the material is needed, [s], as of a springpot.
     ``equilibrium_modulus``: Shear modulus ≥ 0 of a spring in parallel, [Pa].
     ``poisson_ratio``: Poisson ratio, −1 < ν ≤ 1/2.
@@ -422,8 +424,8 @@ class MaterialFile(Material):
 
     ``path``: A file beside the scene file with a table `[material.…]`, such as the material.toml of `fit-material`.
     ``poisson_ratio``: Poisson ratio, −1 < ν ≤ 1/2; without it that of the file.
-    ``temperature``: Another temperature of the material than that of the file, by its shift law, [°C].
-    ``valid_frequencies``: Lowest and highest frequency > 0 at which it was measured, [rad/s]; without them those of the file.
+    ``temperature``: Temperature to which the shift law takes the material, [°C]; without it that of the file.
+    ``valid_frequencies``: Lowest and highest frequency > 0 at which it was measured, [rad/s]; without it those of the file.
     """
 
     path: str | os.PathLike[str]

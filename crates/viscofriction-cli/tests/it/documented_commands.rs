@@ -10,12 +10,8 @@ use crate::support::{Folder, repository};
 
 /// Pages with console blocks, and files that their commands need and the page only describes: the name, the file of the page or of
 /// the repository that it is made of, and what is replaced in that.
-const PAGES: [(&str, &[FileOfPage]); 9] = [
+const PAGES: [(&str, &[FileOfPage]); 10] = [
     ("README.md", &[]),
-    (
-        "docs/excel.md",
-        &[("measured.csv", "examples/data/tread-rubber.csv", ["", ""])],
-    ),
     ("docs/fit-friction.md", &[]),
     ("docs/layers.md", &[]),
     ("docs/methods.md", &[]),
@@ -31,7 +27,7 @@ const PAGES: [(&str, &[FileOfPage]); 9] = [
         )],
     ),
     (
-        "docs/scenes.md",
+        "docs/output.md",
         &[(
             "scene.toml",
             "examples/scenes/cone-viscous.toml",
@@ -39,6 +35,11 @@ const PAGES: [(&str, &[FileOfPage]); 9] = [
         )],
     ),
     ("docs/numbers.md", &[]),
+    ("docs/scenes.md", &[]),
+    (
+        "docs/sweeps.md",
+        &[("measured.csv", "examples/data/tread-rubber.csv", ["", ""])],
+    ),
     ("docs/tutorial.md", &[]),
 ];
 

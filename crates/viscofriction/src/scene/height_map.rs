@@ -26,28 +26,28 @@ pub struct HeightMapTable {
     /// that states its size.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spacing: Option<[f64; 2]>,
-    /// Unit of the heights, metres unless given; files that state it (gsf, sdf, sur, x3p, heads of texts) keep their own.
+    /// Unit of the heights; files that state it (gsf, sdf, sur, x3p, heads of texts) keep their own; without it metres.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unit: Option<LengthUnit>,
-    /// Unit of x and y in files that have positions and do not state it (xyz, asc): metres, or in xyz `unit`, unless given.
+    /// Unit of x and y in files that have positions and do not state it (xyz, asc, gsf); without it metres, or in xyz `unit`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lateral_unit: Option<LengthUnit>,
     /// What the heights are.
     #[serde(default)]
     pub heights_are: HeightsAre,
-    /// Direction in which the body moves, from x towards y: 0, 90, 180 or 270 degrees. Results have x along the motion.
+    /// Direction in which the body moves, degrees from x towards y, 0, 90, 180 or 270. Results have x along the motion.
     #[serde(default)]
     pub direction: f64,
-    /// Fill heights that were not measured with the mean of their known neighbours, from the edges of holes inwards.
+    /// True to fill heights that were not measured with the mean of their known neighbours, from the edges of holes inwards.
     #[serde(default)]
     pub fill_missing: bool,
-    /// Take the plane of least squares out.
+    /// True to subtract the least-squares plane, after `fill_missing`.
     #[serde(default)]
     pub level: bool,
     /// What is beyond the grid.
     #[serde(default)]
     pub edges: Edges,
-    /// Wave length > 0 below which waves are left out of a periodic surface, \[m]; without it none that the grid knows.
+    /// Wavelength > 0 below which waves are left out of a periodic surface, \[m]; without it all waves of the grid are kept.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shortest_wavelength: Option<f64>,
 }
@@ -57,7 +57,7 @@ pub struct HeightMapTable {
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 #[serde(rename_all = "kebab-case")]
 pub enum HeightsAre {
-    /// Those of the surface, out of the rigid body: the largest touch first.
+    /// Heights of the surface, out of the rigid body: the largest touch first.
     #[default]
     Surface,
     /// The gap between the surface and a plane that it touches, into the body: the smallest touch first.

@@ -98,16 +98,16 @@ pub enum Indenter {
         /// Radius > 0, \[m].
         radius: f64,
     },
-    /// A body of revolution from a table of radii and heights, straight between its rows.
+    /// A body of revolution from a table of radii and heights, linear between its rows.
     Table {
         /// CSV file with the columns radius_m and height_m, beside the scene file; both begin with 0, radii increase.
         file: PathBuf,
     },
     /// A surface from a grid of heights: bilinear between them, or periodic, the sum of waves through them.
     HeightMap(HeightMapTable),
-    /// A random self-affine surface that repeats itself along x and y without end; it takes load.mean_pressure.
+    /// A random self-affine surface that is periodic along x and y; it takes load.mean_pressure.
     SelfAffine(SelfAffineSurface),
-    /// A random surface of a power spectrum, which repeats itself along x and y without end; it takes load.mean_pressure.
+    /// A random surface of a power spectrum, which is periodic along x and y; it takes load.mean_pressure.
     Spectrum(SpectrumSurface),
 }
 
@@ -118,9 +118,9 @@ pub enum Edges {
     /// The body ends with a wall.
     #[default]
     Wall,
-    /// The same grid, without end; it takes load.mean_pressure.
+    /// The grid repeats itself without limit; it takes load.mean_pressure.
     Periodic,
-    /// The grid and its mirror images, without end: no height jumps at an edge. The periods are twice as long.
+    /// The grid and its mirror images repeat themselves: no height jumps at an edge. The periods are twice as long.
     Mirrored,
 }
 
@@ -134,19 +134,20 @@ pub struct SelfAffineSurface {
     pub hurst_exponent: f64,
     /// Root mean square of the slope, > 0.
     pub rms_slope: f64,
-    /// Longest wave length > 0, \[m].
+    /// Longest wavelength > 0, \[m].
     pub longest_wavelength: f64,
-    /// Shortest wave length > 0, \[m].
+    /// Shortest wavelength > 0, \[m].
     pub shortest_wavelength: f64,
-    /// Wave length > 0 above which the spectrum is constant, \[m]; without it there is none.
+    /// Wavelength > 0 above which the spectrum is constant, \[m]; without it no roll-off.
     pub roll_off_wavelength: Option<f64>,
     /// Another seed draws another surface.
     pub seed: u64,
-    /// How many surfaces are drawn, with this seed and the next ones, from 1 to 1000: the answer is their mean.
+    /// Number of surfaces, with this seed and the next ones, from 1 to 1000: the answer is their mean; without it 1, or with
+    /// `standard_error` at most 1000.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub realisations: Option<u64>,
-    /// Relative standard error of the mean at which no more surfaces are drawn, between 0 and 1; then `realisations` is the most, 1000
-    /// without it.
+    /// Relative standard error of the mean at which no more surfaces are drawn, between 0 and 1; `realisations` is then their largest
+    /// number.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub standard_error: Option<f64>,
 }
@@ -156,23 +157,24 @@ pub struct SelfAffineSurface {
 #[serde(deny_unknown_fields)]
 pub struct SpectrumSurface {
     /// CSV file with the columns wave_number q = 2π/λ, \[1/m], and density C, \[m⁴], beside the scene file; wave numbers increase,
-    /// and ln C is straight over ln q between the rows. The spectrum.csv of `viscofriction surface` is one.
+    /// and ln C is linear in ln q between the rows. The spectrum.csv of `viscofriction surface` is one.
     pub file: PathBuf,
     /// What the densities are.
     #[serde(default)]
     pub convention: SpectrumConvention,
     /// Periods along x and y, > 0, \[m].
     pub period: [f64; 2],
-    /// Wave length > 0 below which waves are left out, \[m]; without it none of the table.
+    /// Wavelength > 0 below which waves are left out, \[m]; without it all waves of the table are kept.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shortest_wavelength: Option<f64>,
     /// Another seed draws another surface.
     pub seed: u64,
-    /// How many surfaces are drawn, with this seed and the next ones, from 1 to 1000: the answer is their mean.
+    /// Number of surfaces, with this seed and the next ones, from 1 to 1000: the answer is their mean; without it 1, or with
+    /// `standard_error` at most 1000.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub realisations: Option<u64>,
-    /// Relative standard error of the mean at which no more surfaces are drawn, between 0 and 1; then `realisations` is the most, 1000
-    /// without it.
+    /// Relative standard error of the mean at which no more surfaces are drawn, between 0 and 1; `realisations` is then their largest
+    /// number.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub standard_error: Option<f64>,
 }

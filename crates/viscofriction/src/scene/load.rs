@@ -26,14 +26,14 @@ pub struct Load {
     pub history: Option<Vec<LoadPoint>>,
     /// The same as a CSV file beside the scene file, with the columns time_s and indentation_depth_m or normal_force_n.
     pub history_file: Option<PathBuf>,
-    /// Length > 0 of the track after which the body comes back to the same place, as a ball on a disc does, \[m]; without it
-    /// it never does.
+    /// Length > 0 of the track after which the body returns to the same place, as a ball on a disc does, \[m]; without it the body
+    /// never returns.
     pub track: Option<f64>,
-    /// Instead of a speed: distance > 0 from one end to the other of a motion to and fro, \[m].
+    /// Instead of a speed: distance > 0 between the ends of a reciprocating motion, \[m].
     pub stroke: Option<f64>,
     /// Cycles of the stroke per second > 0, \[1/s].
     pub frequency: Option<f64>,
-    /// How the body moves over the stroke; like a crank unless given.
+    /// How the body moves over the stroke; without it `sinusoidal`.
     pub shape: Option<StrokeShape>,
     /// Instead of a speed: positions over time, straight from point to point.
     pub motion: Option<Vec<MotionPoint>>,

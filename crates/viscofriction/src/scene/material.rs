@@ -43,11 +43,11 @@ macro_rules! materials {
             File {
                 /// A file beside the scene file with a table `[material.…]`, such as the material.toml of `fit-material`.
                 path: PathBuf,
-                /// Another temperature of the material than that of the file, by its shift law, \[°C].
+                /// Temperature to which the shift law takes the material, \[°C]; without it that of the file.
                 temperature: Option<f64>,
                 /// Poisson ratio, −1 < ν ≤ 1/2; without it that of the file.
                 poisson_ratio: Option<f64>,
-                /// Lowest and highest frequency > 0 at which it was measured, \[rad/s]; without them those of the file.
+                /// Lowest and highest frequency > 0 at which it was measured, \[rad/s]; without it those of the file.
                 valid_frequencies: Option<[f64; 2]>,
             },
         }
@@ -115,18 +115,18 @@ materials! {
         viscosity: f64,
         /// Maxwell branches.
         branches: Vec<Branch>,
-        /// How its times and moduli change with temperature, for scenes that name this material as a file.
+        /// Change of its times and moduli with temperature, for scenes that name this material as a file.
         shift: Option<Shift>,
-        /// How well it stands for another law, where it does; the error is then in all bars.
+        /// Error of a series that approximates another law; all bars contain it.
         approximation: Option<Approximation>,
-        /// How well its moduli are known, where that was found.
+        /// Uncertainty of its moduli.
         covariance: Option<Covariance>,
     }
     /// Between spring and dashpot: G* = K (iω)^a.
     Springpot {
-        /// K > 0, \[Pa s^a].
+        /// Coefficient K > 0, \[Pa s^a].
         coefficient: f64,
-        /// a, from 0.01 to 0.99: almost a spring, and almost a dashpot.
+        /// Exponent a, from 0.01 to 0.99: almost a spring, and almost a dashpot.
         exponent: f64,
         /// Shear modulus ≥ 0 of a spring in parallel, \[Pa].
         #[serde(default)]
@@ -141,7 +141,7 @@ materials! {
         shear_modulus: f64,
         /// Relaxation time τ > 0, at which spring and springpot have the same modulus |G*|, \[s].
         relaxation_time: f64,
-        /// a, from 0.01 to 0.99.
+        /// Exponent a, from 0.01 to 0.99.
         exponent: f64,
         /// Shear modulus ≥ 0 of a spring in parallel, \[Pa].
         #[serde(default)]
@@ -168,7 +168,7 @@ pub struct Branch {
     pub relaxation_time: f64,
 }
 
-/// How well a series stands for another law.
+/// Error of a series that approximates another law.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Approximation {

@@ -11,27 +11,26 @@ use super::SceneError;
 #[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Solve {
-    /// The method; without it the cheapest one that answers the scene.
+    /// How the answer is computed; without it by the cheapest method of the model that answers the scene.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub method: Option<Method>,
-    /// What the elastomer is; the half space unless `line` is given, or a method of the one-dimensional model.
+    /// What the elastomer is; without it the half space, or the one-dimensional model of the method.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub model: Option<Model>,
-    /// Error of the friction coefficient, of the depth where there is no sliding; above 0 and at most 0.1, 1e-3 unless
-    /// given.
+    /// Relative error of the friction coefficient, or of the depth where nothing slides, above 0 and at most 0.1; without it 1e-3.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub relative_error: Option<f64>,
     /// Number of elements along the contact, or along the longer edge of a period in elements, from 8 to 100000, instead of a
     /// relative error.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub elements: Option<usize>,
-    /// Time from first touch to the state that is asked for, \[s]; without it the stationary state.
+    /// Time > 0 from first touch to the requested state, \[s]; without it the stationary state.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub duration: Option<f64>,
-    /// Distance from first touch to the state that is asked for, \[m]; without it the stationary state.
+    /// Distance > 0 from first touch to the requested state, \[m]; without it the stationary state.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sliding_distance: Option<f64>,
-    /// Threads that compute, from 1 to 1024; without it all that the machine has.
+    /// Number of threads, from 1 to 1024; without it all that the machine has.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub threads: Option<usize>,
     /// Memory that one solution may take, such as "8 GiB"; without it half of what the machine has free.
