@@ -12,7 +12,7 @@ use crate::stationary::periodic::equations::{
 };
 use crate::transform::fast_length::fast_length;
 
-/// Number of elements per shortest wave along an axis on the first grid. Chosen; docs/rough-surfaces.md has how often bars hold
+/// Number of elements per shortest wave along an axis on the first grid. Chosen; docs/theory/rough-surfaces.md has how often bars hold
 /// with four.
 const FIRST_ELEMENTS_PER_WAVE: usize = 4;
 /// Largest finest grid, in elements, for three grids that begin with [`FIRST_ELEMENTS_PER_WAVE`]: a limit of the

@@ -6,7 +6,7 @@
 //! edge apart. The area is then unknown by half of that at every edge. The bar √ΣL² of pressed bodies does not hold here: all grooves
 //! are displaced alike, so that 16 grooves erred by 3 of those bars, and oblique ones by 14.
 //!
-//! Theory: docs/rough-surfaces.md.
+//! Theory: docs/theory/rough-surfaces.md.
 
 use indenters::rough::{PeriodicSurface, Wave};
 use numerics::Estimate;

@@ -1,6 +1,6 @@
 //! Refinement of one periodic surface, with error bars from the last three grids.
 //!
-//! Theory: docs/theory/stationary-half-space.md, "Periodic surfaces"; how often the bars hold is in docs/rough-surfaces.md.
+//! Theory: docs/theory/stationary-half-space.md, "Periodic surfaces"; how often the bars hold is in docs/theory/rough-surfaces.md.
 
 use std::borrow::Cow;
 
@@ -20,7 +20,7 @@ use crate::{BemError, Grid, Reached};
 /// Assumed convergence of the stationary friction, from slopes or from dissipation. The error bar is the last change, or 0.15 of the
 /// change before it if the last one is small by chance.
 ///
-/// Chosen on rough contacts, whose active set jumps from grid to grid; docs/rough-surfaces.md has how often the bars hold.
+/// Chosen on rough contacts, whose active set jumps from grid to grid; docs/theory/rough-surfaces.md has how often the bars hold.
 pub(super) const FRICTION_RATE: ConvergenceRate = ConvergenceRate {
     safety: 1.0,
     min_reduction: 0.15,

@@ -1,6 +1,6 @@
 //! Bound of sub-grid gaps: gaps between the centres of elements that are all in contact.
 //!
-//! Docs: docs/rough-surfaces.md, "What comes back".
+//! Docs: docs/theory/rough-surfaces.md, "Error bars".
 
 use std::f64::consts::PI;
 
