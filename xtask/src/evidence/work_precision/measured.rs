@@ -102,15 +102,15 @@ impl Row {
         self.quantity == FRICTION
     }
 
-    /// Whether another run differs in its resolution only.
+    /// Whether another run has the same scene, model and method, and differs in its resolution only.
     pub(super) fn is_of_series(&self, other: &Self) -> bool {
         let key = |row: &Self| (row.scene.clone(), row.model, row.method.clone());
         key(self) == key(other)
     }
 
-    /// A number that falls with refinement, and that errors follow like a power.
+    /// A measure h of the resolution, to which errors are related as h^q: 1/elements, or the tolerance.
     ///
-    /// The relative error that is asked for is none: what is reached may be far smaller.
+    /// `None` where a relative error is requested, because the error that is reached may be far smaller.
     pub(super) fn fineness(&self) -> Option<f64> {
         match self.resolution_kind {
             "elements" => Some(1.0 / self.resolution?),
