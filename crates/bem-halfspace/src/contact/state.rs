@@ -204,7 +204,7 @@ impl ContactBox {
 
     /// Contact area of the loaded elements and their images behind `mirrors`, with perimeter correction, in areas of an element.
     pub(crate) fn area(&self, mirrors: [Mirror; 2]) -> f64 {
-        area::in_elements(&self.state.load, &self.bounds, mirrors)
+        area::area_in_elements(&self.state.load, &self.bounds, mirrors)
     }
 
     /// Discretisation error of the contact area, in areas of an element.

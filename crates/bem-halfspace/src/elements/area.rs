@@ -51,7 +51,7 @@ pub(crate) fn area_fraction(columns: usize, pressure: &[f64]) -> AreaFraction {
 /// Contact area of the loaded elements in a box and of their images, after the perimeter correction, in areas of an element.
 ///
 /// `loads` are those of the box `bounds`, row-major. Mirrors are at the first row and column of the field in which the box lies.
-pub(crate) fn in_elements(loads: &[f64], bounds: &Bounds, mirrors: [Mirror; 2]) -> f64 {
+pub(crate) fn area_in_elements(loads: &[f64], bounds: &Bounds, mirrors: [Mirror; 2]) -> f64 {
     let [rows, columns] = bounds.shape();
     let has_load = |row: usize, column: usize| {
         row < rows && column < columns && loads[row * columns + column] > 0.0
@@ -211,7 +211,7 @@ mod tests {
                 lower: [0; 2],
                 upper,
             };
-            let area = in_elements(&loads, &bounds, mirrors);
+            let area = area_in_elements(&loads, &bounds, mirrors);
             assert!((area - expected).abs() < 1e-12, "{mirrors:?}: {area}");
             // Two sides of 5 and of 7 edges, and four edges of the hole.
             let uncertainty = boundary_uncertainty(&loads, &bounds, mirrors);
@@ -225,7 +225,7 @@ mod tests {
             lower: [0, 1],
             upper: [4, 3],
         };
-        let area = in_elements(&[1.0; 8], &bounds, [Mirror::Edge; 2]);
+        let area = area_in_elements(&[1.0; 8], &bounds, [Mirror::Edge; 2]);
         assert!((area - corrected_area(32, 40)).abs() < 1e-12, "{area}");
         let uncertainty = boundary_uncertainty(&[1.0; 8], &bounds, [Mirror::Edge; 2]);
         let expected = (4.0_f64 * (64.0 + 4.0)).sqrt();

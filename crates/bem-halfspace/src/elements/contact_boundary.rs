@@ -85,7 +85,7 @@ impl BoundaryDerivatives {
     }
 
     /// Adds the derivatives of the fraction s = x/(x + κ g) of a pair, times (x + κ g)²/κ and a weight.
-    fn add(&mut self, field: &BoundaryField, pair: BoundaryPair, weight: f64) {
+    fn add_pair(&mut self, field: &BoundaryField, pair: BoundaryPair, weight: f64) {
         let [load, gap] = [pair.inside, pair.outside].map(|element| field.values[element]);
         self.by_values[pair.inside] += weight * gap;
         self.by_values[pair.outside] -= weight * load;
@@ -101,7 +101,7 @@ impl ContactBoundary {
             area: BoundaryDerivatives::zero(field.values.len()),
             boundary_weight: BoundaryDerivatives::zero(field.values.len()),
         };
-        for pair in field.pairs() {
+        for pair in field.boundary_pairs() {
             let ratio = field.load_gap_ratio(pair);
             // Load with which the element inside leaves the boundary; negative gaps are errors of the solution.
             let leaving_load = field.values[pair.inside] + ratio * field.values[pair.outside];
@@ -110,8 +110,8 @@ impl ContactBoundary {
             }
             let weight = field.squared_normal(pair, ratio, leaving_load) * ratio;
             let area_weight = weight / leaving_load.powi(2);
-            boundary.area.add(field, pair, area_weight);
-            boundary.boundary_weight.add(field, pair, weight);
+            boundary.area.add_pair(field, pair, area_weight);
+            boundary.boundary_weight.add_pair(field, pair, weight);
         }
         boundary
     }
@@ -119,12 +119,12 @@ impl ContactBoundary {
 
 impl BoundaryField {
     /// All pairs of an element in contact and a neighbour outside whose gap is known.
-    fn pairs(&self) -> impl Iterator<Item = BoundaryPair> {
+    fn boundary_pairs(&self) -> impl Iterator<Item = BoundaryPair> {
         let inside = (0..self.values.len()).filter(|element| self.inside[*element]);
         inside.flat_map(move |inside| {
             let directions = [(0, true), (0, false), (1, true), (1, false)];
             directions.into_iter().filter_map(move |(axis, ahead)| {
-                let outside = self.next(inside, axis, ahead)?;
+                let outside = self.neighbour(inside, axis, ahead)?;
                 let is_boundary = !self.inside[outside] && self.values[outside].is_finite();
                 is_boundary.then_some(BoundaryPair {
                     inside,
@@ -147,7 +147,7 @@ impl BoundaryField {
     }
 
     /// Index of the neighbour of an element along an axis (0 is x, 1 is y), ahead or behind; `None` beyond the end of the box.
-    fn next(&self, element: usize, axis: usize, ahead: bool) -> Option<usize> {
+    fn neighbour(&self, element: usize, axis: usize, ahead: bool) -> Option<usize> {
         let [rows, columns] = self.shape;
         let mut indices = [element / columns, element % columns];
         let length = [rows, columns][axis];
@@ -172,7 +172,7 @@ impl BoundaryField {
                 value => -ratio * value,
             };
             let neighbour = |ahead| {
-                let next = self.next(element, 1 - pair.axis, ahead).map(value);
+                let next = self.neighbour(element, 1 - pair.axis, ahead).map(value);
                 next.filter(|value| value.is_finite())
             };
             match (neighbour(true), neighbour(false)) {
@@ -279,8 +279,8 @@ mod tests {
             second_difference: [1.0; 2],
             unit_depth_response: None,
         };
-        assert_eq!(field.pairs().count(), 4);
+        assert_eq!(field.boundary_pairs().count(), 4);
         field.is_periodic = false;
-        assert_eq!(field.pairs().count(), 2);
+        assert_eq!(field.boundary_pairs().count(), 2);
     }
 }

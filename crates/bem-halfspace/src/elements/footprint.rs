@@ -51,7 +51,7 @@ impl Footprint {
         elastomer: &dyn Elastomer,
         load: &SlidingLoad,
     ) -> Result<Self, BemError> {
-        let reached = |height| Self::reached(surface, elastomer, height);
+        let reached = |height| Self::of_contact_below(surface, elastomer, height);
         let depth = match load.control() {
             Control::IndentationDepth(depth) => return reached(depth),
             Control::NormalForce(_) => depth_scale_of_surface(surface, elastomer, load)?,
@@ -76,7 +76,7 @@ impl Footprint {
 
     /// The rectangle that holds the contact, if on a half space only points of the surface below a `height` \[m] touch. On a layer,
     /// which piles up, it is larger.
-    pub(crate) fn reached(
+    pub(crate) fn of_contact_below(
         surface: &dyn Surface,
         elastomer: &dyn Elastomer,
         height: f64,
@@ -98,8 +98,8 @@ impl Footprint {
         }
         // Half length of the contact, and the exponent p of a body h ∼ r^p from its doubling.
         let half_length = |height| -> Result<f64, BemError> {
-            let sides = Self::below(surface, height)?.sides()?;
-            Ok(sides.concat().into_iter().fold(0.0, f64::max))
+            let distances = Self::below(surface, height)?.edge_distances()?;
+            Ok(distances.concat().into_iter().fold(0.0, f64::max))
         };
         let length = half_length(height)?;
         // In front of a vertical wall no length is left for the pile-up; hence the upper bound of the exponent.
@@ -150,7 +150,7 @@ impl Footprint {
 
     /// Distances [[behind, ahead], [right, left]] of the edges from the lowest point, \[m]. Fails unless all are finite and greater
     /// than 0.
-    pub(crate) fn sides(&self) -> Result<[[f64; 2]; 2], BemError> {
+    pub(crate) fn edge_distances(&self) -> Result<[[f64; 2]; 2], BemError> {
         let mut sides = [self.x, self.y];
         let names = ["footprint along x", "footprint along y"];
         for (ends, name) in sides.iter_mut().zip(names) {
@@ -166,7 +166,7 @@ impl Footprint {
     /// [`BemError::InvalidParameter`] for ends on the wrong side of the lowest point; [`BemError::GridTooLarge`].
     pub fn elements(&self, spacing: [f64; 2]) -> Result<[[usize; 2]; 2], BemError> {
         let mut counts = [[0; 2]; 2];
-        for (axis, ends) in self.sides()?.into_iter().enumerate() {
+        for (axis, ends) in self.edge_distances()?.into_iter().enumerate() {
             for (side, end) in ends.into_iter().enumerate() {
                 counts[axis][side] = elements_along(end, spacing[axis])?;
             }

@@ -50,7 +50,7 @@ impl PressureField {
             lower: [0; 2],
             upper: self.grid.shape(),
         };
-        let elements = area::in_elements(&self.pressure, &bounds, NO_MIRRORS);
+        let elements = area::area_in_elements(&self.pressure, &bounds, NO_MIRRORS);
         elements * self.grid.element_area()
     }
 

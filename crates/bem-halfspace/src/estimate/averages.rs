@@ -41,7 +41,7 @@ impl Average {
     }
 
     /// Value and scatter multiplied by a factor.
-    pub(crate) fn times(self, factor: f64) -> Self {
+    pub(crate) fn scaled(self, factor: f64) -> Self {
         Self {
             value: factor * self.value,
             scatter: factor * self.scatter,

@@ -87,12 +87,12 @@ impl<S, O> OnGrid<S, O> {
     /// The quantities of the grid for the refinement, in the order of [`Name::ALL`], then the friction from dissipation if it is known.
     ///
     /// Normal force and the quantity `target` control the refinement: they are refined to the error asked for.
-    fn quantities_driven_by(&self, driven: Name) -> Vec<Quantity> {
+    fn quantities_for(&self, target: Name) -> Vec<Quantity> {
         let quantity = |(name, value): (Name, f64)| Quantity {
-            controls_refinement: name == driven || name == Name::Force,
+            controls_refinement: name == target || name == Name::Force,
             error_floor: match name {
                 Name::Area => self.area_uncertainty,
-                _ if name == driven => self.min_relative_error * value.abs(),
+                _ if name == target => self.min_relative_error * value.abs(),
                 _ => 0.0,
             },
             order: self.area_order.filter(|_| name == Name::Area),
@@ -133,7 +133,7 @@ pub(crate) struct Resolution<'w> {
 
 impl Resolution<'_> {
     /// Name of the quantity that is the target under the prescribed force or depth.
-    const fn driven(&self) -> Name {
+    const fn target_name(&self) -> Name {
         match (self.target, self.control) {
             (Target::Friction, _) => Name::Friction,
             (Target::Depth, Control::NormalForce(_)) => Name::Depth,
@@ -182,11 +182,11 @@ pub(crate) fn resolve<S, O, E: Into<Reached>>(
     solve: impl Fn(usize, &dyn Fn(f64)) -> Result<OnGrid<S, O>, BemError>,
     finish: impl FnOnce(ContactEstimate<S, O>) -> Result<E, BemError>,
 ) -> Result<E, BemError> {
-    let (control, driven) = (resolution.control, resolution.driven());
-    let quantities = |contact: &OnGrid<S, O>| contact.quantities_driven_by(driven);
+    let (control, target) = (resolution.control, resolution.target_name());
+    let quantities = |contact: &OnGrid<S, O>| contact.quantities_for(target);
     let common_errors = |contact: &OnGrid<S, O>, _: &dyn Fn(f64)| {
         let mut errors = vec![ErrorParts::NONE; DISSIPATED + 1];
-        errors[driven.index()] = contact.common_error;
+        errors[target.index()] = contact.common_error;
         errors[DISSIPATED] = contact.common_error;
         Ok(errors)
     };
@@ -197,7 +197,7 @@ pub(crate) fn resolve<S, O, E: Into<Reached>>(
     let known = values.map(|name, value| Estimate::new(value, errors[name.index()]));
     // Take the friction from dissipation if it is better known.
     let mut friction = known.friction_coefficient;
-    let mut error_parts = refined.parts[driven.index()];
+    let mut error_parts = refined.parts[target.index()];
     if let Some(dissipated) = refined.value.dissipated {
         let error = errors[DISSIPATED];
         if error < resolution.max_dissipation_error_ratio * friction.error {

@@ -83,7 +83,7 @@ impl GridPlan {
             }
             Control::IndentationDepth(depth) => [depth; 2],
         };
-        let footprint = Footprint::reached(surface, elastomer, highest)?;
+        let footprint = Footprint::of_contact_below(surface, elastomer, highest)?;
         Self::with_pile_up(surface, elastomer, depth, |depth| {
             Ok(Self::of_surface(surface, footprint, depth))
         })

@@ -396,8 +396,8 @@ mod tests {
                 .collect();
             let duration = parts.iter().map(|part| part.0).sum();
             let after = in_contact(&heights, &material, &parts);
-            let held_ratio = in_contact(&heights, &material, &[(duration, last)]);
-            prop_assert!(after >= held_ratio, "{} after {}", after, held_ratio);
+            let held = in_contact(&heights, &material, &[(duration, last)]);
+            prop_assert!(after >= held, "{} after {}", after, held);
         }
     }
 }

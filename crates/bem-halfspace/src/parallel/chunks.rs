@@ -46,7 +46,7 @@ pub(crate) fn fold_chunks<const N: usize, T: Send, R: Send>(
     }
     // Halve the range, and process both halves in parallel.
     let middle = chunks.start + chunks.len() / 2;
-    let (before, behind) = split(fields, chunks.start, middle);
+    let (before, behind) = split_at_chunk(fields, chunks.start, middle);
     let (left, right) = join(
         || fold_chunks(chunks.start..middle, before, work, combine),
         || fold_chunks(middle..chunks.end, behind, work, combine),
@@ -55,7 +55,7 @@ pub(crate) fn fold_chunks<const N: usize, T: Send, R: Send>(
 }
 
 /// Splits fields, which begin with chunk `first`, at the beginning of chunk `middle`; returns the parts before and behind it.
-fn split<'a, T, const N: usize>(
+fn split_at_chunk<'a, T, const N: usize>(
     fields: Chunked<'a, T, N>,
     first: usize,
     middle: usize,

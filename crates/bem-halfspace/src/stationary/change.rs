@@ -85,7 +85,7 @@ pub(crate) fn by_moduli(
     in_band: impl Fn([f64; 2]) -> Result<[Change<Estimate>; 2], BemError>,
 ) -> Result<Vec<ByModuli>, BemError> {
     // Check each band before its derivatives are computed.
-    let bands = frequencies.windows(2).map(band);
+    let bands = frequencies.windows(2).map(checked_band);
     let by_moduli = bands.map(|valid_band| {
         let frequencies = valid_band?;
         let [storage_modulus, loss_modulus] = in_band(frequencies)?;
@@ -99,7 +99,7 @@ pub(crate) fn by_moduli(
 }
 
 /// The band between two frequencies \[rad/s]; fails unless the first is not negative and the second is larger.
-fn band(ends: &[f64]) -> Result<[f64; 2], InvalidParameter> {
+fn checked_band(ends: &[f64]) -> Result<[f64; 2], InvalidParameter> {
     not_negative("frequency", ends[0])?;
     let is_increasing = ends[1] > ends[0];
     let allowed = "greater than the one before";

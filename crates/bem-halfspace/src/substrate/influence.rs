@@ -56,12 +56,12 @@ impl PlaneKernel for Reciprocal {
 
     /// ∫ dx'/r over the edge `a` around x.
     fn strip_along_x(x: f64, a: f64, y: f64) -> f64 {
-        strip(x, a, y)
+        strip_integral(x, a, y)
     }
 
     /// ∫ dy'/r over the edge `b` around y.
     fn strip_along_y(x: f64, y: f64, b: f64) -> f64 {
-        strip(y, b, x)
+        strip_integral(y, b, x)
     }
 
     /// Double antiderivative x asinh(y/|x|) + y asinh(x/|y|) of 1/r.
@@ -71,7 +71,7 @@ impl PlaneKernel for Reciprocal {
 }
 
 /// Integral ∫ dx' / √(x'² + height²) over an interval of the length `edge` around `x` ≥ 0.
-fn strip(x: f64, edge: f64, height: f64) -> f64 {
+fn strip_integral(x: f64, edge: f64, height: f64) -> f64 {
     let (lower, upper) = (x - 0.5 * edge, x + 0.5 * edge);
     if lower > 0.0 {
         // The logarithm in a form that also holds for a height of 0.

@@ -97,8 +97,8 @@ pub(crate) fn integrate<K: PlaneKernel>([x, y]: [f64; 2], [a, b]: [f64; 2]) -> f
         distance(y, (x - 0.5 * a).max(0.0)),
     ];
     match (
-        rule(&SINGULAR_KERNEL_RULES, distances[0], a),
-        rule(&SINGULAR_KERNEL_RULES, distances[1], b),
+        fewest_points(&SINGULAR_KERNEL_RULES, distances[0], a),
+        fewest_points(&SINGULAR_KERNEL_RULES, distances[1], b),
     ) {
         // Far in at least one direction: quadrature along it.
         (Some(along_x), Some(along_y)) => {
@@ -128,8 +128,8 @@ pub(crate) fn integrate_smooth(
     let to_singularity = (beside * beside + above * above + singular * singular).sqrt();
     let half = |centre, edges| integrate_smooth(singular, centre, edges, function);
     match (
-        rule(&SMOOTH_KERNEL_RULES, to_singularity, a),
-        rule(&SMOOTH_KERNEL_RULES, to_singularity, b),
+        fewest_points(&SMOOTH_KERNEL_RULES, to_singularity, a),
+        fewest_points(&SMOOTH_KERNEL_RULES, to_singularity, b),
     ) {
         (Some(along_x), Some(along_y)) => {
             gauss(along_x, x, a, |x| gauss(along_y, y, b, |y| function(x, y)))
@@ -148,7 +148,7 @@ pub(crate) fn integrate_smooth(
 
 /// The rule of fewest points that is accurate over an `edge` at a `distance` from the singularities, both in one unit; `None` if
 /// they are too near for all rules.
-fn rule(rules: &[(f64, Rule)], distance: f64, edge: f64) -> Option<Rule> {
+fn fewest_points(rules: &[(f64, Rule)], distance: f64, edge: f64) -> Option<Rule> {
     let suits = |(min_distance, _): &&(f64, Rule)| distance >= min_distance * edge;
     rules.iter().find(suits).map(|(_, rule)| *rule)
 }

@@ -328,7 +328,7 @@ impl<'a> March<'a> {
     }
 
     /// Solves the first step, which every schedule has, without its friction: time level and tangential forces of the row are 0.
-    pub(crate) fn first(&mut self) -> Result<MotionRow, BemError> {
+    pub(crate) fn solve_first_step(&mut self) -> Result<MotionRow, BemError> {
         let step = self.schedule.steps[0];
         self.solve_step(&step)
     }

@@ -5,9 +5,9 @@ use numerics::{Accuracy, ErrorParts, Estimate, Quantity, Request};
 use numerics::{in_range, not_negative, positive, refine};
 use rheology::Material as _;
 
-use super::history::refined;
+use super::history::refine_time_steps;
 use super::press::{
-    PRESS_BYTES_PER_ELEMENT, PRESSED_AREA_ORDER, PRESSED_ORDER, Spring, grid, n_followed,
+    PRESS_BYTES_PER_ELEMENT, PRESSED_AREA_ORDER, PRESSED_ORDER, Spring, n_followed, pressed_grid,
 };
 use super::{HistoryOptions, IndentHistory, MotionRow, indent_history};
 use crate::contact::check_control;
@@ -97,11 +97,13 @@ pub fn indent_along<'w>(
 ) -> Result<IndentCurve, BemError> {
     let accuracy_request = request.into();
     let path = Path::new(history, has_instantaneous_compliance(elastomer))?;
-    let plan = path.spring(elastomer)?.plan(surface, path.largest())?;
+    let plan = path
+        .bounding_spring(elastomer)?
+        .plan(surface, path.largest())?;
     let times: Vec<f64> = path.points[1..].iter().map(|[time, _]| *time).collect();
     // Solve on one grid, with steps for half the error.
     let solve = |elements: usize, _: &dyn Fn(f64)| {
-        let mut options = HistoryOptions::new(grid(&plan, elements));
+        let mut options = HistoryOptions::new(pressed_grid(&plan, elements));
         let max_steps = MAX_HISTORY_STEPS / times.len();
         options.max_steps = max_steps.clamp(MIN_STEPS_PER_INTERVAL, options.max_steps);
         let control = |time| path.control_at(time);
@@ -110,7 +112,9 @@ pub fn indent_along<'w>(
                 options.relative_error = 0.5 * error;
                 indent_history(surface, elastomer, control, &times, &options)
             }
-            Accuracy::Elements(_) => refined(surface, elastomer, control, &times, &options),
+            Accuracy::Elements(_) => {
+                refine_time_steps(surface, elastomer, control, &times, &options)
+            }
         };
         Ok::<_, BemError>((found?, options.grid))
     };
@@ -158,11 +162,13 @@ pub fn indent_along_memory(
     elements: usize,
 ) -> Result<f64, BemError> {
     let path = Path::new(history, has_instantaneous_compliance(elastomer))?;
-    let plan = path.spring(elastomer)?.plan(surface, path.largest())?;
+    let plan = path
+        .bounding_spring(elastomer)?
+        .plan(surface, path.largest())?;
     let creep = elastomer.material().creep();
     let n_fields = n_history_variables(&creep);
     let per_element = PRESS_BYTES_PER_ELEMENT + (n_fields * size_of::<f64>()) as f64;
-    Ok(per_element * n_followed(surface, &grid(&plan, elements)))
+    Ok(per_element * n_followed(surface, &pressed_grid(&plan, elements)))
 }
 
 /// The quantities of one row of a history. Friction is 0 without sliding; the peak pressure is not estimated and 0.
@@ -237,7 +243,7 @@ impl Path {
 
     /// The elastic material whose contact under [`largest`](Self::largest) encloses the contacts of all points, for the footprint. With
     /// given forces its compliance is J at the end of the history, because ∫ J dF ≤ J(t) max F.
-    fn spring(&self, elastomer: &dyn Elastomer) -> Result<Spring, BemError> {
+    fn bounding_spring(&self, elastomer: &dyn Elastomer) -> Result<Spring, BemError> {
         let [duration, _] = self.points[self.points.len() - 1];
         let load = PressingLoad::new(self.largest(), duration)?;
         if self.is_force {

@@ -72,7 +72,7 @@ pub fn indent_history(
     options: &HistoryOptions,
 ) -> Result<IndentHistory, BemError> {
     let relative_error = between_zero_and_one("relative_error", options.relative_error)?;
-    let history = refined(surface, elastomer, control, times, options)?;
+    let history = refine_time_steps(surface, elastomer, control, times, options)?;
     let (steps, error) = (history.steps_per_row, history.time_error);
     if error <= relative_error {
         return Ok(history);
@@ -86,7 +86,7 @@ pub fn indent_history(
 
 /// Halves the steps of a history until the error asked for is met or no more steps are allowed; returns the history with the error
 /// reached. Arguments and errors are those of [`indent_history`].
-pub(super) fn refined(
+pub(super) fn refine_time_steps(
     surface: &dyn Surface,
     elastomer: &dyn Elastomer,
     control: impl Fn(f64) -> Control,
@@ -109,7 +109,7 @@ pub(super) fn refined(
                 // Extrapolate, and estimate the error from the change of the extrapolated values.
                 let rows = coarse.map(|coarse| extrapolated(&coarse, &fine));
                 if let Some((before, rows)) = before.zip(rows.as_ref()) {
-                    let change = difference(&before, rows);
+                    let change = largest_relative_change(&before, rows);
                     error = remaining_error(change, change_before)
                         .max(unresolved_relaxation(&creep, times, n)?);
                     change_before = Some(change);
@@ -195,7 +195,7 @@ fn unresolved_relaxation(creep: &CreepSpectrum, times: &[f64], n: usize) -> Resu
 }
 
 /// Larger of the relative changes of force and of depth between two solutions: maximum change over all rows, over the maximum value.
-fn difference(before: &[MotionRow], rows: &[MotionRow]) -> f64 {
+fn largest_relative_change(before: &[MotionRow], rows: &[MotionRow]) -> f64 {
     let of = |value: fn(&MotionRow) -> f64| {
         let pairs = before.iter().zip(rows);
         let changes = pairs.map(|(a, b)| (value(a) - value(b)).abs());

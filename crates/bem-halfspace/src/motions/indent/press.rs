@@ -102,7 +102,7 @@ pub fn press<'w>(
     request: impl Into<Request<'w>>,
 ) -> Result<PressEstimate, BemError> {
     let spring = Spring::at_rest(elastomer)?;
-    estimate(surface, &spring, control, request.into())
+    refine_press(surface, &spring, control, request.into())
 }
 
 /// Presses `surface` into a half space for a time, with a control that is constant from first touch on, to a relative error
@@ -130,7 +130,7 @@ pub fn indent<'w>(
     request: impl Into<Request<'w>>,
 ) -> Result<PressEstimate, BemError> {
     let spring = Spring::after(elastomer, load)?;
-    estimate(surface, &spring, load.control(), request.into())
+    refine_press(surface, &spring, load.control(), request.into())
 }
 
 /// Upper bound of the memory of [`indent`] for a number of elements along the contact, \[bytes].
@@ -144,7 +144,7 @@ pub fn indent_memory(
     elements: usize,
 ) -> Result<f64, BemError> {
     let plan = Spring::after(elastomer, load)?.plan(surface, load.control())?;
-    Ok(PRESS_BYTES_PER_ELEMENT * n_followed(surface, &grid(&plan, elements)))
+    Ok(PRESS_BYTES_PER_ELEMENT * n_followed(surface, &pressed_grid(&plan, elements)))
 }
 
 /// Approximate number of elements of a grid in front of the mirrors of a surface.
@@ -155,7 +155,7 @@ pub(super) fn n_followed(surface: &dyn Surface, options: &GridOptions) -> f64 {
 }
 
 /// Grid of square elements, about `elements` of them along the pressed contact, which is twice as long as [`GridPlan::length`].
-pub(super) fn grid(plan: &GridPlan, elements: usize) -> GridOptions {
+pub(super) fn pressed_grid(plan: &GridPlan, elements: usize) -> GridOptions {
     let spacing = 2.0 * plan.length() / elements as f64;
     GridOptions::new([spacing; 2], plan.footprint.widened(spacing))
 }
@@ -223,7 +223,7 @@ impl Spring {
         surface: &dyn Surface,
         control: Control,
     ) -> Result<GridPlan, BemError> {
-        GridPlan::pressed(surface, &self.layer(), self.scaled(control)?)
+        GridPlan::pressed(surface, &self.layer(), self.control_of_spring(control)?)
     }
 
     /// The spring that a material is equivalent to at the end of a load: its creep compliance under a force, its relaxation modulus
@@ -249,7 +249,7 @@ impl Spring {
     }
 
     /// The control of the spring: a force times the compliance, or the same depth. Fails unless both are positive.
-    fn scaled(&self, control: Control) -> Result<Control, BemError> {
+    fn control_of_spring(&self, control: Control) -> Result<Control, BemError> {
         Ok(match control {
             Control::NormalForce(force) => {
                 let force = positive("normal_force", force)?;
@@ -272,10 +272,10 @@ impl Spring {
         let motion = Motion {
             time: 1.0,
             position: 0.0,
-            control: self.scaled(control)?,
+            control: self.control_of_spring(control)?,
         };
         let mut march = March::new(surface, &self.layer(), &[motion], options)?;
-        let row = march.first()?;
+        let row = march.solve_first_step()?;
         check_contact_elements(march.elements_across())?;
         // Back from the spring to the material.
         let [contact_x, contact_y] = march.contact_edges();
@@ -304,7 +304,7 @@ impl Spring {
 /// Refines the contact of a spring until the depth, or the force at a given depth, has the error asked for.
 ///
 /// A flat punch is replaced by a disc of elements that is as stiff ([`PUNCH_WIDENING`]); its contact area is exact.
-fn estimate(
+fn refine_press(
     surface: &dyn Surface,
     spring: &Spring,
     control: Control,
@@ -320,7 +320,7 @@ fn estimate(
     };
     let punch = surface.as_axisymmetric().and_then(radius_of_punch);
     let solve = |elements: usize, _: &dyn Fn(f64)| {
-        let mut options = grid(&plan, elements);
+        let mut options = pressed_grid(&plan, elements);
         let state = if let Some(radius) = punch {
             if elements < MIN_ELEMENTS_OF_DISC {
                 let needed = MIN_ELEMENTS_OF_DISC;

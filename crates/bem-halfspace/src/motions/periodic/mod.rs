@@ -78,7 +78,7 @@ pub fn move_along<'w>(
     let goal = Goal {
         request,
         initial_elements: first,
-        max_elements: problem.largest(first),
+        max_elements: problem.max_elements(first),
         order: MARCH_ORDER,
         work_exponent: MARCH_WORK_EXPONENT,
         extra_work: 0.0,
@@ -127,13 +127,13 @@ pub fn move_along_memory(
 
 /// Number of elements, along the edge of the period that has more of them, of the first error estimate of [`move_along`].
 pub fn elements_of_motion(surface: &PeriodicSurface) -> usize {
-    let [x, y] = edges(surface);
+    let [x, y] = initial_shape(surface);
     x.max(y)
 }
 
 /// Numbers of elements along both edges for the first error estimate, in proportion to the largest numbers of waves; 2 along an edge
 /// without waves.
-fn edges(surface: &PeriodicSurface) -> [usize; 2] {
+fn initial_shape(surface: &PeriodicSurface) -> [usize; 2] {
     surface.largest_numbers().map(|number| match number {
         0 => 2,
         _ => (ELEMENTS_PER_SHORTEST_WAVE * number).max(MIN_COARSEST_EDGE),

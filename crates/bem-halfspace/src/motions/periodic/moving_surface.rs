@@ -18,7 +18,7 @@ use rustfft::num_complex::Complex;
 
 use super::full_contact::{FullContactSurface, value_of_row};
 use super::stresses::{Spectra, WaveMotion, WaveStates};
-use super::{CONTACT_TOLERANCE, edges, elements_of_motion};
+use super::{CONTACT_TOLERANCE, elements_of_motion, initial_shape};
 use crate::march::MAX_STEPS;
 use crate::march::periodic::PeriodicMarch;
 use crate::motions::any_motion::{LimitCycle, TOUCH_DURATION_RATIO};
@@ -132,9 +132,9 @@ impl<'a> MovingSurface<'a> {
 
     /// Shape of a grid for a number of elements along its longer edge; both numbers are even.
     pub(super) fn shape(&self, elements: usize) -> [usize; 2] {
-        let edges = edges(self.surface);
-        let longest = edges[0].max(edges[1]);
-        edges.map(|edge| 2 * edge.saturating_mul(elements).div_ceil(2 * longest))
+        let initial = initial_shape(self.surface);
+        let longest = initial[0].max(initial[1]);
+        initial.map(|edge| 2 * edge.saturating_mul(elements).div_ceil(2 * longest))
     }
 
     /// Edges of an element, \[m].
@@ -158,7 +158,7 @@ impl<'a> MovingSurface<'a> {
     }
 
     /// The largest number of elements along the longer edge, among doublings of `first`, whose steps are not too many.
-    pub(super) fn largest(&self, first: usize) -> usize {
+    pub(super) fn max_elements(&self, first: usize) -> usize {
         let mut elements = first;
         while self.n_steps(2 * elements, self.shape(2 * elements)).is_ok() {
             elements *= 2;
@@ -205,9 +205,9 @@ impl<'a> MovingSurface<'a> {
         let on_grid = self.on_grid(elements)?;
         let spacing = on_grid.grid.spacing();
         let record = if is_full {
-            self.closed(&on_grid)
+            self.full_contact_record(&on_grid)
         } else {
-            self.march(&on_grid, report)?
+            self.follow_march(&on_grid, report)?
         };
         Ok(MotionRecord {
             spacing: spacing[0],
@@ -229,7 +229,7 @@ impl<'a> MovingSurface<'a> {
     }
 
     /// Record of a cycle in which the contact is full all the time, in closed form.
-    fn closed(&self, on_grid: &MotionOnGrid) -> MotionRecord {
+    fn full_contact_record(&self, on_grid: &MotionOnGrid) -> MotionRecord {
         let closed = self.full_contact_on(on_grid);
         let compliance = closed.factor * self.spectra.creep.equilibrium_compliance();
         let depth =
@@ -251,7 +251,7 @@ impl<'a> MovingSurface<'a> {
     }
 
     /// Record of the motion on a grid by a march from the first touch, for a cycle in its limit cycle.
-    fn march(
+    fn follow_march(
         &self,
         on_grid: &MotionOnGrid,
         report: &dyn Fn(f64),
@@ -260,10 +260,10 @@ impl<'a> MovingSurface<'a> {
         let touch = TOUCH_DURATION_RATIO * steps[0].duration;
         let mut march = PeriodicMarch::new(grid, heights, self.elastomer, touch)?;
         let start = self.load.stages()[0].start.control;
-        let touched = self.step(&mut march, touch, start, &on_grid.waves.states[0])?;
+        let touched = self.solve_step(&mut march, touch, start, &on_grid.waves.states[0])?;
         let Some(limit_cycle) = &self.limit_cycle else {
             let mut ends = vec![touched];
-            ends.extend(self.steps(&mut march, on_grid, report)?);
+            ends.extend(self.solve_steps(&mut march, on_grid, report)?);
             return Ok(self.record(&ends, steps));
         };
 
@@ -271,7 +271,7 @@ impl<'a> MovingSurface<'a> {
         let first = self.before_cycles(&march.history, grid.shape());
         let cycle = |from: &[f64], report: &dyn Fn(f64)| {
             march.history.copy_from_slice(from);
-            let mut ends = self.steps(&mut march, on_grid, report)?;
+            let mut ends = self.solve_steps(&mut march, on_grid, report)?;
             // A cycle begins with the state in which it ends.
             ends.insert(0, ends[ends.len() - 1]);
             Ok((self.record(&ends, steps), march.history.clone()))
@@ -295,7 +295,7 @@ impl<'a> MovingSurface<'a> {
     }
 
     /// Solves all steps of the path, or of one cycle, and returns the state at the end of each; `report` receives the fraction done.
-    fn steps(
+    fn solve_steps(
         &self,
         march: &mut PeriodicMarch<'_>,
         MotionOnGrid { steps, waves, .. }: &MotionOnGrid,
@@ -304,13 +304,13 @@ impl<'a> MovingSurface<'a> {
         let pairs = steps.iter().zip(&waves.states[1..]).enumerate();
         let end = |(index, (step, state)): (usize, (&MovingStep, &WaveStates))| {
             report(index as f64 / steps.len() as f64);
-            self.step(march, step.duration, step.end.control, state)
+            self.solve_step(march, step.duration, step.end.control, state)
         };
         pairs.map(end).collect()
     }
 
     /// Solves one step of a `duration` \[s] and returns the forces and the depth at its end, where the waves are in `state`.
-    fn step(
+    fn solve_step(
         &self,
         march: &mut PeriodicMarch<'_>,
         duration: f64,
@@ -465,7 +465,7 @@ mod tests {
             heat = 0.0;
             for (step, state) in steps.iter().zip(&waves.states[1..]) {
                 let _end = problem
-                    .step(&mut march, step.duration, step.end.control, state)
+                    .solve_step(&mut march, step.duration, step.end.control, state)
                     .expect("a contact");
                 let pressure = march.state.pressure();
                 for (element, springs) in creep.elements().iter().zip(&mut springs) {

@@ -131,7 +131,7 @@ impl WaveMotion {
         // History variables at the start: those of the limit cycle, or of a surface that has always been at its beginning.
         if load.is_cycle() {
             for (leg, state) in legs.iter().zip(&self.states[1..]) {
-                step_of(leg)?.advance(&parts(&state.stress), &mut memory);
+                step_of(leg)?.advance(&real_and_imaginary_parts(&state.stress), &mut memory);
             }
             let period = load.duration();
             for (element, field) in elements.iter().zip(memory.chunks_exact_mut(n_values)) {
@@ -141,7 +141,8 @@ impl WaveMotion {
             }
         } else {
             let first = &self.states[0];
-            let [stress, displacement] = [&first.stress, &first.displacement].map(|v| parts(v));
+            let [stress, displacement] =
+                [&first.stress, &first.displacement].map(|v| real_and_imaginary_parts(v));
             for (index, field) in memory.chunks_exact_mut(n_values).enumerate() {
                 // The dashpot of a material that flows has yielded until the stress vanishes.
                 let (values, factor) = match elements.get(index) {
@@ -157,7 +158,7 @@ impl WaveMotion {
         // March over the steps.
         let mut displaced = vec![0.0; n_values];
         for (leg, state) in legs.iter().zip(&mut self.states[1..]) {
-            let (step, stress) = (step_of(leg)?, parts(&state.stress));
+            let (step, stress) = (step_of(leg)?, real_and_imaginary_parts(&state.stress));
             step.history(&memory, &mut displaced);
             for (value, stress) in displaced.iter_mut().zip(&stress) {
                 *value += step.response() * stress;
@@ -174,7 +175,7 @@ impl WaveMotion {
 }
 
 /// Real and imaginary part of each value, one after the other: twice as many numbers.
-fn parts(values: &[Complex<f64>]) -> Vec<f64> {
+fn real_and_imaginary_parts(values: &[Complex<f64>]) -> Vec<f64> {
     values
         .iter()
         .flat_map(|value| [value.re, value.im])

@@ -111,12 +111,12 @@ impl BlockCorrection {
     /// a mean tension take no part.
     pub(super) fn set_weights(
         &mut self,
-        near: &ActiveSet,
+        active: &ActiveSet,
         weights: &[f32],
         unit_depth_response: &mut [f32],
     ) {
         // Average the response over the blocks, and update the preconditioner.
-        let means = self.means(near, weights);
+        let means = self.means(active, weights);
         self.weights = means.iter().map(|mean| mean.max(0.0)).collect();
         let total = f64::from(sum([&self.weights], |[weight]| weight));
         let weight = MEAN_WEIGHT_FRACTION * total / self.weights.len() as f64;
@@ -125,15 +125,15 @@ impl BlockCorrection {
         // Start from the displacement of the previous active set, which is similar.
         let mut displacement = std::mem::take(&mut self.unit_gap_displacement);
         self.solve(&means, &mut displacement);
-        self.subtract(near, weights, &displacement, unit_depth_response);
+        self.subtract(active, weights, &displacement, unit_depth_response);
         self.unit_gap_displacement = displacement;
     }
 
     /// Replaces a packed vector of pressures S r by M r; `weights` is the packed w.
-    pub(super) fn correct(&mut self, near: &ActiveSet, weights: &[f32], pressures: &mut [f32]) {
+    pub(super) fn correct(&mut self, active: &ActiveSet, weights: &[f32], pressures: &mut [f32]) {
         let mut displacement = copies(0.0, self.weights.len());
-        self.solve(&self.means(near, pressures), &mut displacement);
-        self.subtract(near, weights, &displacement, pressures);
+        self.solve(&self.means(active, pressures), &mut displacement);
+        self.subtract(active, weights, &displacement, pressures);
     }
 
     /// Subtracts w d from packed pressures, on the blocks that take part, those with W > 0; `displacement` has d of each block.
@@ -142,17 +142,18 @@ impl BlockCorrection {
     /// ratio of the moduli.
     fn subtract(
         &self,
-        near: &ActiveSet,
+        active: &ActiveSet,
         weights: &[f32],
         displacement: &[f32],
         pressures: &mut [f32],
     ) {
         let columns = self.columns;
-        let list = [near.packed(pressures)];
-        near.row_blocks
+        let list = [active.packed(pressures)];
+        active
+            .row_blocks
             .for_each_part(list, |row_block, [pressures]| {
-                let weights = &weights[near.packed_range(row_block)];
-                for run in near.runs(row_block) {
+                let weights = &weights[active.packed_range(row_block)];
+                for run in active.runs(row_block) {
                     // Find the blocks of the run, and subtract their share.
                     let first = run.elements().start;
                     let block = first / columns / BLOCK_LENGTH * columns + first % columns;
@@ -172,26 +173,28 @@ impl BlockCorrection {
     }
 
     /// Means of a packed vector over the blocks, row-major; elements outside the active set count as zero.
-    fn means(&self, near: &ActiveSet, list: &[f32]) -> Vec<f32> {
+    fn means(&self, active: &ActiveSet, list: &[f32]) -> Vec<f32> {
         let columns = self.columns;
         let mut means = copies(0.0, self.weights.len());
-        let starts = Starts::Every(near.row_blocks.rows(0).len() / BLOCK_LENGTH * columns);
+        let starts = Starts::Every(active.row_blocks.rows(0).len() / BLOCK_LENGTH * columns);
         let parts = [(&mut means[..], starts)];
-        near.row_blocks.for_each_part(parts, |row_block, [means]| {
-            let first_row = near.row_blocks.rows(row_block).start;
-            let list = &list[near.packed_range(row_block)];
-            for run in near.runs(row_block) {
-                // Add each run to the blocks of its columns.
-                let first = run.elements().start;
-                let block =
-                    (first / columns - first_row) / BLOCK_LENGTH * columns + first % columns;
-                add_scaled(
-                    &mut means[block..],
-                    INVERSE_BLOCK_LENGTH,
-                    &list[run.packed_range()],
-                );
-            }
-        });
+        active
+            .row_blocks
+            .for_each_part(parts, |row_block, [means]| {
+                let first_row = active.row_blocks.rows(row_block).start;
+                let list = &list[active.packed_range(row_block)];
+                for run in active.runs(row_block) {
+                    // Add each run to the blocks of its columns.
+                    let first = run.elements().start;
+                    let block =
+                        (first / columns - first_row) / BLOCK_LENGTH * columns + first % columns;
+                    add_scaled(
+                        &mut means[block..],
+                        INVERSE_BLOCK_LENGTH,
+                        &list[run.packed_range()],
+                    );
+                }
+            });
         means
     }
 

@@ -86,7 +86,7 @@ pub fn steady<'w>(
 ) -> Result<PeriodicEstimate<PeriodicSliding>, BemError> {
     let control = load.require_stationary()?;
     let sliding = Sliding::new(elastomer, load.velocity())?;
-    solve(surface, &sliding, control, request.into())
+    refine_stationary(surface, &sliding, control, request.into())
 }
 
 /// Presses a sum of waves into a material with a mean pressure > 0 \[Pa] that is held for a time > 0 \[s].
@@ -106,7 +106,7 @@ pub fn indent<'w>(
 ) -> Result<PeriodicEstimate<PeriodicSliding>, BemError> {
     let spring = Sliding::at_rest(elastomer, positive("time", time)?)?;
     let control = PeriodicControl::MeanPressure(positive("mean_pressure", mean_pressure)?);
-    solve(surface, &spring, control, request.into())
+    refine_stationary(surface, &spring, control, request.into())
 }
 
 /// The result of [`steady`] on its first grid, or on one with `finer` times the elements along both axes, without an error bar.
@@ -209,7 +209,7 @@ pub fn slide<'w>(
             friction: last.friction_coefficient,
             from_dissipation: None,
             area_fraction: area_fraction(&state.pressure, surface),
-            in_contact: in_contact(&state.pressure),
+            in_contact: n_in_contact(&state.pressure),
             has_all_waves: sampled.has_all_waves,
             subgrid_gaps: SubgridGapBound::new(&state.pressure, surface),
             mean_pressure,
@@ -221,7 +221,7 @@ pub fn slide<'w>(
 }
 
 /// Refines the stationary state of a surface on a `sliding` material to the error asked for; errors as for [`steady`].
-fn solve(
+fn refine_stationary(
     surface: &PeriodicSurface,
     sliding: &Sliding,
     control: PeriodicControl,
@@ -252,7 +252,7 @@ fn solve(
             friction: state.friction_coefficient,
             from_dissipation: Some(state.friction_from_dissipation),
             area_fraction: area_fraction(&state.pressure, surface),
-            in_contact: in_contact(&state.pressure),
+            in_contact: n_in_contact(&state.pressure),
             has_all_waves: sampled.has_all_waves,
             subgrid_gaps: SubgridGapBound::new(&state.pressure, surface),
             mean_pressure: mean(&state.pressure.pressure),
@@ -264,7 +264,7 @@ fn solve(
 }
 
 /// Number of elements with a positive pressure.
-fn in_contact(field: &PressureField) -> usize {
+fn n_in_contact(field: &PressureField) -> usize {
     let pressures = field.pressure.iter();
     pressures.filter(|pressure| **pressure > 0.0).count()
 }

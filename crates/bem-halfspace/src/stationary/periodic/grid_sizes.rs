@@ -49,7 +49,11 @@ pub(super) fn first_shape(
         }
         Accuracy::Elements(elements) => elements >= finest_edge(usual),
     };
-    let first = if fits { usual } else { coarsest(surface) };
+    let first = if fits {
+        usual
+    } else {
+        coarsest_first_shape(surface)
+    };
     let Accuracy::Elements(elements) = request.accuracy else {
         return Ok(first);
     };
@@ -73,7 +77,7 @@ fn first_elements(number: usize) -> usize {
 
 /// The shape of the coarsest first grid, with one element per shortest wave: its refinement by two resolves all waves. If it
 /// resolves no wave itself, the shape is that of this refinement.
-fn coarsest(surface: &PeriodicSurface) -> [usize; 2] {
+fn coarsest_first_shape(surface: &PeriodicSurface) -> [usize; 2] {
     let first = surface.largest_numbers().map(|number| match number {
         0 => 2,
         _ => (COARSE_EDGE_MULTIPLE * fast_length((number + 1).div_ceil(COARSE_EDGE_MULTIPLE)))
@@ -87,7 +91,7 @@ fn coarsest(surface: &PeriodicSurface) -> [usize; 2] {
 
 /// Smallest number of elements of the finest grid for an error bar.
 pub fn elements_for_bars(surface: &PeriodicSurface) -> f64 {
-    finest_elements(coarsest(surface))
+    finest_elements(coarsest_first_shape(surface))
 }
 
 /// Smallest number of elements of the finest grid for a surface with waves of these largest numbers along x and y.

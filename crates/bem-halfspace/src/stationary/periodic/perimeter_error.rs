@@ -26,7 +26,7 @@ const MAX_WAVINESS: f64 = 0.5;
 /// Fraction of the period in contact, with the error of its perimeter correction.
 pub(super) fn area_fraction(field: &PressureField, surface: &PeriodicSurface) -> Estimate {
     let found = area::area_fraction(field.grid.shape()[1], &field.pressure);
-    let part = match grooves(surface, &field.grid) {
+    let part = match groove_direction(surface, &field.grid) {
         Some([along_x, along_y]) => 0.5 / (EXCESS_PER_EDGE * (along_x + along_y) as f64),
         None => 0.0,
     };
@@ -38,7 +38,7 @@ pub(super) fn area_fraction(field: &PressureField, surface: &PeriodicSurface) ->
 /// line passes (head of this file).
 ///
 /// `None` if other waves displace the contact boundary by more than [`MAX_WAVINESS`].
-fn grooves(surface: &PeriodicSurface, grid: &Grid) -> Option<[usize; 2]> {
+fn groove_direction(surface: &PeriodicSurface, grid: &Grid) -> Option<[usize; 2]> {
     // The grooves are the waves with the direction of the steepest one.
     let slope = |wave: &Wave| {
         let [x, y] = surface.wave_vector(wave);
@@ -84,7 +84,7 @@ mod tests {
         let waves = waves.iter().map(wave).collect();
         let surface = PeriodicSurface::new([1.0; 2], waves).expect("a surface");
         let grid = Grid::new(shape, shape.map(|n| 1.0 / n as f64)).expect("a grid");
-        grooves(&surface, &grid)
+        groove_direction(&surface, &grid)
     }
 
     #[test]

@@ -116,13 +116,13 @@ impl SampledSurface {
     pub(super) fn new(surface: &PeriodicSurface, shape: [usize; 2]) -> Result<Self, BemError> {
         let spacing = [0, 1].map(|axis| surface.period()[axis] / shape[axis] as f64);
         let grid = Grid::new(shape, spacing)?;
-        let told = surface.resolved_on(shape);
-        let heights = told.as_deref().unwrap_or(surface).heights(shape)?;
+        let resolved = surface.resolved_on(shape);
+        let heights = resolved.as_deref().unwrap_or(surface).heights(shape)?;
         check_surface(&grid, &heights)?;
         Ok(Self {
             grid,
             heights,
-            has_all_waves: matches!(told, Some(Cow::Borrowed(_))),
+            has_all_waves: matches!(resolved, Some(Cow::Borrowed(_))),
         })
     }
 }

@@ -450,9 +450,9 @@ impl ShiftedGrids<'_> {
             spacing: spacings.sum::<f64>() / states.len() as f64,
             friction_coefficient: over_pairs(&|state| state.friction_coefficient),
             friction_from_dissipation: over_pairs(&|state| state.friction_from_dissipation),
-            normal_force: average(&|state| state.normal_force).times(per_length),
+            normal_force: average(&|state| state.normal_force).scaled(per_length),
             indentation_depth: average(&|state| state.depth.at_distance(loading.sliding_distance)),
-            contact_area: average(&|state| state.contact_area).times(per_length),
+            contact_area: average(&|state| state.contact_area).scaled(per_length),
             peak_pressure: average(&|state| state.pressure.largest()),
             unknowns: states.iter().map(|state| state.unknowns).max().unwrap_or(0),
         };

@@ -65,7 +65,11 @@ impl Loading {
         // The unit of heights, and the distance to which a depth belongs.
         let (depth_scale, sliding_distance) = match load.control() {
             Control::NormalForce(force) => {
-                let max_length = footprint.sides()?.concat().into_iter().fold(0.0, f64::max);
+                let max_length = footprint
+                    .edge_distances()?
+                    .concat()
+                    .into_iter()
+                    .fold(0.0, f64::max);
                 let height = |distance| mean_height(surface, distance);
                 let depth = depth_scale(&creep, force, height, max_length, f64::INFINITY)?;
                 (depth, load.sliding_distance())

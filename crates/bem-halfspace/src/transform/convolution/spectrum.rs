@@ -15,7 +15,7 @@ impl Convolution {
     /// Spectrum of a `symbol`, a function of the wave vector \[rad/m], at the discrete wave vectors of the period, times the
     /// normalisation of the transforms.
     fn spectrum_of(&self, symbol: impl Fn([f64; 2]) -> f64 + Sync) -> Vec<f64> {
-        let [unit_x, unit_y] = self.wave_numbers();
+        let [unit_x, unit_y] = self.fundamental_wave_numbers();
         let normalisation = self.transform.normalisation();
         let length = self.transform.padded[0] / 2 + 1;
         let mut spectrum = copies(0.0, self.transform.n_columns() * length);
@@ -29,7 +29,7 @@ impl Convolution {
     }
 
     /// Wave numbers of the longest waves of the period along x and y, \[rad/m]; all others are multiples of them.
-    fn wave_numbers(&self) -> [f64; 2] {
+    fn fundamental_wave_numbers(&self) -> [f64; 2] {
         [0, 1]
             .map(|axis| 2.0 * PI / (self.transform.padded[axis] as f64 * self.grid.spacing()[axis]))
     }
@@ -50,7 +50,7 @@ impl Convolution {
 
     /// Spectrum of a symbol, with negative values replaced by zero and the mean by the value for the longest wave.
     pub(super) fn positive_spectrum(&self, symbol: impl Fn([f64; 2]) -> f64 + Sync) -> Vec<f64> {
-        let [unit_x, unit_y] = self.wave_numbers();
+        let [unit_x, unit_y] = self.fundamental_wave_numbers();
         let longest = if unit_x < unit_y {
             [unit_x, 0.0]
         } else {

@@ -76,9 +76,9 @@ impl<T: Real> CosineTransform<T> {
         if let Some(sines) = &self.sines {
             // L numbers: the odd sums follow from differences and their known mean.
             let mean = numbers[0] - numbers[reals.len()];
-            fold(sines, numbers, reals);
+            sums_and_differences(sines, numbers, reals);
             forward_real(&*self.plan, reals, coefficients, scratch);
-            separate(coefficients, mean, numbers);
+            cosine_sums(coefficients, mean, numbers);
         } else {
             // The whole period of 2 L numbers, whose coefficients are real.
             unfold(numbers, reals);
@@ -91,7 +91,7 @@ impl<T: Real> CosineTransform<T> {
 }
 
 /// Computes y_0 … y_(L−1) from f_0 … f_L (head of this file).
-fn fold<T: Real>(sines: &[T], numbers: &[T], folded: &mut [T]) {
+fn sums_and_differences<T: Real>(sines: &[T], numbers: &[T], folded: &mut [T]) {
     // The pair n and L − n has one sum and one difference; n = L/2 is its own partner.
     let length = folded.len();
     for (n, &sine) in sines.iter().enumerate() {
@@ -105,7 +105,7 @@ fn fold<T: Real>(sines: &[T], numbers: &[T], folded: &mut [T]) {
 }
 
 /// Computes F_0 … F_L from Y_0 … Y_(L/2) and the `mean` of the F_k with odd k (head of this file).
-fn separate<T: Real>(coefficients: &[Complex<T>], mean: T, numbers: &mut [T]) {
+fn cosine_sums<T: Real>(coefficients: &[Complex<T>], mean: T, numbers: &mut [T]) {
     // Even sums directly, odd ones by cumulative differences up to a constant.
     let (mut odd, mut total) = (T::default(), T::default());
     for (pair, coefficient) in numbers.chunks_mut(2).zip(coefficients) {

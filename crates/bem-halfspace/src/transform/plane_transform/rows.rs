@@ -104,7 +104,7 @@ impl<T: Real> RowTransform<T> {
             } => {
                 match twiddles {
                     Some(_) => about_edge::reorder(values, &mut buffers.row),
-                    None => fill(&mut buffers.row, values),
+                    None => copy_padded(&mut buffers.row, values),
                 }
                 forward_real(
                     &**forward,
@@ -115,15 +115,15 @@ impl<T: Real> RowTransform<T> {
                 if let Some(twiddles) = twiddles {
                     // From complex coefficients to real cosine sums, stored in pairs.
                     about_edge::to_cosine_sums(twiddles, &buffers.half_row, &mut buffers.row);
-                    pair(&buffers.row, &mut buffers.half_row);
+                    store_in_pairs(&buffers.row, &mut buffers.half_row);
                 }
             }
             Self::AboutCentre(cosines) => {
-                fill(&mut buffers.row, values);
+                copy_padded(&mut buffers.row, values);
                 // U_0 counts the half element x_0 on both sides of the mirror.
                 buffers.row[0] *= T::rounded(2.0);
                 cosines.apply(buffers);
-                pair(&buffers.row, &mut buffers.half_row);
+                store_in_pairs(&buffers.row, &mut buffers.half_row);
             }
         }
     }
@@ -136,7 +136,7 @@ impl<T: Real> RowTransform<T> {
             } => {
                 if let Some(twiddles) = twiddles {
                     // From real cosine sums in pairs to complex coefficients.
-                    unpair(&buffers.half_row, &mut buffers.row);
+                    split_pairs(&buffers.half_row, &mut buffers.row);
                     about_edge::from_cosine_sums(twiddles, &buffers.row, &mut buffers.half_row);
                 }
                 inverse_real(
@@ -151,7 +151,7 @@ impl<T: Real> RowTransform<T> {
             }
             Self::AboutCentre(cosines) => {
                 // The cosine transform is its own inverse, but for the normalisation.
-                unpair(&buffers.half_row, &mut buffers.row);
+                split_pairs(&buffers.half_row, &mut buffers.row);
                 cosines.apply(buffers);
             }
         }
@@ -162,7 +162,7 @@ impl<T: Real> RowTransform<T> {
 }
 
 /// Copies `values` into `row`, rounds them to its precision and pads with zeros.
-fn fill<T: Real, F: Real>(row: &mut [T], values: &[F]) {
+fn copy_padded<T: Real, F: Real>(row: &mut [T], values: &[F]) {
     for (place, value) in row.iter_mut().zip(values) {
         *place = T::rounded((*value).into());
     }
@@ -170,7 +170,7 @@ fn fill<T: Real, F: Real>(row: &mut [T], values: &[F]) {
 }
 
 /// Stores each two neighbouring real numbers as one complex number; the last of an odd number has the imaginary part 0.
-fn pair<T: Real>(reals: &[T], pairs: &mut [Complex<T>]) {
+fn store_in_pairs<T: Real>(reals: &[T], pairs: &mut [Complex<T>]) {
     let (whole, rest) = reals.as_chunks::<2>();
     let alone = rest.iter().map(|&real| Complex::new(real, T::default()));
     let complete = whole.iter().map(|&[re, im]| Complex::new(re, im));
@@ -179,8 +179,8 @@ fn pair<T: Real>(reals: &[T], pairs: &mut [Complex<T>]) {
     }
 }
 
-/// Splits complex numbers into neighbouring real numbers: the inverse of [`pair`].
-fn unpair<T: Real>(pairs: &[Complex<T>], reals: &mut [T]) {
+/// Splits complex numbers into neighbouring real numbers: the inverse of [`store_in_pairs`].
+fn split_pairs<T: Real>(pairs: &[Complex<T>], reals: &mut [T]) {
     for (reals, pair) in reals.chunks_mut(2).zip(pairs) {
         for (real, value) in reals.iter_mut().zip([pair.re, pair.im]) {
             *real = value;
