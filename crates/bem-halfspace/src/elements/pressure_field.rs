@@ -54,6 +54,15 @@ impl PressureField {
         elements * self.grid.element_area()
     }
 
+    /// Centre \[m] and pressure \[Pa] of the elements along x, from rear to front, on the first line along x. In plane strain there is
+    /// one line only.
+    pub fn along_x(&self) -> Vec<[f64; 2]> {
+        let ([_, columns], [dx, _]) = (self.grid.shape(), self.grid.spacing());
+        let line = self.pressure.iter().step_by(columns).enumerate();
+        line.map(|(row, pressure)| [self.origin[0] + row as f64 * dx, *pressure])
+            .collect()
+    }
+
     /// Largest pressure of an element, \[Pa].
     pub fn largest(&self) -> f64 {
         self.pressure.iter().copied().fold(0.0, f64::max)

@@ -39,14 +39,6 @@ impl Average {
             scatter: 0.5 * (first - second).abs(),
         }
     }
-
-    /// Value and scatter multiplied by a factor.
-    pub(crate) fn scaled(self, factor: f64) -> Self {
-        Self {
-            value: factor * self.value,
-            scatter: factor * self.scatter,
-        }
-    }
 }
 
 /// Averages over the shifted grids of one spacing; in plane strain forces and areas are per length along y.

@@ -4,17 +4,15 @@ use indenters::Moved;
 
 use crate::motions::indent::{IndentCurve, PressEstimate};
 use crate::motions::slide::SlideEstimate;
-use crate::stationary::steady::{LineEstimate, SteadyEstimate};
+use crate::stationary::steady::SteadyEstimate;
 #[cfg(feature = "rough")]
 use crate::{PeriodicEstimate, PeriodicSliding, PeriodicTransient};
 
 /// The result in [`BemError::NotReached`](crate::BemError::NotReached), with its error bars, by the function that found it.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Reached {
-    /// Result of [`steady`](crate::steady()).
+    /// Result of [`steady`](crate::steady()) and [`steady_line`](crate::steady_line).
     Steady(SteadyEstimate),
-    /// Result of [`steady_line`](crate::steady_line).
-    Line(LineEstimate),
     /// Result of [`slide`](crate::slide()).
     Slide(SlideEstimate),
     /// Result of [`press`](crate::press) and [`indent`](crate::indent()).
@@ -44,7 +42,6 @@ macro_rules! found {
 }
 found! {
     SteadyEstimate => Steady,
-    LineEstimate => Line,
     SlideEstimate => Slide,
     PressEstimate => Press,
     IndentCurve => Curve,

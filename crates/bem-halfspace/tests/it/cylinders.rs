@@ -2,8 +2,8 @@
 
 use std::fmt::Debug;
 
-use bem_halfspace::BemError;
-use bem_halfspace::steady::{LineEstimate, LineOptions, steady_line, steady_line_on_grid};
+use bem_halfspace::steady::{SteadyEstimate, SteadyOptions, steady_line, steady_line_on_grid};
+use bem_halfspace::{BemError, Footprint};
 use casebook::group;
 use friction_analytic::{CylinderSliding, LineContact, cylinder_sliding};
 use indenters::Cylinder;
@@ -44,7 +44,7 @@ impl Scene {
         (scene, exact)
     }
 
-    fn solve(&self, relative_error: f64) -> Result<LineEstimate, BemError> {
+    fn solve(&self, relative_error: f64) -> Result<SteadyEstimate, BemError> {
         let load = under_force(self.line_load, self.velocity);
         steady_line(&unit_cylinder(), &self.material, &load, relative_error)
     }
@@ -104,31 +104,34 @@ fn a_cylinder_on_three_branches_is_that_of_the_spectral_reference() {
     }
 }
 
+/// Elements along x, with values along y that have no effect.
+fn grid(spacing: f64, x: [f64; 2]) -> SteadyOptions {
+    SteadyOptions::new([spacing; 2], Footprint { x, y: [-1.0, 1.0] })
+}
+
 /// The pressure sums up to the load, and the contact ends within two elements of where Hunter's does.
 #[test]
 fn one_grid_carries_the_load_between_the_ends_of_the_contact() {
     let spacing = 1.0 / 32.0;
-    let options = LineOptions {
-        spacing,
-        phase: 0.25,
-        footprint: [-3.0, 5.0],
+    let options = SteadyOptions {
+        phase: [0.25, 0.0],
         tolerance: 1e-10,
-        max_iterations: 500,
+        ..grid(spacing, [-3.0, 5.0])
     };
     for (gamma, z) in [(0.1, 0.1), (0.1, 2.0), (0.01, 5.0), (1.0, 0.5), (1.0, 20.0)] {
         let (scene, exact) = Scene::hunter(gamma, z);
         let load = under_force(scene.line_load, scene.velocity);
         let state = steady_line_on_grid(&unit_cylinder(), &scene.material, &load, &options);
         let state = state.expect("a solution");
-        let carried: f64 = state.pressure.iter().map(|[_, p]| p * spacing).sum();
+        let carried: f64 = state.pressure.pressure.iter().map(|p| p * spacing).sum();
         assert_close((gamma, z), carried, scene.line_load, 1e-12);
-        for (end, expected) in state.contact.into_iter().zip(exact.contact) {
+        for (end, expected) in state.contact_x.into_iter().zip(exact.contact) {
             assert_near((gamma, z), end, expected, 2.0 * spacing);
         }
         // Where no end is nearer than four elements.
         let [rear, front] = exact.contact;
-        let peak = state.pressure.iter().map(|[_, p]| *p).fold(0.0, f64::max);
-        for [x, pressure] in state.pressure {
+        let peak = state.pressure.largest();
+        for [x, pressure] in state.pressure.along_x() {
             if x - rear > 4.0 * spacing && front - x > 4.0 * spacing {
                 assert_near((gamma, z, x), pressure, exact.pressure(x), 0.02 * peak);
             }
@@ -142,12 +145,10 @@ fn a_long_memory_does_not_keep_a_line_from_any_tolerance() {
     let (scene, _) = Scene::hunter(1e-4, 1e-7);
     let load = under_force(scene.line_load, scene.velocity);
     let friction = |tolerance: f64| {
-        let options = LineOptions {
-            spacing: 1.0 / 16.0,
-            phase: 0.0,
-            footprint: [-3.0, 3.0],
+        let options = SteadyOptions {
             tolerance,
             max_iterations: 100,
+            ..grid(1.0 / 16.0, [-3.0, 3.0])
         };
         let state = steady_line_on_grid(&unit_cylinder(), &scene.material, &load, &options);
         state.expect("a state").friction_coefficient

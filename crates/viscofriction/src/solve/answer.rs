@@ -1,7 +1,7 @@
 //! The answer of a method: quantities in SI units, each with its error.
 
 use bem_halfspace::slide::PressureField;
-use bem_halfspace::steady::{LineOptions, SteadyOptions};
+use bem_halfspace::steady::SteadyOptions;
 use numerics::{ErrorParts, Estimate, ValueWithError};
 use serde::ser::{Serialize, SerializeMap as _, Serializer};
 
@@ -86,7 +86,7 @@ pub struct Answer {
     /// Finest boundary-element grid of a body that is not periodic.
     pub(crate) grid: Option<Grid>,
     /// Options of the finest grid of a stationary contact.
-    pub(crate) stationary: Option<StationaryGrid>,
+    pub(crate) stationary: Option<SteadyOptions>,
     /// Elements along x and y of the finest grid of a periodic surface.
     pub(crate) period_grid: Option<[usize; 2]>,
     /// Fields and histories.
@@ -155,15 +155,6 @@ pub(crate) struct Grid {
     pub(crate) footprint: [[usize; 2]; 2],
     /// True if the equations of the contact were factorised.
     pub(crate) factorised: bool,
-}
-
-/// Options of the finest grid of a stationary contact.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum StationaryGrid {
-    /// Grid of the contact of a finite body.
-    Contact(SteadyOptions),
-    /// Grid of a cylinder in plane strain.
-    Line(LineOptions),
 }
 
 /// Fields and histories behind an answer; empty if the method does not compute them.

@@ -2,7 +2,7 @@
 
 use bem_halfspace::indent::{IndentCurve, IndentPoint, PressEstimate, indent_along};
 use bem_halfspace::slide::{PressureField, SlideEstimate, SlideRow, slide};
-use bem_halfspace::steady::{LineEstimate, SteadyEstimate};
+use bem_halfspace::steady::SteadyEstimate;
 use bem_halfspace::{
     ContactEstimate, GridOptions, PeriodicEstimate, PeriodicLoad, PeriodicRow, PeriodicSliding,
     PeriodicTransient, Reached, indent, move_along, periodic, steady, steady_line,
@@ -14,7 +14,7 @@ use indenters::{
 };
 use numerics::{ErrorParts, Estimate, Request};
 
-use super::answer::{Answer, ContactBox, Grid, HistoryRow, Persson, StationaryGrid};
+use super::answer::{Answer, ContactBox, Grid, HistoryRow, Persson};
 use super::body::Body;
 use super::curve::{AREA, Curve, DEPTH, FORCE, OfPoint};
 use super::cut_off::WithoutShortestOctave;
@@ -48,24 +48,34 @@ pub(crate) fn stationary(
     load: &SlidingLoad,
     request: Request,
 ) -> Result<Answer> {
-    answer_from_steady(steady(surface, &problem.elastomer()?, load, request)?)
+    let estimate = steady(surface, &problem.elastomer()?, load, request)?;
+    answer_from_steady(problem, estimate)
 }
 
 /// Converts a stationary estimate: quantities extrapolated over the grids; pressure, work and grid of the finest one.
-fn answer_from_steady(estimate: SteadyEstimate) -> Result<Answer> {
+fn answer_from_steady(problem: &Problem, estimate: SteadyEstimate) -> Result<Answer> {
     let (finest, options) = (&estimate.finest, &estimate.options);
     let ends = [finest.contact_x, finest.contact_y];
     let mut answer = Answer {
         unknowns: finest.unknowns,
         iterations: finest.iterations,
-        grid: Some(Grid {
-            footprint: options.footprint.elements(options.spacing)?,
-            factorised: finest.is_factorised(),
-        }),
-        stationary: Some(StationaryGrid::Contact(*options)),
+        stationary: Some(*options),
         ..common_answer(&estimate, Method::BemSteady, ends)
     };
-    answer.fields.pressure = Some(estimate.finest.pressure);
+    if let Body::Cylinder(_) = problem.body() {
+        answer.is_per_length = true;
+        answer.contact_box = Some(ContactBox::along(
+            finest.contact_x,
+            estimate.contact_box_error,
+        ));
+        answer.fields.line_pressure = finest.pressure.along_x();
+    } else {
+        answer.grid = Some(Grid {
+            footprint: options.footprint.elements(options.spacing)?,
+            factorised: finest.is_factorised(),
+        });
+        answer.fields.pressure = Some(estimate.finest.pressure);
+    }
     Ok(answer)
 }
 
@@ -77,23 +87,7 @@ pub(crate) fn line_contact(
     request: Request,
 ) -> Result<Answer> {
     let estimate = steady_line(cylinder, &problem.elastomer()?, load, request)?;
-    Ok(answer_from_line(estimate))
-}
-
-/// The answer of a stationary line contact.
-fn answer_from_line(estimate: LineEstimate) -> Answer {
-    let finest = &estimate.finest;
-    let contact = ContactBox::along(finest.contact, estimate.contact_box_error);
-    let mut answer = Answer {
-        is_per_length: true,
-        contact_box: Some(contact),
-        unknowns: finest.unknowns,
-        iterations: finest.iterations,
-        stationary: Some(StationaryGrid::Line(estimate.options)),
-        ..common_answer(&estimate, Method::BemSteady, [finest.contact; 2])
-    };
-    answer.fields.line_pressure = estimate.finest.pressure;
-    answer
+    answer_from_steady(problem, estimate)
 }
 
 /// A periodic surface with its load.
@@ -440,8 +434,7 @@ fn answer_from_curve(found: &IndentCurve) -> Result<Answer> {
 /// The answer of an estimate that missed the request; `None` if it has no valid answer.
 pub(crate) fn reached(problem: &Problem, rough: Option<Rough>, found: Reached) -> Option<Answer> {
     let answer = match found {
-        Reached::Steady(found) => answer_from_steady(found),
-        Reached::Line(found) => Ok(answer_from_line(found)),
+        Reached::Steady(found) => answer_from_steady(problem, found),
         Reached::Slide(found) => answer_from_slide(found),
         Reached::Press(found) => answer_from_press(found),
         Reached::Curve(found) => answer_from_curve(&found),

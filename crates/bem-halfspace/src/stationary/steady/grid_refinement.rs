@@ -360,6 +360,7 @@ impl ShiftedGrids<'_> {
         // Extrapolate each quantity, averaged over the grids of a level, to elements of size zero.
         let peak_pressure = || self.limit(self.order, |level| level.peak_pressure);
         let [dx, dy] = options.spacing;
+        let strip = self.problem.loading.strip;
         SteadyEstimate {
             friction_coefficient: friction.widened(iteration),
             error_parts: ErrorParts {
@@ -370,7 +371,7 @@ impl ShiftedGrids<'_> {
             indentation_depth: self.depth(),
             contact_area: self.limit(AREA_ORDER, |level| level.contact_area),
             peak_pressure: self.problem.has_peak.then(peak_pressure),
-            contact_box_error: bars::contact_box_error(dx.max(dy)),
+            contact_box_error: bars::contact_box_error(strip.map_or(dx.max(dy), |_| dx)),
             refinements: self.refinements.clone(),
             finest,
             options,
@@ -438,9 +439,8 @@ impl ShiftedGrids<'_> {
             self.reuse.solution = Some(state);
         }
 
-        // Average. Forces and areas of a strip become those per unit length.
+        // Average.
         let loading = &self.problem.loading;
-        let per_length = loading.strip.map_or(1.0, f64::recip);
         // A quantity of the state on one grid.
         type Quantity<'q> = &'q dyn Fn(&SteadySliding) -> f64;
         let over_pairs = |of: Quantity| Average::over_interleaved_shifts(&states, of);
@@ -450,9 +450,9 @@ impl ShiftedGrids<'_> {
             spacing: spacings.sum::<f64>() / states.len() as f64,
             friction_coefficient: over_pairs(&|state| state.friction_coefficient),
             friction_from_dissipation: over_pairs(&|state| state.friction_from_dissipation),
-            normal_force: average(&|state| state.normal_force).scaled(per_length),
+            normal_force: average(&|state| state.normal_force),
             indentation_depth: average(&|state| state.depth.at_distance(loading.sliding_distance)),
-            contact_area: average(&|state| state.contact_area).scaled(per_length),
+            contact_area: average(&|state| state.contact_area),
             peak_pressure: average(&|state| state.pressure.largest()),
             unknowns: states.iter().map(|state| state.unknowns).max().unwrap_or(0),
         };

@@ -15,7 +15,7 @@
 use indenters::{SlidingLoad, Surface};
 use numerics::{Estimate, Request, positive};
 
-use crate::estimate::bars::{self, ContactEstimate};
+use crate::estimate::bars;
 use crate::estimate::plan::GridPlan;
 use crate::stationary::steady::body_estimate::resolution;
 use crate::stationary::steady::contact_scale::profile_scale;
@@ -26,49 +26,6 @@ use crate::stationary::steady::{
     RefinementOptions, Reuse, SteadyEstimate, SteadyOptions, SteadySliding, solve,
 };
 use crate::{BemError, Elastomer, Footprint};
-
-/// One grid for stationary sliding in plane strain.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct LineOptions {
-    /// Length Δx of an element, \[m].
-    pub spacing: f64,
-    /// Where in its element the lowest point of the profile lies, in elements from its centre, between −1/2 and 1/2.
-    pub phase: f64,
-    /// From rear to front, where contact may occur: `footprint[0] < 0 < footprint[1]`, \[m].
-    pub footprint: [f64; 2],
-    /// Largest residual h + u − d allowed in the contact, and largest penetration outside, relative to the depth scale
-    /// D = h(a) = 2 (1 − ν) F' J(a/v)/(2π), with the force F' per length and the mean height h(a) at the distance a from
-    /// the lowest point. A residual of some units in the last place of the depth is always allowed.
-    pub tolerance: f64,
-    /// Largest number of active sets.
-    pub max_iterations: usize,
-}
-
-/// A stationary state in plane strain on one grid.
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-#[must_use]
-#[non_exhaustive]
-pub struct LineSliding {
-    /// Friction coefficient μ.
-    pub friction_coefficient: f64,
-    /// Mean of |∂h/∂x| under the load.
-    pub mean_slope: f64,
-    /// Rear and front of the contact relative to the lowest point, \[m].
-    pub contact: [f64; 2],
-    /// Number of unknown pressures.
-    pub unknowns: usize,
-    /// Number of active sets.
-    pub iterations: usize,
-    /// Largest residual |h + u − d| in the contact relative to the depth scale, see [`LineOptions::tolerance`].
-    pub residual: f64,
-    /// Centre \[m] and pressure \[Pa] of each element in contact, from rear to front.
-    pub pressure: Vec<[f64; 2]>,
-}
-
-/// A stationary state in plane strain with the error of every quantity.
-pub type LineEstimate = ContactEstimate<LineSliding, LineOptions>;
 
 /// Number of elements of the coarsest grid along half the contact of a cylinder on an elastic half space. Chosen; from 2 to 12
 /// bars are 0.05 to 3.8 times as wide (case of `evidence tuning`).
@@ -117,7 +74,7 @@ pub fn steady_line<'w>(
     elastomer: &dyn Elastomer,
     load: &SlidingLoad,
     request: impl Into<Request<'w>>,
-) -> Result<LineEstimate, BemError> {
+) -> Result<SteadyEstimate, BemError> {
     let (profile, request): (&dyn Surface, Request) = (&profile, request.into());
 
     // The problem of a strip of finite length.
@@ -138,10 +95,10 @@ pub fn steady_line<'w>(
         watch: request.watch,
     };
 
-    // The estimate of the strip as that of a line: an elastic material has no friction, a half space no depth.
+    // An elastic material has no friction, a half space no depth.
     let has_depth = elastomer.base().is_rigid();
-    let finish = |strip_estimate| {
-        let mut found = line_estimate(strip_estimate, force);
+    let finish = |mut found: SteadyEstimate| {
+        found.normal_force = Estimate::exact(force);
         if problem.loading.creep.is_elastic() {
             found.remove_friction();
         }
@@ -166,7 +123,6 @@ pub fn steady_line<'w>(
         let options = SteadyOptions::new([spacing, strip.length], plan.footprint);
         let state = solve(&strip, loading, &options, &mut Reuse::default())?;
         let mut on_grid = state.on_grid(&loading.creep, 0.0, options, None);
-        on_grid.quantities.contact_area /= strip.length;
         // A width of whole elements has an error of at least one element.
         on_grid.area_uncertainty = spacing;
         Ok(on_grid)
@@ -208,34 +164,18 @@ pub fn steady_line_grid(
     elastomer: &dyn Elastomer,
     load: &SlidingLoad,
     elements: usize,
-) -> Result<LineOptions, BemError> {
+) -> Result<SteadyOptions, BemError> {
     let elements = positive("elements", elements as f64)?;
     let LineScale {
         half_length,
         footprint,
     } = line_scale(&profile, elastomer, load)?;
     let spacing = 2.0 * half_length / elements;
-    let grid = SteadyOptions::new([spacing; 2], Footprint::square(half_length));
-    Ok(LineOptions {
-        footprint,
-        ..LineOptions::from_strip(&grid)
-    })
-}
-
-/// Converts the estimate of a strip into that of a line under a force per length.
-fn line_estimate(strip: SteadyEstimate, force: f64) -> LineEstimate {
-    LineEstimate {
-        friction_coefficient: strip.friction_coefficient,
-        error_parts: strip.error_parts,
-        normal_force: Estimate::exact(force),
-        indentation_depth: strip.indentation_depth,
-        contact_area: strip.contact_area,
-        peak_pressure: strip.peak_pressure,
-        contact_box_error: bars::contact_box_error(strip.options.spacing[0]),
-        refinements: strip.refinements,
-        finest: LineSliding::from_strip(&strip.finest),
-        options: LineOptions::from_strip(&strip.options),
-    }
+    let footprint = Footprint {
+        x: footprint,
+        y: [-spacing, spacing],
+    };
+    Ok(SteadyOptions::new([spacing; 2], footprint))
 }
 
 /// Solves the stationary sliding of a `profile` on one grid, under a load whose normal force is per length, \[N/m].
@@ -246,58 +186,29 @@ pub fn steady_line_on_grid(
     profile: &dyn Surface,
     elastomer: &dyn Elastomer,
     load: &SlidingLoad,
-    options: &LineOptions,
-) -> Result<LineSliding, BemError> {
+    options: &SteadyOptions,
+) -> Result<SteadySliding, BemError> {
     let profile: &dyn Surface = &profile;
-    let loading = Loading::per_length(profile, elastomer, load, options.footprint)?;
+    let (strip, loading, grid) = strip_on_grid(profile, elastomer, load, options)?;
+    solve(&strip, &loading, &grid, &mut Reuse::default())
+}
+
+/// The strip of a profile with its loading and its grid, from the options of a line, whose values along y have no effect.
+pub(super) fn strip_on_grid<'a>(
+    profile: &'a dyn Surface,
+    elastomer: &dyn Elastomer,
+    load: &SlidingLoad,
+    options: &SteadyOptions,
+) -> Result<(Strip<'a>, Loading, SteadyOptions), BemError> {
+    let loading = Loading::per_length(profile, elastomer, load, options.footprint.x)?;
     let strip = Strip::new(profile, &loading);
-    let grid = options.on_strip(&strip);
-    let state = solve(&strip, &loading, &grid, &mut Reuse::default())?;
-    Ok(LineSliding::from_strip(&state))
-}
-
-impl LineOptions {
-    /// The grid of a strip with these options.
-    pub(super) fn on_strip(&self, strip: &Strip) -> SteadyOptions {
-        let footprint = strip.footprint(self.footprint);
-        SteadyOptions {
-            phase: [self.phase, 0.0],
-            tolerance: self.tolerance,
-            max_iterations: self.max_iterations,
-            ..SteadyOptions::new([self.spacing, strip.length], footprint)
-        }
-    }
-
-    /// The options of a line from the grid of a strip.
-    const fn from_strip(grid: &SteadyOptions) -> Self {
-        Self {
-            spacing: grid.spacing[0],
-            phase: grid.phase[0],
-            footprint: grid.footprint.x,
-            tolerance: grid.tolerance,
-            max_iterations: grid.max_iterations,
-        }
-    }
-}
-
-impl LineSliding {
-    /// The state of a line from that of a strip.
-    fn from_strip(state: &SteadySliding) -> Self {
-        let field = &state.pressure;
-        let [first, _] = field.origin;
-        let [dx, _] = field.grid.spacing();
-        // There is one element along y, so that the field is one element per row.
-        let row = |(row, pressure): (usize, &f64)| [first + row as f64 * dx, *pressure];
-        Self {
-            friction_coefficient: state.friction_coefficient,
-            mean_slope: state.mean_slope,
-            contact: state.contact_x,
-            unknowns: state.unknowns,
-            iterations: state.iterations,
-            residual: state.residual,
-            pressure: field.pressure.iter().enumerate().map(row).collect(),
-        }
-    }
+    let grid = SteadyOptions {
+        spacing: [options.spacing[0], strip.length],
+        phase: [options.phase[0], 0.0],
+        footprint: strip.footprint(options.footprint.x),
+        ..*options
+    };
+    Ok((strip, loading, grid))
 }
 
 /// A profile of the length of one element along y, in place of an infinite one.
@@ -310,7 +221,7 @@ pub(super) struct Strip<'a> {
 
 impl<'a> Strip<'a> {
     /// A strip of the length that a loading has for its profile.
-    pub(super) fn new(profile: &'a dyn Surface, loading: &Loading) -> Self {
+    fn new(profile: &'a dyn Surface, loading: &Loading) -> Self {
         Self {
             profile,
             length: loading.strip.unwrap_or(f64::INFINITY),

@@ -52,9 +52,7 @@ use body_contact::Solution;
 pub use body_estimate::{steady, steady_grid, steady_memory, steady_refined};
 pub(crate) use contact_scale::depth_scale_of_surface;
 pub use grid_refinement::RefinementOptions;
-pub use line::{
-    LineEstimate, LineOptions, LineSliding, steady_line, steady_line_grid, steady_line_on_grid,
-};
+pub use line::{steady_line, steady_line_grid, steady_line_on_grid};
 use loading::Loading;
 use mesh::Mesh;
 use plans::Plans;
@@ -68,7 +66,7 @@ const NESTED_ITERATION_MIN_ELEMENTS: usize = 500;
 /// Spacing of the coarser mesh of a nested iteration over that of the finer one.
 const NESTED_ITERATION_SPACING_FACTOR: f64 = 2.0;
 
-/// One grid for a stationary solution.
+/// One grid for a stationary solution. In plane strain its values along y have no effect.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SteadyOptions {

@@ -24,7 +24,7 @@ const EDGE_CLEARANCE: f64 = 4.0;
 /// A stationary state with the error of every quantity.
 pub type SteadyEstimate = ContactEstimate<SteadySliding, SteadyOptions>;
 
-/// A stationary solution on one grid.
+/// A stationary solution on one grid. In plane strain force and area are per length along y, \[N/m] and \[m].
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
@@ -42,7 +42,7 @@ pub struct SteadySliding {
     pub normal_force: f64,
     /// Depth of the lowest point, which depends on the sliding distance where the material flows.
     pub depth: SinkingDepth,
-    /// [Area](PressureField::contact_area) of the contact; in plane strain the area of its elements, \[m²].
+    /// [Area](PressureField::contact_area) of the contact, \[m²]; in plane strain the length of its elements along x.
     pub contact_area: f64,
     /// Rear and front of the contact relative to the lowest point, \[m].
     pub contact_x: [f64; 2],
@@ -163,6 +163,11 @@ impl SteadySliding {
         // Friction, force, depth and area.
         let slopes = mesh.mean_slopes(&solution.loads);
         let total_load = mesh.total_load(solution.loads.iter().copied());
+        let per_length = if mesh.loading.is_strip {
+            spacing[1].recip()
+        } else {
+            1.0
+        };
         Ok(Self {
             friction_coefficient: slopes.slope,
             friction_from_dissipation: if mesh.loading.is_solid_for_elements()
@@ -174,10 +179,10 @@ impl SteadySliding {
                 slopes.slope
             },
             mean_slope: slopes.absolute_slope,
-            normal_force: mesh.loading.force_of(total_load),
+            normal_force: mesh.loading.force_of(total_load) * per_length,
             depth: SinkingDepth::new(mesh, solution, edges[0][1] - edges[0][0]),
             contact_area: if mesh.loading.is_strip {
-                loaded.len() as f64 * pressure.grid.element_area()
+                loaded.len() as f64 * spacing[0]
             } else {
                 pressure.contact_area()
             },

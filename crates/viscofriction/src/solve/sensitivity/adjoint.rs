@@ -11,7 +11,7 @@ use super::Sensitivity;
 use super::parameters::{Number, Numbers};
 use crate::quantity::{ByQuantity, Quantity};
 use crate::scene::{Method, SceneError};
-use crate::solve::answer::{Answer, StationaryGrid};
+use crate::solve::answer::Answer;
 use crate::solve::body::Body;
 use crate::solve::error::{Result, SolveError};
 use crate::solve::problem::{Motion, Problem};
@@ -66,11 +66,11 @@ impl Contact {
         check_surfaces(problem)?;
         let elastomer = problem.elastomer()?;
         Ok(match (problem.body(), answer.stationary) {
-            (Body::Cylinder(cylinder), Some(StationaryGrid::Line(options))) => {
+            (Body::Cylinder(cylinder), Some(options)) => {
                 let of_line = SteadySensitivity::of_line(cylinder, &elastomer, load, &options);
                 Self::Single(Box::new(of_line?))
             }
-            (body, Some(StationaryGrid::Contact(options))) => {
+            (body, Some(options)) => {
                 let surface = body.surface().ok_or(NO_DERIVATIVES)?;
                 let near = SteadySensitivity::new(surface, &elastomer, load, &options);
                 Self::Single(Box::new(near?))

@@ -9,7 +9,7 @@ use serde::Serialize;
 use super::Sensitivity;
 use super::adjoint::{self, Contact, check_surfaces};
 use crate::scene::{Method, SceneError};
-use crate::solve::answer::{Answer, StationaryGrid};
+use crate::solve::answer::Answer;
 use crate::solve::error::{Result, SolveError};
 use crate::solve::problem::{Motion, Problem};
 
@@ -143,13 +143,11 @@ impl SpectralSensitivity {
 
 /// Smallest resolved wave number along x and the largest one of the grid, \[1/m]; `None` without a contact.
 fn wave_numbers(answer: &Answer) -> Option<[f64; 2]> {
-    let of_contact = |spacing: f64| {
-        let [rear, front] = answer.contact_box.as_ref()?.x;
-        Some([MIN_FREQUENCY_RATIO / (front - rear), PI / spacing])
-    };
     match answer.stationary {
-        Some(StationaryGrid::Contact(options)) => of_contact(options.spacing[0]),
-        Some(StationaryGrid::Line(options)) => of_contact(options.spacing),
+        Some(options) => {
+            let [rear, front] = answer.contact_box.as_ref()?.x;
+            Some([MIN_FREQUENCY_RATIO / (front - rear), PI / options.spacing[0]])
+        }
         None => {
             let grid = answer.fields.pressure.as_ref()?.grid;
             let (rows, spacing) = (grid.shape()[0] as f64, grid.spacing()[0]);

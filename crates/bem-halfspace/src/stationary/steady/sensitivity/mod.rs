@@ -43,10 +43,10 @@ use rheology::Material;
 
 use crate::stationary::change;
 pub use crate::stationary::change::{ByModuli, Change};
-use crate::stationary::steady::line::Strip;
+use crate::stationary::steady::line::strip_on_grid;
 use crate::stationary::steady::loading::Loading;
 use crate::stationary::steady::sliding_creep::SlidingCreep;
-use crate::stationary::steady::{LineOptions, Reuse, SteadyOptions};
+use crate::stationary::steady::{Reuse, SteadyOptions};
 use crate::{BemError, Elastomer};
 use contact_derivatives::{ContactDerivatives, Gradient};
 use kernel_gradient::{CreepChange, GridKernel};
@@ -147,11 +147,9 @@ impl SteadySensitivity {
         profile: &dyn Surface,
         elastomer: &dyn Elastomer,
         load: &SlidingLoad,
-        options: &LineOptions,
+        options: &SteadyOptions,
     ) -> Result<Self, BemError> {
-        let loading = Loading::per_length(&profile, elastomer, load, options.footprint)?;
-        let strip = Strip::new(&profile, &loading);
-        let mut grid = options.on_strip(&strip);
+        let (strip, loading, mut grid) = strip_on_grid(&profile, elastomer, load, options)?;
         grid.spacing[0] *= STRIP_SPACING_FACTOR;
         Self::on_shifted_grids(&strip, &loading, &grid, &STRIP_SENSITIVITY_PHASES)
     }
@@ -319,11 +317,9 @@ impl SensitivityOnGrid {
         profile: &dyn Surface,
         elastomer: &dyn Elastomer,
         load: &SlidingLoad,
-        options: &LineOptions,
+        options: &SteadyOptions,
     ) -> Result<Self, BemError> {
-        let loading = Loading::per_length(&profile, elastomer, load, options.footprint)?;
-        let strip = Strip::new(&profile, &loading);
-        let grid = options.on_strip(&strip);
+        let (strip, loading, grid) = strip_on_grid(&profile, elastomer, load, options)?;
         let phases = [grid.phase];
         Self::on_shifted_grids(&strip, &loading, &grid, &phases, &mut Reuse::default())
     }

@@ -337,12 +337,10 @@ fn derivatives_of_a_cylinder_do_not_depend_on_the_unit_of_length() {
     let in_unit = |unit: f64| {
         let cylinder = Cylinder::new(unit).expect("a body");
         let load = SlidingLoad::new(0.5 * unit, 2.0 * unit).expect("a load");
-        let options = LineOptions {
-            spacing: 0.02 * unit,
-            phase: 0.0,
-            footprint: [-1.5 * unit, 1.5 * unit],
+        let options = SteadyOptions {
             tolerance: 1e-10,
             max_iterations: 100,
+            ..SteadyOptions::new([0.02 * unit; 2], Footprint::square(1.5 * unit))
         };
         let near = SteadySensitivity::of_line(&cylinder, &material, &load, &options);
         let by_load = near.expect("a sensitivity").by_load().friction_coefficient;
@@ -366,12 +364,10 @@ fn a_cylinder_adds_up(thickness: f64) {
         Prony::new(spectrum).expect("a material")
     });
     let load = SlidingLoad::new(0.5, 2.0).expect("a load");
-    let options = LineOptions {
-        spacing: 0.02,
-        phase: 0.0,
-        footprint: [-1.5, 1.5],
+    let options = SteadyOptions {
         tolerance: 1e-10,
         max_iterations: 100,
+        ..SteadyOptions::new([0.02; 2], Footprint::square(1.5))
     };
     let [layer, stiffer] = materials
         .each_ref()
