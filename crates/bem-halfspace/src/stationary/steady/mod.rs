@@ -154,13 +154,15 @@ fn solve_on_mesh(
     between_zero_and_one("tolerance", options.tolerance)?;
     let mesh = Mesh::new(surface, loading, options, &mut reuse.plans)?;
 
-    // Nested iteration.
-    if reuse.solution.is_none() && mesh.n_elements() > NESTED_ITERATION_MIN_ELEMENTS {
-        let coarse = SteadyOptions {
-            spacing: loading.scaled(options.spacing, NESTED_ITERATION_SPACING_FACTOR),
-            tolerance: options.tolerance.max(INITIAL_GUESS_TOLERANCE),
-            ..*options
-        };
+    // Nested iteration, which ends at the latest with an element as long as the footprint.
+    let coarse = SteadyOptions {
+        spacing: loading.scaled(options.spacing, NESTED_ITERATION_SPACING_FACTOR),
+        tolerance: options.tolerance.max(INITIAL_GUESS_TOLERANCE),
+        ..*options
+    };
+    let [rear, front] = options.footprint.x;
+    let is_large = mesh.n_elements() > NESTED_ITERATION_MIN_ELEMENTS;
+    if reuse.solution.is_none() && is_large && coarse.spacing[0] < front - rear {
         // Only the kernel of a dashpot is the same on both grids, so that its tables are shared.
         let mut separate = Reuse::default();
         let coarse_reuse = if loading.creep.only_flows() {
