@@ -1,17 +1,15 @@
 //! Boundary-element solutions as answers.
 
-use bem_halfspace::indent::{IndentCurve, IndentPoint, PressEstimate, indent_along};
-use bem_halfspace::slide::{PressureField, SlideEstimate, SlideRow, slide};
+use bem_halfspace::indent::{IndentCurve, IndentPoint, PressEstimate};
+use bem_halfspace::slide::{PressureField, SlideEstimate, SlideRow};
 use bem_halfspace::steady::SteadyEstimate;
 use bem_halfspace::{
     ContactEstimate, GridOptions, PeriodicEstimate, PeriodicLoad, PeriodicRow, PeriodicSliding,
-    PeriodicTransient, Reached, indent, move_along, periodic, steady, steady_line,
+    PeriodicTransient, Reached, periodic,
 };
 use friction_analytic::{EnergyFactor, PerssonSliding, RoughLoad, SurfaceWave, persson_of_waves};
 use indenters::rough::{PeriodicSurface, Wave};
-use indenters::{
-    Control, Cylinder, HistoryPoint, Moved, MovingLoad, PressingLoad, SlidingLoad, Surface,
-};
+use indenters::{Control, Moved};
 use numerics::{ErrorParts, Estimate, Request};
 
 use super::answer::{Answer, ContactBox, Grid, HistoryRow, Persson};
@@ -41,19 +39,8 @@ fn common_answer<S, O>(
     }
 }
 
-/// Stationary sliding of a finite body under a force or at a depth, by boundary elements, to the accuracy of `request`.
-pub(crate) fn stationary(
-    problem: &Problem,
-    surface: &dyn Surface,
-    load: &SlidingLoad,
-    request: Request,
-) -> Result<Answer> {
-    let estimate = steady(surface, &problem.elastomer()?, load, request)?;
-    answer_from_steady(problem, estimate)
-}
-
 /// Converts a stationary estimate: quantities extrapolated over the grids; pressure, work and grid of the finest one.
-fn answer_from_steady(problem: &Problem, estimate: SteadyEstimate) -> Result<Answer> {
+pub(crate) fn answer_from_steady(problem: &Problem, estimate: SteadyEstimate) -> Result<Answer> {
     let (finest, options) = (&estimate.finest, &estimate.options);
     let ends = [finest.contact_x, finest.contact_y];
     let mut answer = Answer {
@@ -77,17 +64,6 @@ fn answer_from_steady(problem: &Problem, estimate: SteadyEstimate) -> Result<Ans
         answer.fields.pressure = Some(estimate.finest.pressure);
     }
     Ok(answer)
-}
-
-/// Stationary sliding of a cylinder in plane strain.
-pub(crate) fn line_contact(
-    problem: &Problem,
-    cylinder: &Cylinder,
-    load: &SlidingLoad,
-    request: Request,
-) -> Result<Answer> {
-    let estimate = steady_line(cylinder, &problem.elastomer()?, load, request)?;
-    answer_from_steady(problem, estimate)
 }
 
 /// A periodic surface with its load.
@@ -188,18 +164,8 @@ pub(crate) fn on_coarse_grid(
     Ok((found, None))
 }
 
-/// Sliding of a periodic surface from rest over a distance.
-pub(crate) fn periodic_transient(
-    problem: &Problem,
-    rough: Rough,
-    request: Request,
-) -> Result<Answer> {
-    let estimate = periodic::slide(rough.surface, &problem.elastomer()?, &rough.load, request)?;
-    Ok(answer_from_periodic_transient(problem, rough, estimate))
-}
-
 /// The answer of a periodic march in time.
-fn answer_from_periodic_transient(
+pub(crate) fn answer_from_periodic_transient(
     problem: &Problem,
     rough: Rough,
     estimate: PeriodicEstimate<PeriodicTransient>,
@@ -308,18 +274,8 @@ impl Answer {
     }
 }
 
-/// Time march from first touch to the stationary state, or over a distance.
-pub(crate) fn transient(
-    problem: &Problem,
-    surface: &dyn Surface,
-    load: &SlidingLoad,
-    request: Request,
-) -> Result<Answer> {
-    answer_from_slide(slide(surface, &problem.elastomer()?, load, request)?)
-}
-
 /// Converts a time march: quantities extrapolated over the grids; the last step, work and grid of the finest one.
-fn answer_from_slide(estimate: SlideEstimate) -> Result<Answer> {
+pub(crate) fn answer_from_slide(estimate: SlideEstimate) -> Result<Answer> {
     let last = estimate.finest.last();
     let ends = [last.contact_x, last.contact_y];
     let mut answer = Answer {
@@ -339,30 +295,8 @@ fn answer_from_slide(estimate: SlideEstimate) -> Result<Answer> {
     Ok(answer)
 }
 
-/// Reciprocating motion, or motion through given positions, of a finite body.
-pub(crate) fn moved(
-    problem: &Problem,
-    surface: &dyn Surface,
-    load: &MovingLoad,
-    request: Request,
-) -> Result<Answer> {
-    let found = move_along(surface, &problem.elastomer()?, load, request)?;
-    Ok(answer_from_moved(problem, found))
-}
-
-/// Reciprocating motion, or motion through given positions, of a periodic surface; its depth is known on a layer only.
-pub(crate) fn periodic_moved(
-    problem: &Problem,
-    surface: &PeriodicSurface,
-    load: &MovingLoad,
-    request: Request,
-) -> Result<Answer> {
-    let found = periodic::move_along(surface, &problem.elastomer()?, load, request)?;
-    Ok(answer_from_moved(problem, found))
-}
-
 /// The answer of a motion, without the unbounded depth of a periodic surface on a half space.
-fn answer_from_moved(problem: &Problem, found: Moved) -> Answer {
+pub(crate) fn answer_from_moved(problem: &Problem, found: Moved) -> Answer {
     let mut answer = answer_from_motion(Method::BemTransient, Model::HalfSpace, found);
     if matches!(problem.body(), Body::Periodic(_)) && !problem.thickness().is_finite() {
         answer.indentation_depth = None;
@@ -370,18 +304,8 @@ fn answer_from_moved(problem: &Problem, found: Moved) -> Answer {
     answer
 }
 
-/// Indentation without sliding by boundary elements, under a force or to a depth, to the accuracy of `request`.
-pub(crate) fn pressed(
-    problem: &Problem,
-    surface: &dyn Surface,
-    load: &PressingLoad,
-    request: Request,
-) -> Result<Answer> {
-    answer_from_press(indent(surface, &problem.elastomer()?, load, request)?)
-}
-
 /// Converts an indentation: quantities extrapolated over the grids; pressure, work and grid of the finest one. No friction.
-fn answer_from_press(estimate: PressEstimate) -> Result<Answer> {
+pub(crate) fn answer_from_press(estimate: PressEstimate) -> Result<Answer> {
     let finest = &estimate.finest;
     let ends = [finest.contact_x, finest.contact_y];
     let mut answer = Answer {
@@ -395,23 +319,8 @@ fn answer_from_press(estimate: PressEstimate) -> Result<Answer> {
     Ok(answer)
 }
 
-/// Indentation along a history of loading and unloading; the answer is its last point.
-pub(crate) fn followed(
-    problem: &Problem,
-    surface: &dyn Surface,
-    points: &[HistoryPoint],
-    request: Request,
-) -> Result<Answer> {
-    answer_from_curve(&indent_along(
-        surface,
-        &problem.elastomer()?,
-        points,
-        request,
-    )?)
-}
-
 /// Converts a history: quantities of its last point, and force, depth and area at all points over time. No friction.
-fn answer_from_curve(found: &IndentCurve) -> Result<Answer> {
+pub(crate) fn answer_from_curve(found: &IndentCurve) -> Result<Answer> {
     let last = found.points[found.points.len() - 1];
     let columns: [OfPoint<IndentPoint>; 3] = [
         (FORCE, |point| point.normal_force),

@@ -1,14 +1,12 @@
 //! Solutions of the one-dimensional model (method of dimensionality reduction) as answers.
 
 use indenters::{
-    Axisymmetric, EquivalentLine, EquivalentProfile, HistoryPoint, Moved, MovedPoint, MovingLoad,
-    PressingLoad, SlidingLoad,
+    Axisymmetric, EquivalentLine, EquivalentProfile, HistoryPoint, Moved, MovedPoint, SlidingLoad,
 };
 use mdr_core::{
-    CurvePoint, HistoryOptions, MdrError, Sliding, SlidingStep, SteadySliding, indent,
-    indent_along, move_along, slide, steady,
+    CurvePoint, HistoryOptions, MdrError, Sliding, SlidingStep, SteadySliding, indent_along, steady,
 };
-use numerics::{ErrorParts, Estimate, Request};
+use numerics::{ErrorParts, Estimate};
 use rheology::Material;
 
 use super::answer::{Answer, ContactBox, HistoryRow};
@@ -47,21 +45,6 @@ pub(crate) fn answer_from_steady(state: SteadySliding) -> Answer {
     answer
 }
 
-/// Time march from first touch to the stationary state, or over a distance.
-pub(crate) fn transient(
-    body: &dyn Axisymmetric,
-    material: &dyn Material,
-    load: &SlidingLoad,
-    request: Request,
-) -> Result<Answer> {
-    Ok(answer_from_march(slide(
-        &EquivalentLine(body),
-        material,
-        load,
-        request,
-    )?))
-}
-
 /// Converts a time march: quantities of its end, and its steps as a history.
 pub(crate) fn answer_from_march(state: Sliding) -> Answer {
     let mut answer = Answer {
@@ -82,17 +65,6 @@ pub(crate) fn answer_from_march(state: Sliding) -> Answer {
     answer.fields.history = state.steps.iter().map(row).collect();
     answer.fields.line_load = state.load;
     answer
-}
-
-/// Reciprocating motion, or motion through given positions.
-pub(crate) fn moved(
-    body: &dyn Axisymmetric,
-    material: &dyn Material,
-    load: &MovingLoad,
-    request: Request,
-) -> Result<Answer> {
-    let found = move_along(&EquivalentLine(body), material, load, request)?;
-    Ok(answer_from_motion(Method::MdrTransient, Model::Line, found))
 }
 
 /// The answer of a motion: friction over all of it, force and depth at its last point.
@@ -123,22 +95,16 @@ pub(crate) fn answer_from_motion(method: Method, model: Model, found: Moved) -> 
     answer
 }
 
-/// Indentation without sliding in the one-dimensional model, to a relative error of what is not given, force or depth.
-pub(crate) fn pressed(
-    body: &dyn Axisymmetric,
-    material: &dyn Material,
-    load: &PressingLoad,
-    relative_error: f64,
-) -> Result<Answer> {
-    let state = indent(&EquivalentLine(body), material, load, relative_error)?;
+/// The answer of an indentation without sliding.
+pub(crate) fn answer_from_press(state: &SteadySliding) -> Answer {
     let error = state.indentation_depth.error.max(state.normal_force.error);
-    Ok(Answer {
+    Answer {
         indentation_depth: Some(state.indentation_depth),
         error_parts: ErrorParts::discretisation_only(error),
         contact_box: Some(contact_box(state.ends)),
         unknowns: state.n_pieces,
         ..Answer::new(Method::MdrTransient, Model::Line, state.normal_force)
-    })
+    }
 }
 
 /// Indentation along a history of loading and unloading; the answer is its last point.

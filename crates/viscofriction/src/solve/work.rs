@@ -1,9 +1,13 @@
 //! The computation of each method for a problem, or the reason why the method does not answer it.
 
-use bem_halfspace::PeriodicLoad;
+use bem_halfspace::{
+    PeriodicLoad, indent, indent_along, move_along, periodic, slide, steady, steady_line,
+};
 use friction_analytic::{kelvin_voigt_sliding, maxwell_sliding, scaling_factor};
 use indenters::rough::PeriodicSurface;
-use indenters::{Axisymmetric, Cylinder, HistoryPoint, MovingLoad, SlidingLoad, Surface};
+use indenters::{
+    Axisymmetric, Cylinder, EquivalentLine, HistoryPoint, MovingLoad, SlidingLoad, Surface,
+};
 use numerics::{Progress, Request};
 
 use super::analytic::{cylinder_pressed, without_friction};
@@ -97,7 +101,7 @@ pub(super) fn work(problem: &Problem, method: Method) -> Offer<'_> {
             boundary_elements(problem, map, method, accuracy)
         }
         (Body::Periodic(surface), BemSteady | BemTransient) => {
-            periodic(problem, surface, method, accuracy)
+            periodic_surface(problem, surface, method, accuracy)
         }
         (Body::Periodic(_), _) => Err("it has no periodic surfaces; boundary elements slide them"),
         (Body::HeightMap(_), _) => Err(
@@ -129,6 +133,14 @@ fn ready<'a>(answer: impl FnOnce(&dyn Progress) -> Result<Answer> + Send + 'a) -
     Ok(Box::new(answer))
 }
 
+/// An accepted computation that solves to an accuracy, and may stop before a grid.
+fn on_grids<'a>(
+    accuracy: Accuracy,
+    answer: impl FnOnce(Request<'_>) -> Result<Answer> + Send + 'a,
+) -> Offer<'a> {
+    ready(move |watch| answer(Request { accuracy, watch }))
+}
+
 /// Refuses with a reason unless a condition holds.
 fn require(holds: bool, refusal: Refusal) -> Result<(), Refusal> {
     if holds { Ok(()) } else { Err(refusal) }
@@ -156,8 +168,9 @@ fn followed<'a>(
         (MdrSteady | BemSteady, _) => Err(NOTHING_SLIDES),
         (BemTransient, body) => {
             let surface = body.surface().ok_or(HISTORY_WITHOUT_END)?;
-            ready(move |watch| {
-                elements::followed(problem, surface, points, Request { accuracy, watch })
+            on_grids(accuracy, move |request| {
+                let elastomer = problem.elastomer()?;
+                elements::answer_from_curve(&indent_along(surface, &elastomer, points, request)?)
             })
         }
         (_, Body::Revolution(body)) => {
@@ -189,20 +202,28 @@ fn moved<'a>(
         (Analytic | MdrSteady | BemSteady, _) => Err(ONLY_STEADY),
         (MdrTransient, Body::Revolution(body)) => {
             let material = problem.material();
-            ready(move |watch| mdr::moved(&**body, material, load, Request { accuracy, watch }))
+            on_grids(accuracy, move |request| {
+                let line = EquivalentLine(&**body);
+                let found = mdr_core::move_along(&line, material, load, request)?;
+                Ok(mdr::answer_from_motion(method, Model::Line, found))
+            })
         }
         (MdrTransient, _) => Err(
             "it needs a body of revolution; bem-transient takes height maps and periodic surfaces too",
         ),
         (BemTransient, Body::Periodic(surface)) => {
             require(problem.realisations() == 1, ONE_SURFACE)?;
-            ready(move |watch| {
-                elements::periodic_moved(problem, surface, load, Request { accuracy, watch })
+            on_grids(accuracy, move |request| {
+                let found = periodic::move_along(surface, &problem.elastomer()?, load, request)?;
+                Ok(elements::answer_from_moved(problem, found))
             })
         }
         (BemTransient, body) => {
             let surface = body.surface().ok_or(MOTION_OF_CYLINDER)?;
-            ready(move |watch| elements::moved(problem, surface, load, Request { accuracy, watch }))
+            on_grids(accuracy, move |request| {
+                let found = move_along(surface, &problem.elastomer()?, load, request)?;
+                Ok(elements::answer_from_moved(problem, found))
+            })
         }
     }
 }
@@ -243,8 +264,9 @@ fn line_contact<'a>(
                 "a half space that flows sinks without limit under a line contact; give the material an equilibrium modulus",
             )?;
             require(load.sliding_distance().is_none(), STATIONARY)?;
-            ready(move |watch| {
-                elements::line_contact(problem, cylinder, load, Request { accuracy, watch })
+            on_grids(accuracy, move |request| {
+                let found = steady_line(cylinder, &problem.elastomer()?, load, request)?;
+                elements::answer_from_steady(problem, found)
             })
         }
         (BemSteady, _) => Err(NOTHING_SLIDES),
@@ -285,7 +307,7 @@ pub(super) fn rough<'a>(
 }
 
 /// The computation for a periodic surface by boundary elements, stationary or in time, or a refusal of other methods.
-fn periodic<'a>(
+fn periodic_surface<'a>(
     problem: &'a Problem,
     surface: &'a PeriodicSurface,
     method: Method,
@@ -293,20 +315,25 @@ fn periodic<'a>(
 ) -> Offer<'a> {
     let rough = rough(problem, surface)?;
     match (method, problem.motion()) {
-        (BemTransient, Pressing(load)) => ready(move |watch| {
-            let request = Request { accuracy, watch };
+        (BemTransient, Pressing(load)) => on_grids(accuracy, move |request| {
             elements::periodic_pressed(problem, rough, load.duration(), request)
         }),
         (_, Pressing(_) | History { .. } | Moving(_)) => Err(NOTHING_SLIDES),
         (BemSteady, Sliding(load)) => {
             require(load.sliding_distance().is_none(), STATIONARY)?;
-            ready(move |watch| elements::periodic(problem, rough, Request { accuracy, watch }))
+            on_grids(accuracy, move |request| {
+                elements::periodic(problem, rough, request)
+            })
         }
         (_, Sliding(load)) => {
             let from_rest = "from rest it slides over a distance; give solve.sliding_distance";
             require(load.sliding_distance().is_some(), from_rest)?;
-            ready(move |watch| {
-                elements::periodic_transient(problem, rough, Request { accuracy, watch })
+            on_grids(accuracy, move |request| {
+                let elastomer = problem.elastomer()?;
+                let found = periodic::slide(surface, &elastomer, &rough.load, request)?;
+                Ok(elements::answer_from_periodic_transient(
+                    problem, rough, found,
+                ))
             })
         }
     }
@@ -323,8 +350,8 @@ fn boundary_elements<'a>(
     let load = match problem.motion() {
         Sliding(load) => load,
         Pressing(load) if !is_stationary => {
-            return ready(move |watch| {
-                elements::pressed(problem, surface, load, Request { accuracy, watch })
+            return on_grids(accuracy, move |request| {
+                elements::answer_from_press(indent(surface, &problem.elastomer()?, load, request)?)
             });
         }
         Pressing(_) | History { .. } | Moving(_) => return Err(NOTHING_SLIDES),
@@ -341,12 +368,16 @@ fn boundary_elements<'a>(
             "a half space that flows sinks without limit, so that a depth needs a distance; give solve.sliding_distance for bem-transient",
         )?;
     }
-    let slid = if is_stationary {
-        elements::stationary
-    } else {
-        elements::transient
-    };
-    ready(move |watch| slid(problem, surface, load, Request { accuracy, watch }))
+    on_grids(accuracy, move |request| {
+        let elastomer = problem.elastomer()?;
+        if is_stationary {
+            return elements::answer_from_steady(
+                problem,
+                steady(surface, &elastomer, load, request)?,
+            );
+        }
+        elements::answer_from_slide(slide(surface, &elastomer, load, request)?)
+    })
 }
 
 /// A body of revolution in the one-dimensional model, by elements or polynomials.
@@ -370,13 +401,19 @@ fn one_dimensional<'a>(
         (MdrSteady, Pressing(_)) | (_, History { .. } | Moving(_)) => Err(NOTHING_SLIDES),
         (_, Sliding(load)) => {
             require(has_force(problem), UNDER_FORCE)?;
-            ready(move |watch| mdr::transient(body, material, load, Request { accuracy, watch }))
+            on_grids(accuracy, move |request| {
+                let found = mdr_core::slide(&EquivalentLine(body), material, load, request)?;
+                Ok(mdr::answer_from_march(found))
+            })
         }
         (_, Pressing(load)) => {
             let Accuracy::RelativeError(error) = accuracy else {
                 return Err("where nothing slides it has no elements; give relative_error instead");
             };
-            ready(move |_| mdr::pressed(body, material, load, error))
+            ready(move |_| {
+                let found = mdr_core::indent(&EquivalentLine(body), material, load, error)?;
+                Ok(mdr::answer_from_press(&found))
+            })
         }
     }
 }

@@ -146,7 +146,10 @@ fn wave_numbers(answer: &Answer) -> Option<[f64; 2]> {
     match answer.stationary {
         Some(options) => {
             let [rear, front] = answer.contact_box.as_ref()?.x;
-            Some([MIN_FREQUENCY_RATIO / (front - rear), PI / options.spacing[0]])
+            Some([
+                MIN_FREQUENCY_RATIO / (front - rear),
+                PI / options.spacing[0],
+            ])
         }
         None => {
             let grid = answer.fields.pressure.as_ref()?.grid;
