@@ -1,6 +1,6 @@
 //! The work ∫ F dd done on the material along a history.
 
-use indenters::{Control, EquivalentProfile, HistoryPoint};
+use indenters::{EquivalentProfile, HistoryPoint};
 use numerics::{Estimate, NotReached};
 use rheology::Material;
 
@@ -86,16 +86,10 @@ fn between(start: HistoryPoint, end: HistoryPoint, part: f64) -> HistoryPoint {
     let mean = |from: f64, to: f64| from + part * (to - from);
     HistoryPoint {
         time: mean(start.time, end.time),
-        control: match (start.control, end.control) {
-            (Control::NormalForce(from), Control::NormalForce(to)) => {
-                Control::NormalForce(mean(from, to))
-            }
-            (Control::IndentationDepth(from), Control::IndentationDepth(to)) => {
-                Control::IndentationDepth(mean(from, to))
-            }
-            // Refused by `indent_along`.
-            (_, control) => control,
-        },
+        // Points of different kinds are refused by `indent_along`, which sees them at the ends of the segment.
+        control: end
+            .control
+            .with(mean(start.control.value(), end.control.value())),
     }
 }
 

@@ -40,10 +40,8 @@ fn layer_profile(
     let material = problem.material();
     let layer = BondedLayer::new(problem.thickness(), material.poisson_ratio())
         .map_err(FrictionError::from)?;
-    let value = |point: &HistoryPoint| match point.control {
-        Control::IndentationDepth(value) | Control::NormalForce(value) => value,
-    };
-    let largest = points.iter().map(value).fold(0.0, f64::max);
+    let values = points.iter().map(|point| point.control.value());
+    let largest = values.fold(0.0, f64::max);
     let mut depth = largest;
     if let Control::NormalForce(_) = problem.motion().control() {
         let duration = problem.durations().into_iter().fold(0.0, f64::max);
