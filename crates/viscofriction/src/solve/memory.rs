@@ -212,36 +212,23 @@ pub(super) fn memory_needed(
     let Some(surface) = problem.body().surface() else {
         return Ok(None);
     };
-    let half_space = match (method, problem.motion()) {
-        (BemSteady, Sliding(load)) => steady_memory(surface, &elastomer, load, elements),
-        (BemTransient, Sliding(load)) => slide_memory(surface, &elastomer, load, elements),
-        (BemTransient, Pressing(load)) => indent_memory(surface, &elastomer, load, elements),
-        (BemTransient, History { points, .. }) => {
-            indent_along_memory(surface, &elastomer, points, elements)
+    let (material, line) = (problem.material(), surface.as_axisymmetric());
+    Ok(Some(match (method, problem.motion(), line) {
+        (BemSteady, Sliding(load), _) => steady_memory(surface, &elastomer, load, elements)?,
+        (BemTransient, Sliding(load), _) => slide_memory(surface, &elastomer, load, elements)?,
+        (BemTransient, Pressing(load), _) => indent_memory(surface, &elastomer, load, elements)?,
+        (BemTransient, History { points, .. }, _) => {
+            indent_along_memory(surface, &elastomer, points, elements)?
         }
-        (BemTransient, Moving(load)) => move_along_memory(surface, &elastomer, load, elements),
-        _ => return line_memory(problem, method, elements),
-    };
-    Ok(Some(half_space?))
-}
-
-/// Memory needed by a time march of the one-dimensional model, \[bytes]; `None` for other methods and loads.
-fn line_memory(problem: &Problem, method: Method, elements: usize) -> Result<Option<f64>> {
-    let surface = problem.body().surface();
-    let surface = surface.and_then(Surface::as_axisymmetric);
-    let Some(line) = surface.map(EquivalentLine) else {
-        return Ok(None);
-    };
-    let material = problem.material();
-    Ok(match (method, problem.motion()) {
-        (MdrTransient, Sliding(load)) => {
-            Some(mdr_core::slide_memory(&line, material, load, elements)?)
+        (BemTransient, Moving(load), _) => move_along_memory(surface, &elastomer, load, elements)?,
+        (MdrTransient, Sliding(load), Some(body)) => {
+            mdr_core::slide_memory(&EquivalentLine(body), material, load, elements)?
         }
-        (MdrTransient, Moving(load)) => Some(mdr_core::move_along_memory(
-            &line, material, load, elements,
-        )?),
-        _ => None,
-    })
+        (MdrTransient, Moving(load), Some(body)) => {
+            mdr_core::move_along_memory(&EquivalentLine(body), material, load, elements)?
+        }
+        _ => return Ok(None),
+    }))
 }
 
 /// A memory size \[bytes] as text in binary units, such as "1.5 GiB".
