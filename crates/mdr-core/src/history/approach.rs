@@ -15,7 +15,7 @@ use rheology::RelaxationSpectrum;
 
 use super::integrals::{HistoryIntegrals, Ring, StepIntegrals, TimeWeightedIntegrals};
 use super::path::{EXTENT_ROUNDING, change_of_edge, speed_rounding};
-use super::radius::{N_COEFFICIENTS, Radii};
+use super::radius::Radii;
 use super::{ContactSums, SUM_ROUNDING};
 use crate::branches::decay_and_mean;
 
@@ -100,12 +100,8 @@ pub(super) struct Approach {
     step: f64,
     /// Rings of elements in the order in which they came into contact.
     rings: Vec<Ring>,
-    /// Coefficients of the radius over θ, ring by ring.
-    coefficients: Vec<f64>,
-    /// Integrals q_k and then P_k at the beginning of every ring.
-    integrals_at_rings: Vec<f64>,
-    /// The time-weighted integrals at the beginning of every ring; empty without derivatives.
-    time_weighted_at_rings: Vec<TimeWeightedIntegrals>,
+    /// The integrals at the beginning of every ring.
+    at_rings: Vec<HistoryIntegrals>,
     /// The integrals at the end of the last ring.
     at_front: HistoryIntegrals,
     /// The integrals at t₁, when the element at the edge came into contact.
@@ -173,9 +169,7 @@ impl Approach {
             speed: 0.0,
             step: 0.0,
             rings: Vec::with_capacity(n_points),
-            coefficients: Vec::with_capacity(8 * n_points),
-            integrals_at_rings: Vec::with_capacity(2 * n * n_points),
-            time_weighted_at_rings: Vec::new(),
+            at_rings: Vec::with_capacity(n_points),
             edge: EdgeElement {
                 decays: vec![1.0; n],
                 strains: vec![0.0; n],
@@ -320,9 +314,7 @@ impl Approach {
     fn clear_history(&mut self) {
         self.has_receded |= !self.rings.is_empty();
         self.rings.clear();
-        self.coefficients.clear();
-        self.integrals_at_rings.clear();
-        self.time_weighted_at_rings.clear();
+        self.at_rings.clear();
         self.now.depth.fill(0.0);
         self.now.load.fill(0.0);
         self.now
@@ -397,41 +389,32 @@ impl Approach {
     fn grow(&mut self, from: DepthAt, to: DepthAt) {
         let deepest = self.deepest();
         let radius = self.radii.polynomial_between([deepest, to.depth]);
-        let terms = radius.terms();
         let ring = Ring {
             start_time: from.time,
             start_depth: deepest,
             duration: to.time - from.time,
             rise: to.depth - deepest,
-            first_coefficient: self.coefficients.len(),
-            n_coefficients: terms.len(),
+            radius,
         };
-        self.coefficients.extend_from_slice(terms);
         if self.rings.is_empty() {
             // All of a flat end comes into contact together.
             for time_weighted in &mut self.now.time_weighted {
-                time_weighted.edge = terms[0];
+                time_weighted.edge = radius.terms()[0];
             }
         }
         self.rings.push(ring);
-        self.integrals_at_rings.extend_from_slice(&self.now.depth);
-        self.integrals_at_rings.extend_from_slice(&self.now.load);
-        self.time_weighted_at_rings
-            .extend_from_slice(&self.now.time_weighted);
-        let n_moments = terms.len() + usize::from(!self.now.time_weighted.is_empty());
+        self.at_rings.push(self.now.clone());
         let rounding = duration_rounding(to.time, ring.duration);
         self.step_integrals
-            .set(&self.rates, ring.duration, n_moments, rounding);
-        self.step_integrals.grow(&mut self.now, &ring, terms);
+            .grow(&self.rates, &mut self.now, &ring, rounding);
         self.at_front.copy_from(&self.now);
     }
 
     /// The element at a position θ ∈ [0, 1] of the ring with this index.
     fn element_at(&self, ring: usize, theta: f64) -> EdgePlace {
         let ring = &self.rings[ring];
-        let terms = &self.coefficients
-            [ring.first_coefficient..ring.first_coefficient + ring.n_coefficients];
-        let [radius, slope] = terms.iter().rev().fold([0.0; 2], |[value, slope], term| {
+        let terms = ring.radius.terms().iter().rev();
+        let [radius, slope] = terms.fold([0.0; 2], |[value, slope], term| {
             [term + theta * value, value + theta * slope]
         });
         EdgePlace {
@@ -462,8 +445,6 @@ impl Approach {
     ///
     /// The step is that of Halley's method for w = 0; where the modulus changes much on the way, of Newton's.
     fn step_to_edge(&mut self, index: usize, depth: f64) -> EdgeStep {
-        let n = self.rates.len();
-        let integrals_at_rings = &self.integrals_at_rings[2 * index * n..(2 * index + 1) * n];
         let ring = &self.rings[index];
         let theta = ((depth - ring.start_depth) / ring.rise).clamp(0.0, 1.0);
         let (step, rise) = (theta * ring.duration, theta * ring.rise);
@@ -474,7 +455,7 @@ impl Approach {
         // Its load w, the modulus −∂w/∂D, and the rate of the modulus.
         (edge.speed, edge.load) = (self.speed, self.viscosity * self.speed);
         let [mut modulus, mut slope] = [0.0; 2];
-        for (k, at_contact) in integrals_at_rings.iter().enumerate() {
+        for (k, at_contact) in self.at_rings[index].depth.iter().enumerate() {
             let (rate, stiffness) = (self.rates[k], self.moduli[k]);
             let [decay, mean] = decay_and_mean(rate * step);
             let at_contact = decay * at_contact + rise * mean;
@@ -590,40 +571,14 @@ impl Approach {
         edge.radius = self.radii.radius_and_slope([from, place.depth + shift])[0];
     }
 
-    /// The part of a ring up to θ, and the coefficients of its radius over its own θ from 0 to 1.
-    fn ring_up_to(&self, ring: usize, theta: f64) -> (Ring, [f64; N_COEFFICIENTS]) {
-        let mut ring = self.rings[ring];
-        let mut terms = [0.0; N_COEFFICIENTS];
-        let mut power = 1.0;
-        let whole = &self.coefficients
-            [ring.first_coefficient..ring.first_coefficient + ring.n_coefficients];
-        for (part, term) in terms.iter_mut().zip(whole) {
-            *part = power * term;
-            power *= theta;
-        }
-        ring.duration *= theta;
-        ring.rise *= theta;
-        (ring, terms)
-    }
-
     /// Computes the integrals at t₁, when the element at the edge came into contact.
     fn find_integrals_at_edge(&mut self) {
-        // Start from the integrals at the inner boundary of the ring.
-        let (n, index) = (self.rates.len(), self.edge.ring);
-        let (ring, terms) = self.ring_up_to(index, self.edge.theta);
-        let at_ring = &self.integrals_at_rings[2 * index * n..2 * (index + 1) * n];
-        let n_time_weighted = self.now.time_weighted.len();
-        self.at_contact.depth.copy_from_slice(&at_ring[..n]);
-        self.at_contact.load.copy_from_slice(&at_ring[n..]);
-        let time_weighted =
-            &self.time_weighted_at_rings[index * n_time_weighted..(index + 1) * n_time_weighted];
-        self.at_contact.time_weighted.copy_from_slice(time_weighted);
-        // Add the part of the ring inside the edge.
-        let n_moments = ring.n_coefficients + usize::from(n_time_weighted > 0);
+        // Those at the inner boundary of the ring, and over its part inside the edge.
+        let EdgeElement { ring, theta, .. } = self.edge;
+        self.at_contact.copy_from(&self.at_rings[ring]);
+        let inside = self.rings[ring].up_to(theta);
         self.partial_integrals
-            .set(&self.rates, ring.duration, n_moments, 0.0);
-        self.partial_integrals
-            .grow(&mut self.at_contact, &ring, &terms[..ring.n_coefficients]);
+            .grow(&self.rates, &mut self.at_contact, &inside, 0.0);
     }
 }
 

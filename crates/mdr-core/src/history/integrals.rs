@@ -5,7 +5,7 @@
 //! ```
 //! Over a step the radius a is a polynomial of θ ∈ [0, 1], so that the moments ∫₀¹ e^(−(1 − θ) Δt/τ) θ^j dθ are enough.
 
-use super::radius::N_COEFFICIENTS;
+use super::radius::{N_COEFFICIENTS, Polynomial};
 use crate::branches::{RECIPROCALS, decay_from_mean, moments};
 
 /// A ring of new elements, over which the edge moves in one step; its radius is a polynomial of θ ∈ [0, 1].
@@ -19,10 +19,20 @@ pub(super) struct Ring {
     pub(super) duration: f64,
     /// Increase of the depth up to its end, \[m].
     pub(super) rise: f64,
-    /// Index of its first coefficient in the list of those of all rings.
-    pub(super) first_coefficient: usize,
-    /// Number of its coefficients.
-    pub(super) n_coefficients: usize,
+    /// Radius of the edge over θ, \[m].
+    pub(super) radius: Polynomial,
+}
+
+impl Ring {
+    /// The part of the ring up to θ.
+    pub(super) fn up_to(self, theta: f64) -> Self {
+        Self {
+            duration: theta * self.duration,
+            rise: theta * self.rise,
+            radius: self.radius.up_to(theta),
+            ..self
+        }
+    }
 }
 
 /// History integrals ∫ e^(−(t − s)/τ) f(s) ds up to now, branch by branch.
@@ -129,11 +139,22 @@ impl StepIntegrals {
         }
     }
 
-    /// Advances all integrals over a ring of new elements, with the coefficients of its radius.
-    pub(super) fn grow(&mut self, state: &mut HistoryIntegrals, ring: &Ring, terms: &[f64]) {
+    /// Advances all integrals over a ring of new elements.
+    ///
+    /// Moments are computed anew unless the duration of the ring equals the last length within `rounding`.
+    pub(super) fn grow(
+        &mut self,
+        rates: &[f64],
+        state: &mut HistoryIntegrals,
+        ring: &Ring,
+        rounding: f64,
+    ) {
+        // The derivatives need one more moment than the radius has terms.
+        let n_moments = ring.radius.terms().len() + usize::from(!state.time_weighted.is_empty());
+        self.set(rates, ring.duration, n_moments, rounding);
         // Advance the time-weighted integrals first, which use the others at the start of the step.
         for (k, time_weighted) in state.time_weighted.iter_mut().enumerate() {
-            let gained = self.time_weighted(k, ring, terms);
+            let gained = self.time_weighted(k, ring);
             let (decay, step) = (self.decays[k], self.length);
             time_weighted.depth =
                 decay * (time_weighted.depth + step * state.depth[k]) + gained.depth;
@@ -145,7 +166,8 @@ impl StepIntegrals {
         let n = self.decays.len();
         self.sums.clear();
         self.sums.resize(n, 0.0);
-        for (term, moments) in terms.iter().zip(self.moments.chunks_exact(n)) {
+        let terms = ring.radius.terms().iter();
+        for (term, moments) in terms.zip(self.moments.chunks_exact(n)) {
             for (sum, moment) in self.sums.iter_mut().zip(moments) {
                 *sum += term * moment;
             }
@@ -159,11 +181,11 @@ impl StepIntegrals {
         }
     }
 
-    /// Contribution of a ring to the time-weighted integrals of the branch k; `terms` are the coefficients of its radius over θ.
-    fn time_weighted(&self, k: usize, ring: &Ring, terms: &[f64]) -> TimeWeightedIntegrals {
+    /// Contribution of a ring to the time-weighted integrals of the branch k.
+    fn time_weighted(&self, k: usize, ring: &Ring) -> TimeWeightedIntegrals {
         let [mut load, mut edge, mut stretch] = [0.0; 3];
         let mut previous_moment = 0.0;
-        for (j, term) in terms.iter().enumerate() {
+        for (j, term) in ring.radius.terms().iter().enumerate() {
             let (moment, slope) = (self.moment(j, k), j as f64 * term);
             load += term * (moment - self.moment(j + 1, k));
             edge += slope * previous_moment;

@@ -169,6 +169,7 @@ impl Radii {
 }
 
 /// A radius as a polynomial of θ ∈ [0, 1].
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Polynomial {
     /// Coefficients of the powers of θ, \[m].
     coefficients: [f64; N_COEFFICIENTS],
@@ -180,6 +181,16 @@ impl Polynomial {
     /// Coefficients of the powers of θ, \[m].
     pub(super) fn terms(&self) -> &[f64] {
         &self.coefficients[..self.n_terms]
+    }
+
+    /// The polynomial over [0, `part`], as one over [0, 1].
+    pub(super) fn up_to(mut self, part: f64) -> Self {
+        let mut power = 1.0;
+        for coefficient in &mut self.coefficients[..self.n_terms] {
+            *coefficient *= power;
+            power *= part;
+        }
+        self
     }
 }
 
