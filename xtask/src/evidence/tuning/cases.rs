@@ -1,10 +1,11 @@
 //! The constants that are changed and the scenes that are solved, as `cases.toml` holds them.
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result};
 use serde::Deserialize;
+
+use super::program::Tried;
 
 /// Contents of `cases.toml`, whose head describes the keys.
 #[derive(Debug, Deserialize)]
@@ -12,7 +13,7 @@ use serde::Deserialize;
 pub(super) struct Cases {
     /// Scenes to which cases refer by name.
     #[serde(rename = "scene")]
-    scenes: Vec<BenchmarkScene>,
+    pub(super) scenes: Vec<BenchmarkScene>,
     /// One for each constant.
     #[serde(rename = "case")]
     pub(super) cases: Vec<Case>,
@@ -62,70 +63,17 @@ impl Cases {
     pub(super) fn read() -> Result<Self> {
         toml::from_str(include_str!("cases.toml")).context("xtask/src/evidence/tuning/cases.toml")
     }
-
-    /// The scene with this name; fails where there is none.
-    pub(super) fn scene(&self, name: &str) -> Result<&BenchmarkScene> {
-        let scene = self.scenes.iter().find(|scene| scene.name == name);
-        scene.with_context(|| format!("cases.toml has no scene {name:?}"))
-    }
 }
 
 impl Case {
     /// All initialisers that are tried.
-    pub(super) fn tried(&self) -> impl Iterator<Item = &String> {
-        self.smaller.iter().chain(&self.larger)
-    }
-
-    /// The one file among `tracked`, paths from `root`, that declares the constant; fails where there is none or more than one.
-    pub(super) fn file<'a>(
-        &self,
-        root: &Path,
-        tracked: impl IntoIterator<Item = &'a PathBuf>,
-    ) -> Result<&'a Path> {
-        let mut found = Vec::new();
-        for file in tracked {
-            let is_source =
-                file.starts_with(&self.source) && file.extension() == Some("rs".as_ref());
-            if is_source && fs::read_to_string(root.join(file))?.contains(&self.declaration()) {
-                found.push(file.as_path());
-            }
-        }
-        let Self {
-            constant, source, ..
-        } = self;
-        ensure!(
-            found.len() == 1,
-            "{} files of {} declare {constant}, instead of one: {found:?}",
-            found.len(),
-            source.display()
-        );
-        Ok(found[0])
-    }
-
-    /// Begin of the declaration of the constant, as its source has it.
-    fn declaration(&self) -> String {
-        format!("const {}: ", self.constant)
-    }
-
-    /// The text of a source file with the initialiser `tried` in place of the present one. Fails unless the constant is
-    /// declared once and its initialiser is that of `cases.toml`.
-    pub(super) fn edit(&self, text: &str, tried: &str) -> Result<String> {
-        let Self {
-            constant, present, ..
-        } = self;
-        let declaration = self.declaration();
-        let parts: Vec<&str> = text.split(&declaration).collect();
-        let [before, rest] = parts[..] else {
-            bail!("{constant} is declared {} times", parts.len() - 1);
-        };
-        let (kind, rest) = rest.split_once(" = ").unwrap_or_default();
-        let (value, after) = rest.split_once(';').unwrap_or_default();
-        let is_present = value.split_whitespace().eq(present.split_whitespace());
-        ensure!(
-            is_present,
-            "{constant} is {value}, but {present} in cases.toml"
-        );
-        Ok(format!("{before}{declaration}{kind} = {tried};{after}"))
+    pub(super) fn tried(&self) -> impl Iterator<Item = Tried<'_>> {
+        let values = self.smaller.iter().chain(&self.larger);
+        (1..).zip(values).map(|(place, value)| Tried {
+            case: self,
+            place,
+            value,
+        })
     }
 }
 
@@ -133,57 +81,20 @@ impl Case {
 mod tests {
     use super::*;
     use crate::ci::workspace_root;
-    use crate::evidence::tuning::checkout::tracked_files;
+    use crate::evidence::tuning::checkout::{sources, tracked_files};
+    use crate::evidence::tuning::transformation::transform;
 
     #[test]
     fn every_constant_has_its_present_value_and_known_scenes() {
         let cases = Cases::read().expect("cases.toml");
         let root = workspace_root();
-        let tracked = tracked_files().expect("files");
-        for case in &cases.cases {
-            let file = case
-                .file(&root, &tracked)
-                .unwrap_or_else(|error| panic!("{error:#}"));
-            let text = fs::read_to_string(root.join(file)).expect("a source");
-            for tried in case.tried() {
-                let edited = case
-                    .edit(&text, tried)
-                    .unwrap_or_else(|error| panic!("{error:#}"));
-                assert_ne!(edited, text, "{} = {tried}", case.constant);
-            }
-            for name in &case.scenes {
-                let scene = cases
-                    .scene(name)
-                    .unwrap_or_else(|error| panic!("{error:#}"));
-                assert!(root.join(&scene.file).exists(), "{}", scene.file.display());
-            }
-        }
-    }
-
-    #[test]
-    fn other_texts_are_refused() {
-        let case = r#"
-            constant = "RATIO"
-            source = "a.rs"
-            present = "[0.5, 1.5]"
-            smaller = ["[0.25, 1.5]"]
-            scenes = []
-        "#;
-        let case: Case = toml::from_str(case).expect("a case");
-        let edit = |text| {
-            let edited = case.edit(text, &case.smaller[0]);
-            edited.map_err(|error| error.to_string())
-        };
-        let text = "/// Ratio.\npub(super) const RATIO: [f64; 2] = [0.5,\n    1.5];\nfn f() {}\n";
-        let edited = "/// Ratio.\npub(super) const RATIO: [f64; 2] = [0.25, 1.5];\nfn f() {}\n";
-        assert_eq!(edit(text), Ok(edited.to_owned()), "{text}");
-        for (text, complaint) in [
-            ("const RATIOS: f64 = 1.0;", "declared 0 times"),
-            ("const RATIO: f64 = 1.0;", "RATIO is 1.0, but [0.5, 1.5]"),
-            ("const RATIO: f64 = 1.0; const RATIO: f64 = 1.0;", "2 times"),
-        ] {
-            let error = edit(text).expect_err(text);
-            assert!(error.contains(complaint), "{text}: {error}");
+        let sources = sources(&tracked_files().expect("files")).expect("texts");
+        transform(&cases.cases, &sources).unwrap_or_else(|error| panic!("{error:#}"));
+        for name in cases.cases.iter().flat_map(|case| &case.scenes) {
+            let mut scenes = cases.scenes.iter();
+            let scene = scenes.find(|scene| scene.name == *name);
+            let scene = scene.unwrap_or_else(|| panic!("no scene {name}"));
+            assert!(root.join(&scene.file).exists(), "{}", scene.file.display());
         }
     }
 }

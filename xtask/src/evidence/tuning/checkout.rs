@@ -1,4 +1,4 @@
-//! A copy of the checkout in which one constant is changed, and the program that is built there.
+//! A copy of the checkout in which the constants of the cases are functions, and the program that is built there.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -6,17 +6,14 @@ use std::process::Command;
 
 use anyhow::{Context, Result};
 
-use super::cases::{BenchmarkScene, Case};
+use super::cases::{BenchmarkScene, Cases};
 use super::program::Program;
+use super::transformation::{Source, Sources, transform};
 use crate::ci::{cargo, output, workspace_root};
 use crate::output::write_atomically;
 
-/// Arguments of cargo that build the program. Incremental compilation and many units of code make the build short after a
-/// change of one constant.
-const BUILD: &str = "build --quiet --profile ci --workspace --all-features --bin viscofriction \
-                     --config profile.ci.incremental=true \
-                     --config profile.ci.package.bem-halfspace.codegen-units=32 \
-                     --config profile.ci.package.mdr-core.codegen-units=32";
+/// Arguments of cargo that build the program.
+const BUILD: &str = "build --quiet --profile ci --workspace --all-features --bin viscofriction";
 
 /// The copy, in a folder with all that is built from it.
 pub(super) struct Checkout {
@@ -35,19 +32,16 @@ impl Checkout {
         })
     }
 
-    /// Makes the copy equal to the checkout but for one constant. Files whose contents stay are not written, so that cargo does
+    /// Makes the copy equal to the checkout but for the constants. Files whose contents stay are not written, so that cargo does
     /// not build them anew.
-    pub(super) fn update(&self, change: Option<(&Case, &str)>) -> Result<()> {
+    pub(super) fn update(&self, cases: &Cases) -> Result<()> {
         let root = workspace_root();
-        let edited = change.map(|(case, _)| case.file(&root, &self.tracked));
-        let edited = edited.transpose()?;
+        let mut transformed = transform(&cases.cases, &sources(&self.tracked)?)?;
         for file in &self.tracked {
-            let mut contents = read(&root.join(file))?;
-            if let Some((case, tried)) = change.filter(|_| edited == Some(file)) {
-                contents = case
-                    .edit(&String::from_utf8(contents)?, tried)?
-                    .into_bytes();
-            }
+            let contents = match transformed.remove(file) {
+                Some(text) => text.into_bytes(),
+                None => read(&root.join(file))?,
+            };
             let copy = self.copy(file);
             if fs::read(&copy).ok().as_ref() != Some(&contents) {
                 write_atomically(&copy, &contents)?;
@@ -56,18 +50,16 @@ impl Checkout {
         Ok(())
     }
 
-    /// Builds the program from the copy and keeps it under a name.
-    pub(super) fn build(&self, name: &str) -> Result<Program> {
-        let target = self.folder.join("target");
-        let mut command = cargo(BUILD);
-        command.current_dir(self.copy(Path::new("")));
-        output(command.env("CARGO_TARGET_DIR", &target))?;
-        let program = Program::new(&self.folder, name);
-        let built = target
-            .join("ci/viscofriction")
-            .with_extension(std::env::consts::EXE_EXTENSION);
-        fs::copy(&built, program.file()).with_context(|| built.display().to_string())?;
-        Ok(program)
+    /// Builds the ordinary program of the checkout and that of the copy, in this order.
+    pub(super) fn build(&self) -> Result<[Program; 2]> {
+        let folders = [workspace_root(), self.copy(Path::new(""))];
+        let targets = [workspace_root(), self.folder.clone()].map(|folder| folder.join("target"));
+        for (folder, target) in folders.iter().zip(&targets) {
+            let mut command = cargo(BUILD);
+            command.current_dir(folder);
+            output(command.env("CARGO_TARGET_DIR", target))?;
+        }
+        Ok(targets.map(|target| Program::new(&target.join("ci"))))
     }
 
     /// Where a file of the checkout is in the copy.
@@ -85,6 +77,20 @@ impl Checkout {
         write_atomically(&finer, toml::to_string(&table)?.as_bytes())?;
         Ok(finer)
     }
+}
+
+/// Sources of the libraries among `tracked`, paths from the root of the checkout.
+pub(super) fn sources(tracked: &[PathBuf]) -> Result<Sources> {
+    let root = workspace_root();
+    let is_source = |file: &&PathBuf| {
+        let is_library = file.starts_with("crates") && file.iter().nth(2) == Some("src".as_ref());
+        is_library && file.extension() == Some("rs".as_ref())
+    };
+    let sources = tracked.iter().filter(is_source).map(|file| {
+        let text = String::from_utf8(read(&root.join(file))?)?;
+        Ok((file.clone(), Source::new(text)))
+    });
+    sources.collect()
 }
 
 /// Files that git tracks and that are there, from the root of the checkout.

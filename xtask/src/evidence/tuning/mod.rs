@@ -1,5 +1,5 @@
-//! In which range the constants that steer the solvers and their error bars may change: each is changed in a copy of the
-//! checkout, whose program solves a few scenes.
+//! In which range the constants that steer the solvers and their error bars may change: in a copy of the
+//! checkout each is read from an environment variable, and the program solves a few scenes with other values.
 //!
 //! The copy and all that is built from it are in `target/tuning`; the checkout itself is only read.
 
@@ -7,8 +7,8 @@ mod cases;
 mod checkout;
 mod program;
 mod summary;
+mod transformation;
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
@@ -21,7 +21,7 @@ use crate::output::WrongInput;
 use crate::table::{GrowingTable, Table};
 use cases::{BenchmarkScene, Case, Cases};
 use checkout::Checkout;
-use program::{Answer, Failure, Program};
+use program::{Answer, Failure, Program, Tried};
 
 /// Which constants.
 #[derive(Debug, Default, Args)]
@@ -59,9 +59,10 @@ struct Row {
 }
 
 impl Row {
-    /// Whether the row belongs to this case and this tried value.
-    fn is_of(&self, case: &Case, tried: &str) -> bool {
-        self.constant == case.constant && self.present == case.present && self.tried == tried
+    /// Whether the row belongs to this value of a constant.
+    fn is_of(&self, tried: &Tried) -> bool {
+        let case = tried.case;
+        self.constant == case.constant && self.present == case.present && self.tried == tried.value
     }
 }
 
@@ -85,63 +86,59 @@ enum Outcome {
 pub(super) fn report(options: &Options, out: &Path, quick: bool) -> Result<Report> {
     let cases = Cases::read()?;
     let chosen = chosen_cases(&cases, options, quick)?;
-    let rows = measure(&cases, &chosen, out.join("tuning.csv"))?;
+    let (rows, not_measured) = measure(&cases, &chosen, out.join("tuning.csv"))?;
+    let mut summary = summary::summary(&chosen, &rows);
+    for reason in not_measured {
+        summary += &format!("\n\nNot measured: {reason}.");
+    }
     Ok(Report {
         name: "tuning",
-        summary: summary::summary(&chosen, &rows),
+        summary,
         tables: vec![Table::new("tuning", &rows)?],
         ..Report::default()
     })
 }
 
 /// Rows of the chosen cases and all others that the file has; those that are not in the file are computed and written to it.
-fn measure(cases: &Cases, chosen: &[&Case], file: PathBuf) -> Result<Vec<Row>> {
+/// Also the scenes that are not measured, with the reason.
+fn measure(cases: &Cases, chosen: &[&Case], file: PathBuf) -> Result<(Vec<Row>, Vec<String>)> {
     let mut table = GrowingTable::<Row>::open(file)?;
-    let values = chosen
+    let missing = |scene: &BenchmarkScene, rows: &[Row]| {
+        let tried = chosen.iter().flat_map(|case| case.tried());
+        let tried = tried.filter(|tried| {
+            let is_there = |row: &Row| row.is_of(tried) && row.scene == scene.name;
+            tried.case.scenes.contains(&scene.name) && !rows.iter().any(is_there)
+        });
+        tried.collect::<Vec<_>>()
+    };
+    let scenes = cases
+        .scenes
         .iter()
-        .flat_map(|case| case.tried().map(move |tried| (*case, tried)));
-    let missing: Vec<(&Case, &String)> = values
-        .filter(|(case, tried)| {
-            let is_there = |scene: &String| {
-                let mut rows = table.rows.iter();
-                rows.any(|row| row.is_of(case, tried) && row.scene == *scene)
-            };
-            !case.scenes.iter().all(is_there)
-        })
-        .collect();
-    if missing.is_empty() {
-        return Ok(table.rows);
+        .map(|scene| (scene, missing(scene, &table.rows)));
+    let scenes: Vec<_> = scenes.collect();
+    let mut not_measured = Vec::new();
+    if scenes.iter().all(|(_, tried)| tried.is_empty()) {
+        return Ok((table.rows, not_measured));
     }
-    let is_missing = |row: &Row| missing.iter().any(|(case, tried)| row.is_of(case, tried));
-    table.rows.retain(|row| !is_missing(row));
-
-    // Solve all scenes and their references by the unchanged program.
     let checkout = Checkout::new()?;
-    checkout.update(None)?;
-    let present = checkout.build("present")?;
-    let mut baselines = BTreeMap::new();
-    for name in missing.iter().flat_map(|(case, _)| &case.scenes) {
-        if !baselines.contains_key(name) {
-            let baseline = Baseline::new(cases.scene(name)?, &checkout, &present);
-            baselines.insert(name, baseline.with_context(|| name.clone())?);
-        }
+    checkout.update(cases)?;
+    let [ordinary, adjustable] = checkout.build()?;
+    for (scene, tried) in scenes.iter().filter(|(_, tried)| !tried.is_empty()) {
+        let baseline = match Baseline::new(scene, &checkout, &ordinary, &adjustable) {
+            Ok(baseline) => baseline,
+            Err(error) => {
+                not_measured.push(format!("{}: {error:#}", scene.name));
+                continue;
+            }
+        };
+        table.extend(tried, 1, |tried| {
+            let compared = baseline.compare(&adjustable, *tried);
+            let compared =
+                compared.with_context(|| format!("{} = {}", tried.case.constant, tried.value))?;
+            Ok(baseline.rows(*tried, &compared))
+        })?;
     }
-
-    // Build the program with one value after the other.
-    table.extend(&missing, 1, |(case, tried)| {
-        checkout.update(Some((case, tried)))?;
-        let changed = checkout.build("changed")?;
-        let mut rows = Vec::new();
-        for name in &case.scenes {
-            let baseline = &baselines[name];
-            let scene = checkout.copy(&baseline.scene.file);
-            let compared = baseline.compare(&scene, &present, &changed);
-            let compared = compared.with_context(|| format!("{} = {tried}", case.constant))?;
-            rows.extend(baseline.rows(case, tried, &compared));
-        }
-        Ok(rows)
-    })?;
-    Ok(table.rows)
+    Ok((table.rows, not_measured))
 }
 
 /// The cases that the command line names; without names all, or those of a quick run. Fails for an unknown name.
@@ -165,57 +162,71 @@ fn chosen_cases<'a>(cases: &'a Cases, options: &Options, quick: bool) -> Result<
 /// A scene with its answer at the present values of all constants, and the reference of this answer.
 struct Baseline<'a> {
     scene: &'a BenchmarkScene,
+    /// The scene in the copy.
+    file: PathBuf,
     answer: Answer,
     reference: Answer,
-    /// Time on the wall after which a run is ended \[s].
+    /// Processor time after which a run is ended \[s].
     limit: f64,
 }
 
-/// Time on the wall clock after which a run is ended, over that with the present value; chosen: such a slow value is useless.
+/// Processor time after which a run is ended, over that with the present value; chosen: such a slow value is useless.
 const LIMIT_OVER_PRESENT_TIME: f64 = 20.0;
-/// Shortest time on the wall clock after which a run is ended \[s]; a busy machine delays short runs by more than a factor.
-const MIN_LIMIT: f64 = 20.0;
+/// Shortest processor time after which a run is ended \[s]; chosen, so that short runs are ended rarely.
+const MIN_LIMIT: f64 = 5.0;
 /// Runs of a scene are repeated until those with the present value took this processor time \[s], against which the steps of
-/// 10 ms, in which it is counted, are 2 %.
-const MEASURED_SECONDS: f64 = 0.5;
+/// 10 ms, in which it is counted, are 5 %.
+const MEASURED_SECONDS: f64 = 0.2;
 /// The same where the ratio of both times is not close to 1 \[s], so that a change is not reported by chance.
-const DOUBTED_SECONDS: f64 = 2.0;
+const DOUBTED_SECONDS: f64 = 0.6;
 /// Largest number of runs of a scene, for those too short to be counted at all.
 const MAX_RUNS: u32 = 250;
 
 impl<'a> Baseline<'a> {
-    /// Solves a scene and its reference by the program with the present values; fails if either is refused.
-    fn new(scene: &'a BenchmarkScene, checkout: &Checkout, present: &Program) -> Result<Self> {
-        let answer_of = |file: &Path| {
-            let run = present.solve(scene, file, f64::INFINITY)?;
+    /// Solves a scene by both programs, whose answers must have the same bits, and its reference by the ordinary one.
+    fn new(
+        scene: &'a BenchmarkScene,
+        checkout: &Checkout,
+        ordinary: &Program,
+        adjustable: &Program,
+    ) -> Result<Self> {
+        let answer_of = |program: &Program, file: &Path| {
+            let run = program.solve(scene, file, f64::INFINITY, None)?;
             match run.answer {
-                Ok(answer) => Ok((answer, run.seconds)),
+                Ok(answer) => Ok((answer, run.processor_seconds)),
                 Err(failure) => bail!("{}: {failure:?}", file.display()),
             }
         };
-        let (answer, seconds) = answer_of(&checkout.copy(&scene.file))?;
-        let (reference, _) = answer_of(&checkout.write_reference(scene)?)?;
+        let file = checkout.copy(&scene.file);
+        let (expected, _) = answer_of(ordinary, &file)?;
+        let (answer, seconds) = answer_of(adjustable, &file)?;
+        let is_same = answer == expected;
+        ensure!(
+            is_same,
+            "constants that can be changed give {answer:?} instead of {expected:?}"
+        );
+        let (reference, _) = answer_of(ordinary, &checkout.write_reference(scene)?)?;
         Ok(Self {
             scene,
+            file,
             answer,
             reference,
             limit: (LIMIT_OVER_PRESENT_TIME * seconds).max(MIN_LIMIT),
         })
     }
 
-    /// Solves the scene in `file` with the changed and the present program in turn, so that other work on the machine slows
-    /// down both alike.
-    fn compare(&self, file: &Path, present: &Program, changed: &Program) -> Result<Comparison> {
+    /// Solves the scene with another and with the present value in turn, so that other work on the machine slows down both
+    /// alike.
+    fn compare(&self, program: &Program, tried: Tried) -> Result<Comparison> {
         let mut seconds = [0.0; 2];
         let mut n_runs = 0;
         loop {
             n_runs += 1;
-            let run = changed.solve(self.scene, file, self.limit)?;
+            let run = program.solve(self.scene, &self.file, self.limit, Some(tried))?;
             seconds[0] += run.processor_seconds;
-            seconds[1] += present
-                .solve(self.scene, file, f64::INFINITY)?
-                .processor_seconds;
-            // A ratio that looks like a change is averaged longer.
+            let present = program.solve(self.scene, &self.file, f64::INFINITY, None)?;
+            seconds[1] += present.processor_seconds;
+            // A ratio that looks like a change is averaged longer; the same answer in as many iterations is the same work.
             let is_close = (seconds[0] / seconds[1]).ln().abs() <= summary::MAX_TIME_RATIO.ln();
             let needed = if is_close {
                 MEASURED_SECONDS
@@ -223,7 +234,8 @@ impl<'a> Baseline<'a> {
                 DOUBTED_SECONDS
             };
             let is_measured = seconds[1] >= needed || n_runs == MAX_RUNS;
-            if run.answer.is_err() || is_measured {
+            let is_same = run.answer.as_ref() == Ok(&self.answer);
+            if run.answer.is_err() || is_measured || is_same {
                 return Ok(Comparison {
                     answer: run.answer,
                     processor_seconds: seconds[0] / f64::from(n_runs),
@@ -233,8 +245,8 @@ impl<'a> Baseline<'a> {
         }
     }
 
-    /// A row for each quantity of the scene: answer with the `tried` value, with the present one, and reference.
-    fn rows(&self, case: &Case, tried: &str, compared: &Comparison) -> Vec<Row> {
+    /// A row for each quantity.
+    fn rows(&self, tried: Tried, compared: &Comparison) -> Vec<Row> {
         let answer = compared.answer.as_ref();
         let row = |(name, present): (&String, &Estimate)| {
             let reference = self.reference.quantities[name];
@@ -253,9 +265,9 @@ impl<'a> Baseline<'a> {
                 Ok(_) => Outcome::OutsideBar,
             };
             Row {
-                constant: case.constant.clone(),
-                present: case.present.clone(),
-                tried: tried.to_owned(),
+                constant: tried.case.constant.clone(),
+                present: tried.case.present.clone(),
+                tried: tried.value.to_owned(),
                 scene: self.scene.name.clone(),
                 quantity: name.clone(),
                 outcome,
@@ -279,7 +291,7 @@ impl<'a> Baseline<'a> {
     }
 }
 
-/// What the changed program made of a scene, and mean processor times of a run \[s].
+/// What became of a scene with another value, and mean processor times of a run \[s].
 struct Comparison {
     answer: Result<Answer, Failure>,
     processor_seconds: f64,

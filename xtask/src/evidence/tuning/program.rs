@@ -5,17 +5,27 @@ use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::thread::sleep;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use anyhow::{Context, Result, ensure};
 use serde_json::Value;
 use viscofriction::Estimate;
 
-use super::cases::BenchmarkScene;
+use super::cases::{BenchmarkScene, Case};
+use super::transformation::variable;
 
-/// A program built with some value of a constant.
+/// A program that solves scenes.
 pub(super) struct Program {
     file: PathBuf,
+}
+
+/// A value of a constant that a program is given.
+#[derive(Clone, Copy)]
+pub(super) struct Tried<'a> {
+    pub(super) case: &'a Case,
+    /// Its place among the values of the case, from 1 on.
+    pub(super) place: usize,
+    pub(super) value: &'a str,
 }
 
 /// What one run of the program gave.
@@ -23,8 +33,6 @@ pub(super) struct Run {
     pub(super) answer: Result<Answer, Failure>,
     /// Processor time of the run \[s].
     pub(super) processor_seconds: f64,
-    /// Time of the run on the wall \[s].
-    pub(super) seconds: f64,
 }
 
 /// The parts of an answer that are compared.
@@ -42,7 +50,7 @@ pub(super) struct Answer {
 pub(super) enum Failure {
     /// The last line of the program's error.
     Refused(String),
-    /// The time in which the program did not end \[s].
+    /// The processor time in which the program did not end \[s].
     Unfinished(f64),
 }
 
@@ -50,34 +58,37 @@ pub(super) enum Failure {
 const POLLING_INTERVAL: Duration = Duration::from_millis(2);
 
 impl Program {
-    /// The program that is kept in `folder` under a name, and need not be there yet.
-    pub(super) fn new(folder: &Path, name: &str) -> Self {
-        let file = folder.join(format!("viscofriction-{name}"));
-        let file = file.with_extension(std::env::consts::EXE_EXTENSION);
-        Self { file }
+    /// The program in `folder`.
+    pub(super) fn new(folder: &Path) -> Self {
+        let file = folder.join("viscofriction");
+        Self {
+            file: file.with_extension(std::env::consts::EXE_EXTENSION),
+        }
     }
 
-    /// Where the program is.
-    pub(super) fn file(&self) -> &Path {
-        &self.file
-    }
-
-    /// Solves the scene in `file` with the arguments of `scene` on one thread. A run that takes longer than the limit on the
-    /// wall clock \[s] is ended. What it prints is kept beside the program.
-    pub(super) fn solve(&self, scene: &BenchmarkScene, file: &Path, limit: f64) -> Result<Run> {
+    /// Solves the scene in `file` with the arguments of `scene` on one thread. A run that takes more processor time than the
+    /// limit \[s] is ended. What it prints is kept beside the program.
+    pub(super) fn solve(
+        &self,
+        scene: &BenchmarkScene,
+        file: &Path,
+        limit: f64,
+        tried: Option<Tried>,
+    ) -> Result<Run> {
         let [printed, errors] =
-            ["json", "err"].map(|extension| self.file.with_extension(extension));
-        let start = Instant::now();
-        let before = processor_seconds_of_children()?;
+            ["tuning.json", "tuning.err"].map(|extension| self.file.with_extension(extension));
+        let before = processor_seconds("self", FIELDS_BEFORE_CHILDREN)?;
         let mut command = Command::new(&self.file);
         command.arg("run").arg(file).args(["--format", "json"]);
         command.args(&scene.arguments).env("RAYON_NUM_THREADS", "1");
+        command.envs(tried.map(|tried| (variable(tried.case), tried.place.to_string())));
         command
             .stdout(File::create(&printed)?)
             .stderr(File::create(&errors)?);
         let mut child = command.spawn().with_context(|| format!("{command:?}"))?;
+        let process = child.id().to_string();
         let mut status = child.try_wait()?;
-        while status.is_none() && start.elapsed().as_secs_f64() < limit {
+        while status.is_none() && processor_seconds(&process, FIELDS_BEFORE_OWN)? < limit {
             sleep(POLLING_INTERVAL);
             status = child.try_wait()?;
         }
@@ -97,8 +108,7 @@ impl Program {
         };
         Ok(Run {
             answer,
-            processor_seconds: processor_seconds_of_children()? - before,
-            seconds: start.elapsed().as_secs_f64(),
+            processor_seconds: processor_seconds("self", FIELDS_BEFORE_CHILDREN)? - before,
         })
     }
 }
@@ -123,23 +133,26 @@ impl Answer {
     }
 }
 
-/// Number of fields in `/proc/self/stat` between the name of the program, in parentheses, and `cutime` and `cstime`, the user
-/// and system time of ended children (man 5 proc_pid_stat).
+/// Number of fields in `/proc/PROCESS/stat` between the name of the program, in parentheses, and `utime` and `stime`, the user
+/// and system time of the process (man 5 proc_pid_stat).
+const FIELDS_BEFORE_OWN: usize = 11;
+/// The same before `cutime` and `cstime`, the times of its children that have ended.
 const FIELDS_BEFORE_CHILDREN: usize = 13;
 /// Clock ticks per second in `/proc` (`USER_HZ` of Linux), on all architectures for which there is a Rust compiler.
 const TICKS_PER_SECOND: f64 = 100.0;
 
-/// Processor time of all children that have ended \[s], which Linux counts in steps of 10 ms.
-fn processor_seconds_of_children() -> Result<f64> {
-    let text = fs::read_to_string("/proc/self/stat").context("processor times need Linux")?;
+/// Processor time of a process, or of its children that have ended, \[s], which Linux counts in steps of 10 ms.
+fn processor_seconds(process: &str, fields_before: usize) -> Result<f64> {
+    let text = fs::read_to_string(format!("/proc/{process}/stat"));
+    let text = text.context("processor times need Linux")?;
     let fields = text.rsplit_once(')').map_or("", |(_, fields)| fields);
-    let times = fields
-        .split_whitespace()
-        .skip(FIELDS_BEFORE_CHILDREN)
-        .take(2);
+    let times = fields.split_whitespace().skip(fields_before).take(2);
     let ticks = times
         .map(|time| Ok(time.parse::<f64>()?))
         .collect::<Result<Vec<_>>>()?;
-    ensure!(ticks.len() == 2, "/proc/self/stat has no times: {text}");
+    ensure!(
+        ticks.len() == 2,
+        "/proc/{process}/stat has no times: {text}"
+    );
     Ok((ticks[0] + ticks[1]) / TICKS_PER_SECOND)
 }

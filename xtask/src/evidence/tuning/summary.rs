@@ -4,10 +4,9 @@ use super::cases::Case;
 use super::{Outcome, Row};
 use crate::table::{known_digits, markdown_table};
 
-/// A ratio of processor times between the inverse of this and this counts as no change; chosen above the scatter of repeated
-/// runs.
-pub(super) const MAX_TIME_RATIO: f64 = 1.1;
-/// The same of runs shorter than [`SHORT_RUN_SECONDS`], whose times scatter by the steps of the clock.
+/// Largest ratio of processor times, and its inverse the smallest, that counts as no change.
+pub(super) const MAX_TIME_RATIO: f64 = 1.25;
+/// Largest such ratio of runs shorter than [`SHORT_RUN_SECONDS`], whose times scatter by the steps of the clock.
 const MAX_TIME_RATIO_OF_SHORT_RUNS: f64 = 1.5;
 /// Processor time below which a run is short \[s]: three of the steps of 10 ms in which Linux counts.
 const SHORT_RUN_SECONDS: f64 = 0.03;
@@ -18,24 +17,25 @@ const MAX_BAR_RATIO: f64 = 2.0;
 pub(super) fn summary(cases: &[&Case], rows: &[Row]) -> String {
     let header = "constant|present|nothing changes|what changes|scenes";
     let lines = cases.iter().map(|case| {
-        let changes = |tried: &String| {
-            let rows = rows.iter().filter(|row| row.is_of(case, tried));
-            changes(&rows.collect::<Vec<_>>())
-        };
+        let of_value = case.tried().map(|tried| {
+            let rows = rows.iter().filter(|row| row.is_of(&tried));
+            (tried.value, changes(&rows.collect::<Vec<_>>()))
+        });
+        let of_value: Vec<_> = of_value.collect();
         // The last value on either side before the first that changes something.
-        let [low, high] = [&case.smaller, &case.larger].map(|values| {
-            let harmless = values.iter().take_while(|tried| changes(tried).is_empty());
-            harmless.last().unwrap_or(&case.present)
+        let (smaller, larger) = of_value.split_at(case.smaller.len());
+        let [low, high] = [smaller, larger].map(|values| {
+            let harmless = values.iter().take_while(|(_, changes)| changes.is_empty());
+            harmless.last().map_or(&*case.present, |(value, _)| value)
         });
         let range = if low == high {
             String::new()
         } else {
             format!("{low} to {high}")
         };
-        let found = case.tried().map(|tried| (tried, changes(tried)));
-        let found = found.filter(|(_, changes)| !changes.is_empty());
+        let found = of_value.iter().filter(|(_, changes)| !changes.is_empty());
         let found: Vec<String> = found
-            .map(|(tried, changes)| format!("{tried}: {}", changes.join(", ")))
+            .map(|(value, changes)| format!("{value}: {}", changes.join(", ")))
             .collect();
         let mut rows = rows.iter().filter(|row| row.constant == case.constant);
         let changed = if rows.all(|row| row.outcome == Outcome::Same) && found.is_empty() {
