@@ -5,6 +5,7 @@ use std::fmt::Display;
 use xmlwriter::{Options, XmlWriter};
 
 use crate::font::FAMILY;
+use crate::symbols::{Run, SUBSCRIPT_DROP, SUBSCRIPT_SIZE, Style, runs};
 
 /// Pixels from the left and the top.
 pub(crate) type Pixel = [f64; 2];
@@ -182,8 +183,7 @@ impl Canvas {
             self.xml.write_attribute("transform", &turn);
         }
         self.xml.set_preserve_whitespaces(true);
-        // The writer escapes "<" only.
-        self.xml.write_text(&text.replace('&', "&amp;"));
+        self.write_runs(&runs(text), f64::from(size));
         self.xml.end_element();
         self.xml.set_preserve_whitespaces(false);
         self.texts.push(Text {
@@ -192,6 +192,37 @@ impl Canvas {
             size,
             anchor,
         });
+    }
+
+    /// Writes the parts of a text of a size \[px\] into the open element.
+    fn write_runs(&mut self, runs: &[Run], size: f64) {
+        let mut is_lowered = false;
+        for Run { text, style } in runs {
+            let drop = rounded(SUBSCRIPT_DROP * size);
+            let is_span = *style != Style::Upright || is_lowered;
+            if is_span {
+                self.xml.start_element("tspan");
+            }
+            // Baseline shifts are relative to the part before.
+            if is_lowered {
+                self.xml.write_attribute_fmt("dy", format_args!("-{drop}"));
+            }
+            match style {
+                Style::Upright => (),
+                Style::Italic => self.xml.write_attribute("font-style", "italic"),
+                Style::Subscript => {
+                    let size = rounded(SUBSCRIPT_SIZE * size);
+                    self.xml.write_attribute("dy", &drop);
+                    self.xml.write_attribute("font-size", &size);
+                }
+            }
+            is_lowered = *style == Style::Subscript;
+            // The writer escapes "<" only.
+            self.xml.write_text(&text.replace('&', "&amp;"));
+            if is_span {
+                self.xml.end_element();
+            }
+        }
     }
 
     /// Fills paths, each given with its colour, without seams between neighbours.

@@ -26,15 +26,15 @@ fn several_panels_line_up_with_all_their_texts_and_are_the_same_every_time() {
     let text = got.expect("the figure is sound").svg;
     for part in [
         r#"width="960""#,
-        ">velocity v [m/s]</text>",
-        ">coefficient of friction μ [1]</text>",
-        ">Cone, c₁ = 0.1</text>",
-        ">theory, s &lt; 1 &amp; more</text>",
+        ">velocity <tspan font-style=\"italic\">v</tspan> [m/s]</text>",
+        ">coefficient of friction <tspan font-style=\"italic\">μ</tspan> [1]</text>",
+        ">Cone, <tspan font-style=\"italic\">c</tspan>₁ = 0.1</text>",
+        ">theory, <tspan font-style=\"italic\">s</tspan> &lt; 1 &amp; more</text>",
         ">simulation</text>",
         ">10⁻³</text>",
         ">0.15</text>",
-        ">x [mm]</text>",
-        ">pressure p [MPa]</text>",
+        "><tspan font-style=\"italic\">x</tspan> [mm]</text>",
+        ">pressure <tspan font-style=\"italic\">p</tspan> [MPa]</text>",
     ] {
         assert!(text.contains(part), "expected '{part}' in {text}");
     }
