@@ -4,7 +4,9 @@ use std::fmt::Display;
 
 use xmlwriter::{Options, XmlWriter};
 
+use crate::error::PlotError;
 use crate::font::FAMILY;
+use crate::raster::Raster;
 use crate::symbols::{Run, SUBSCRIPT_DROP, SUBSCRIPT_SIZE, Style, runs};
 
 /// Pixels from the left and the top.
@@ -93,12 +95,18 @@ pub struct Drawing {
     pub svg: String,
     /// Texts of the drawing, which the PNG renderer draws itself because its SVG library has no fonts.
     pub(crate) texts: Vec<Text>,
+    /// Images of the drawing, below all lines, which the PNG renderer draws itself because its SVG library decodes none.
+    pub(crate) rasters: Vec<Raster>,
 }
+
+/// White rectangle below everything else.
+pub(crate) const BACKGROUND: &str = r#"<rect width="100%" height="100%" fill="white"/>"#;
 
 /// Picture under construction.
 pub(crate) struct Canvas {
     xml: XmlWriter,
     texts: Vec<Text>,
+    rasters: Vec<Raster>,
 }
 
 impl Canvas {
@@ -117,8 +125,11 @@ impl Canvas {
             xml.write_attribute(name, value);
         }
         xml.end_element();
-        let texts = Vec::new();
-        Self { xml, texts }
+        Self {
+            xml,
+            texts: Vec::new(),
+            rasters: Vec::new(),
+        }
     }
 
     /// Finished drawing.
@@ -126,6 +137,7 @@ impl Canvas {
         Drawing {
             svg: self.xml.end_document(),
             texts: self.texts,
+            rasters: self.rasters,
         }
     }
 
@@ -225,25 +237,30 @@ impl Canvas {
         }
     }
 
-    /// Fills paths, each given with its colour, without seams between neighbours.
-    ///
-    /// The unit of the paths is a cell of the given size \[px\], the origin is the lower left corner of the area, and y points
-    /// upwards.
-    pub(crate) fn mosaic(
-        &mut self,
-        area: Area,
-        [width, height]: [f64; 2],
-        paths: impl IntoIterator<Item = (String, String)>,
-    ) {
-        let [left, bottom, down] = [area.left, area.bottom(), -height];
-        let transform = format!("translate({left:.3} {bottom:.3}) scale({width:.6} {down:.6})");
-        self.start_element("g", &[]);
-        self.xml.write_attribute("shape-rendering", "crispEdges");
-        self.xml.write_attribute("transform", &transform);
-        for (colour, path) in paths {
-            self.shape(&path, &colour, &NO_PEN);
-        }
+    /// Image that fills its area, without smoothing between its pixels.
+    pub(crate) fn image(&mut self, raster: Raster) -> Result<(), PlotError> {
+        let Area {
+            left,
+            top,
+            width,
+            height,
+        } = raster.area;
+        let places = [
+            ("x", left),
+            ("y", top),
+            ("width", width),
+            ("height", height),
+        ];
+        self.start_element("image", &places);
+        self.xml.write_attribute("preserveAspectRatio", "none");
+        // Viewers that do not know the property of CSS take the attribute.
+        self.xml.write_attribute("image-rendering", "optimizeSpeed");
+        self.xml
+            .write_attribute("style", "image-rendering:pixelated");
+        self.xml.write_attribute("href", &raster.data_url()?);
         self.xml.end_element();
+        self.rasters.push(raster);
+        Ok(())
     }
 
     /// Writes an element with its coordinates, other attributes and pen, in this order.

@@ -115,7 +115,7 @@ impl Panel<'_> {
     /// Draws the field, frame, series and legend, in this order.
     pub(crate) fn draw(&self, canvas: &mut Canvas) -> Result<(), PlotError> {
         if let Some(field) = &self.chart.field {
-            field.draw(canvas, self.frame.area);
+            field.draw(canvas, self.frame.area)?;
             self.frame.draw(canvas, TickSide::Outside);
             field.draw_bar(canvas, self.frame.area)?;
         } else {

@@ -63,8 +63,9 @@ pub(crate) fn level_at(fraction: f64) -> u8 {
         .unwrap_or(0)
 }
 
-/// Colour of a field by its index, as #rrggbb, from dark blue to yellow.
-pub(crate) fn level_colour(level: u8) -> String {
+/// Red, green and blue of a colour step, from dark blue to yellow.
+pub(crate) fn level_colour(level: u8) -> [u8; 3] {
     let share = (f64::from(level) + 0.5) / f64::from(LEVELS);
-    format!("#{:x}", VIRIDIS.eval_continuous(share))
+    let colour = VIRIDIS.eval_continuous(share);
+    [colour.r, colour.g, colour.b]
 }

@@ -1,13 +1,11 @@
 //! Fields: values on a rectangular grid as colours, with a colour bar.
 
-use std::collections::BTreeMap;
-use std::fmt::Write as _;
-
 use crate::axis::{Axis, Scale};
 use crate::canvas::{Area, Canvas, FRAME_PEN};
 use crate::colour::{LEVELS, level_at, level_colour};
 use crate::error::PlotError;
 use crate::frame::{AxisEdge, Edge, TickSide, side_margin};
+use crate::raster::Raster;
 
 /// Values on a rectangular grid that fills the ranges of both axes.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,6 +24,9 @@ pub struct Field {
 const BAR_GAP: f64 = 12.0;
 /// Width of the colour bar, \[px\].
 const BAR_WIDTH: f64 = 14.0;
+
+/// Largest number of pixels of the image of a field along an axis (chosen: twice those of a picture at its usual size).
+const MAX_PIXELS: u32 = 1024;
 
 impl Field {
     /// Field of `[columns, rows]` cells; `value` gets the column from the lowest x and the row from the lowest y.
@@ -86,30 +87,24 @@ impl Field {
         spans.map(|span| scale * span)
     }
 
-    /// Draws one path per colour, neighbours of one colour in a row merged.
-    pub(crate) fn draw(&self, canvas: &mut Canvas, area: Area) {
-        let [columns, rows] = [self.columns, self.values.len() / self.columns];
-        let size = [area.width / columns as f64, area.height / rows as f64];
-        let mut paths: BTreeMap<u8, String> = BTreeMap::new();
-        for (row, values) in self.values.chunks(columns).enumerate() {
-            let level =
-                |value: &Option<f64>| value.map(|value| level_at(self.colours.fraction(value)));
-            let levels: Vec<Option<u8>> = values.iter().map(level).collect();
-            let mut start = 0;
-            for run in levels.chunk_by(|a, b| a == b) {
-                let length = run.len();
-                if let Some(level) = run[0] {
-                    let path = paths.entry(level).or_default();
-                    // Writing to a string cannot fail.
-                    let _always = write!(path, "M{start} {row}h{length}v1h-{length}z");
-                }
-                start += length;
-            }
-        }
-        let paths = paths
-            .into_iter()
-            .map(|(level, path)| (level_colour(level), path));
-        canvas.mosaic(area, size, paths);
+    /// Draws the values as an image with a pixel per cell, or per several neighbouring cells where there are more than
+    /// [`MAX_PIXELS`] along an axis; such a pixel has the mean of those cells that have a value.
+    pub(crate) fn draw(&self, canvas: &mut Canvas, area: Area) -> Result<(), PlotError> {
+        let cells = [self.columns, self.values.len() / self.columns];
+        let pixels = cells
+            .map(|count| u32::try_from(count).map_or(MAX_PIXELS, |count| count.min(MAX_PIXELS)));
+        // First cell of a pixel along an axis; that of the next pixel ends it.
+        let first = |axis: usize, pixel: u32| pixel as usize * cells[axis] / pixels[axis] as usize;
+        let colour = |column: u32, row: u32| {
+            let rows = first(1, row)..first(1, row + 1);
+            let columns = first(0, column)..first(0, column + 1);
+            let values = rows.flat_map(|row| &self.values[row * self.columns..][columns.clone()]);
+            let (count, sum) = values
+                .flatten()
+                .fold((0.0, 0.0), |(count, sum), value| (count + 1.0, sum + value));
+            (count > 0.0).then(|| level_colour(level_at(self.colours.fraction(sum / count))))
+        };
+        canvas.image(Raster::new(area, pixels, colour)?)
     }
 
     /// Draws the colour bar next to the data rectangle, with its axis on the right.
@@ -119,9 +114,8 @@ impl Field {
             width: BAR_WIDTH,
             ..data_area
         };
-        let step = |level| (level_colour(level), format!("M0 {level}h1v1h-1z"));
-        let size = [area.width, area.height / f64::from(LEVELS)];
-        canvas.mosaic(area, size, (0..LEVELS).map(step));
+        let colour = |_, level: u32| u8::try_from(level).ok().map(level_colour);
+        canvas.image(Raster::new(area, [1, u32::from(LEVELS)], colour)?)?;
         canvas.rectangle(area, "none", &FRAME_PEN);
         AxisEdge::new(&self.colours, area, Edge::Right)?.draw(canvas, TickSide::Outside);
         Ok(())

@@ -35,6 +35,7 @@ mod frame;
 mod legend;
 mod marks;
 mod png;
+mod raster;
 mod series;
 mod ticks;
 mod symbols;

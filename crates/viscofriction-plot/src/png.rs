@@ -1,11 +1,12 @@
 //! Rendering of a drawing as PNG.
 
-use resvg::tiny_skia::{Color, FillRule, Paint, Pixmap, Transform};
+use resvg::tiny_skia::{Color, FillRule, Paint, Pixmap, PixmapPaint, Transform};
 use resvg::usvg::{Options, Tree};
 
-use crate::canvas::{Anchor, Drawing, Text};
+use crate::canvas::{Anchor, BACKGROUND, Drawing, Text};
 use crate::error::PlotError;
 use crate::font::{Outline, UNITS_PER_EM};
+use crate::raster::Raster;
 
 /// Default width of a PNG, \[px\].
 pub const PNG_WIDTH: u32 = 1600;
@@ -15,7 +16,9 @@ pub const PNG_WIDTH: u32 = 1600;
 /// # Errors
 /// [`PlotError::Render`] for a drawing that cannot be read, or a size that cannot be allocated.
 pub fn render_png(drawing: &Drawing, width: u32) -> Result<Vec<u8>, PlotError> {
-    let tree = Tree::from_str(&drawing.svg, &Options::default())
+    // The pixels are white already, and the background would cover the images.
+    let svg = drawing.svg.replacen(BACKGROUND, "", 1);
+    let tree = Tree::from_str(&svg, &Options::default())
         .map_err(|error| PlotError::Render(error.to_string()))?;
     let refused = || PlotError::Render(format!("{width} pixels are no possible width"));
     let scaled = tree
@@ -27,12 +30,35 @@ pub fn render_png(drawing: &Drawing, width: u32) -> Result<Vec<u8>, PlotError> {
     pixels.fill(Color::WHITE);
     let (from, to) = (tree.size(), scaled.to_size());
     let scale = Transform::from_scale(to.width() / from.width(), to.height() / from.height());
+    for raster in &drawing.rasters {
+        draw_raster(&mut pixels, raster, scale);
+    }
     resvg::render(&tree, scale, &mut pixels.as_mut());
     for text in &drawing.texts {
         fill_text(&mut pixels, text, scale)?;
     }
     let png = pixels.encode_png();
     png.map_err(|error| PlotError::Render(error.to_string()))
+}
+
+/// Draws an image without smoothing between its pixels.
+fn draw_raster(
+    pixels: &mut Pixmap,
+    Raster {
+        area,
+        pixels: image,
+    }: &Raster,
+    scale: Transform,
+) {
+    #[expect(clippy::cast_possible_truncation, reason = "far below a pixel")]
+    let [left, top, width, height] =
+        [area.left, area.top, area.width, area.height].map(|length| length as f32);
+    let [columns, rows] = [image.width(), image.height()].map(|count| count as f32);
+    let place = scale
+        .pre_translate(left, top)
+        .pre_scale(width / columns, height / rows);
+    let paint = PixmapPaint::default();
+    pixels.draw_pixmap(0, 0, image.as_ref(), &paint, place, None);
 }
 
 /// Draws the letters of a text in black; `scale` maps the pixels of the drawing to those of the PNG.

@@ -1,7 +1,9 @@
 //! What stands in the SVG of a figure.
 
+use resvg::tiny_skia::Pixmap;
 use viscofriction_plot::{
-    Axis, Chart, Colour, Dash, Figure, LegendPlace, Line, Marker, Series, Shape, draw,
+    Axis, Chart, Colour, Dash, Field, Figure, LegendPlace, Line, Marker, Series, Shape, draw,
+    render_png,
 };
 
 use crate::{chart, map};
@@ -80,11 +82,46 @@ fn a_legend_that_covers_no_data_stays_inside_and_moves_out_otherwise() {
 }
 
 #[test]
-fn cells_without_a_value_stay_white_and_neighbours_of_one_colour_merge() {
+fn a_field_is_one_image_of_a_pixel_per_cell() {
     let text = svg(map());
-    for start in ["0 0h2", "2 0h1", "1 1h1", "2 1h1"] {
-        let path = format!(r#"d="M{start}v1h-"#);
-        assert!(text.contains(&path), "expected a cell {path} in {text}");
+    let images = text.matches("<image ").count();
+    assert_eq!(images, 2, "the field and its colour bar in {text}");
+    assert!(text.contains(r#"href="data:image/png;base64,"#), "{text}");
+    // A rough contact of a million elements stays a small file.
+    let pressure = Axis::linear("pressure p [MPa]", [0.0, 2.0]);
+    let mut fine = map();
+    fine.field = Some(Field::new([2048, 1024], pressure, |column, row| {
+        (column / 8 % 2 == row / 8 % 2).then_some(1.0)
+    }));
+    let size = svg(fine).len();
+    assert!(size < 100_000, "expected a small file, got {size} bytes");
+}
+
+#[test]
+fn cells_without_a_value_stay_white_in_the_png() {
+    let drawing = draw(&Figure::single(map())).expect("the figure is sound");
+    let text = &drawing.svg;
+    let [left, top, width, height] = ["x", "y", "width", "height"].map(|name| {
+        let image = text.split("<image ").nth(1).expect("an image");
+        number(&format!(" {image}"), name)
+    });
+    let png = render_png(&drawing, 1000).expect("a picture");
+    let pixels = Pixmap::decode_png(&png).expect("a PNG file");
+    let scale = 1000.0 / number(text, "width");
+    let is_white = |column: u32, row: u32| {
+        let x = left + width * (f64::from(column) + 0.6) / 4.0;
+        let y = top + height * (1.0 - (f64::from(row) + 0.6) / 2.0);
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a pixel"
+        )]
+        let [x, y] = [x, y].map(|place| (scale * place) as u32);
+        let pixel = pixels.pixel(x, y).expect("a pixel inside");
+        [pixel.red(), pixel.green(), pixel.blue()] == [255; 3]
+    };
+    for (column, row, expected) in [(0, 0, false), (3, 0, true), (0, 1, true), (2, 1, false)] {
+        assert_eq!(is_white(column, row), expected, "cell {column}, {row}");
     }
     let drawn = text.matches("v1h-").count();
     assert_eq!(drawn, 104, "runs of cells, and 100 steps of the colour bar");
