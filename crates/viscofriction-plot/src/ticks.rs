@@ -18,12 +18,16 @@ pub(crate) struct Tick {
 const MAX_LABELLED_STEPS: f64 = 6.0;
 /// Largest number of labelled decades on a logarithmic axis (chosen); of more every n-th is labelled.
 const MAX_LABELLED_DECADES: f64 = 8.0;
+/// Largest number of decades of a logarithmic axis that is labelled in a prefixed unit (chosen).
+const MAX_PREFIXED_DECADES: f64 = 3.0;
+/// Largest number of decades of an axis whose labels stand at 1, 2 and 5 (chosen: more would collide).
+const MAX_SUBDIVIDED_DECADES: f64 = 1.5;
 
 /// Ticks of an axis from its lower to its upper end.
 pub(crate) fn ticks(axis: &Axis) -> Vec<Tick> {
     match axis.scale {
         Scale::Linear => linear_ticks(axis),
-        Scale::Log10 => log_ticks(axis.range),
+        Scale::Log10 => log_ticks(axis.range, 10_f64.powf(log_exponent(axis))),
     }
 }
 
@@ -64,7 +68,7 @@ fn linear_exponent(axis: &Axis) -> f64 {
     let [from, to] = axis.range;
     let largest = from.abs().max(to.abs());
     if unit(axis).is_some_and(|unit| PREFIXED_UNITS.contains(&unit)) {
-        return 3.0 * ((largest.log10() + 1e-9) / 3.0).floor().clamp(-4.0, 3.0);
+        return prefix_exponent(largest);
     }
     let (step, _) = linear_step(to - from);
     let is_plain = largest < 1e5 && step >= 0.999e-4;
@@ -73,6 +77,24 @@ fn linear_exponent(axis: &Axis) -> f64 {
     } else {
         (step.log10() + 1e-9).floor()
     }
+}
+
+/// Power of ten of the prefix in which the labels of a logarithmic axis are expressed; 0 for a unit without prefixes, and for
+/// more than [`MAX_PREFIXED_DECADES`], which powers of ten label better.
+fn log_exponent(axis: &Axis) -> f64 {
+    let [from, to] = axis.range;
+    let is_short = to <= from * 10_f64.powf(MAX_PREFIXED_DECADES + 1e-9);
+    let has_prefix = unit(axis).is_some_and(|unit| PREFIXED_UNITS.contains(&unit));
+    if is_short && has_prefix {
+        prefix_exponent(to)
+    } else {
+        0.0
+    }
+}
+
+/// Exponent of the largest prefix with which a number is at least 1.
+fn prefix_exponent(largest: f64) -> f64 {
+    3.0 * ((largest.log10() + 1e-9) / 3.0).floor().clamp(-4.0, 3.0)
 }
 
 /// Units that take a prefix, such as lengths in mm, µm or nm.
@@ -90,7 +112,7 @@ fn unit(axis: &Axis) -> Option<&str> {
 pub(crate) fn label(axis: &Axis) -> String {
     let exponent = match axis.scale {
         Scale::Linear => linear_exponent(axis),
-        Scale::Log10 => 0.0,
+        Scale::Log10 => log_exponent(axis),
     };
     if exponent.abs() < 0.5 {
         return axis.label.clone();
@@ -128,20 +150,23 @@ fn linear_step(span: f64) -> (f64, f64) {
 }
 
 /// Ticks of a logarithmic axis: major ones at powers of ten, minor ones at their multiples. Over less than two decades the
-/// multiples 2 and 5 are labelled too, over less than one all.
-fn log_ticks([from, to]: [f64; 2]) -> Vec<Tick> {
+/// multiples 2 and 5 are labelled too, over less than one all. The labels count in `unit`.
+fn log_ticks(range: [f64; 2], unit: f64) -> Vec<Tick> {
+    let [from, to] = range.map(|end| end / unit);
     let powers = (to.log10() + 1e-9).floor() - (from.log10() - 1e-9).ceil() + 1.0;
     // Every n-th decade is labelled.
     let stride = (powers / MAX_LABELLED_DECADES).ceil().max(1.0);
+    let is_subdivided = (to / from).log10() < MAX_SUBDIVIDED_DECADES;
     let is_labelled = |mantissa: f64, exponent: f64| {
         let is_near = |shown: &f64| (mantissa - shown).abs() < 0.5;
-        if powers > 1.5 {
+        if !is_subdivided {
             is_near(&1.0) && exponent.rem_euclid(stride) < 0.5
         } else {
             powers < 0.5 || [1.0, 2.0, 5.0].iter().any(is_near)
         }
     };
-    let is_plain = powers < 1.5 && from >= 0.999e-3 && to <= 1.001e5;
+    let is_prefixed = (unit - 1.0).abs() > 1e-9;
+    let is_plain = (is_subdivided || is_prefixed) && from >= 0.999e-3 && to <= 1.001e5;
     let label = |mantissa: f64, exponent: f64| {
         if is_plain {
             let decimals = whole_numbers(1.0, -exponent).count();
@@ -158,11 +183,11 @@ fn log_ticks([from, to]: [f64; 2]) -> Vec<Tick> {
     whole_numbers(from.log10().floor(), to.log10().ceil())
         .flat_map(|exponent| whole_numbers(1.0, 9.0).map(move |mantissa| (mantissa, exponent)))
         .map(|(mantissa, exponent)| Tick {
-            value: mantissa * 10_f64.powf(exponent),
+            value: unit * mantissa * 10_f64.powf(exponent),
             major: mantissa < 1.5,
             label: is_labelled(mantissa, exponent).then(|| label(mantissa, exponent)),
         })
-        .filter(|tick| is_inside(tick.value) && (tick.major || shows_minor))
+        .filter(|tick| is_inside(tick.value / unit) && (tick.major || shows_minor))
         .collect()
 }
 
@@ -194,6 +219,9 @@ mod tests {
             (log([40.0, 800.0]), "50 100 200 500"),
             (log([0.02, 0.2]), "0.02 0.05 0.1 0.2"),
             (log([2e-7, 6e-7]), "2·10⁻⁷ 3·10⁻⁷ 4·10⁻⁷ 5·10⁻⁷ 6·10⁻⁷"),
+            // The labels count in MPa.
+            (Axis::log10("P [Pa]", [1.2e5, 2e6]), "0.2 0.5 1 2"),
+            (Axis::log10("P [Pa]", [1e4, 1e6]), "0.01 0.1 1"),
             (linear([0.0, 0.2]), "0 0.05 0.10 0.15 0.20"),
             (linear([0.0, 16.0]), "0 5 10 15"),
             (linear([-1.0, 1.0]), "−1.0 −0.5 0 0.5 1.0"),
@@ -219,7 +247,9 @@ mod tests {
             (Axis::linear("k [1/m]", [0.0, 2e6]), "k [10⁵ 1/m]"),
             (Axis::linear("friction", [0.0, 2e-4]), "friction [10⁻⁵]"),
             (Axis::linear("x [m]", [0.0, 3.0]), "x [m]"),
-            (Axis::log10("x [m]", [1e-9, 1e-6]), "x [m]"),
+            (Axis::log10("x [m]", [1e-9, 1e-3]), "x [m]"),
+            (Axis::log10("x [m]", [1e-9, 1e-6]), "x [µm]"),
+            (Axis::log10("P [Pa]", [1.2e5, 2e6]), "P [MPa]"),
         ];
         for (axis, expected) in cases {
             assert_eq!(label(&axis), expected, "label of {axis:?}");
