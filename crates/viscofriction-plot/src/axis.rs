@@ -95,6 +95,24 @@ impl Axis {
         (coordinate(value) - from) / (to - from)
     }
 
+    /// Refuses a value without a position on the axis or its continuation; `of` and `index` name it in the message.
+    pub(crate) fn check_position(
+        &self,
+        value: f64,
+        of: &str,
+        index: usize,
+    ) -> Result<(), PlotError> {
+        if self.fraction(value).is_finite() {
+            return Ok(());
+        }
+        Err(PlotError::Value {
+            of: of.into(),
+            needed: format!("have a position along '{}'", self.label),
+            index,
+            value,
+        })
+    }
+
     /// Refuses a value outside the range; `of` and `index` name it in the message.
     pub(crate) fn check(&self, value: f64, of: &str, index: usize) -> Result<(), PlotError> {
         if (-EDGE_TOLERANCE..=1.0 + EDGE_TOLERANCE).contains(&self.fraction(value)) {

@@ -37,6 +37,33 @@ impl Area {
         let across = (self.left - margin..=self.right() + margin).contains(&x);
         across && (self.top - margin..=self.bottom() + margin).contains(&y)
     }
+
+    /// Part of a straight line inside the rectangle; `None` if it is outside (Liang and Barsky 1984).
+    pub(crate) fn clip(&self, [start, end]: [Pixel; 2]) -> Option<[Pixel; 2]> {
+        let direction = [end[0] - start[0], end[1] - start[1]];
+        let lower = [self.left, self.top];
+        let upper = [self.right(), self.bottom()];
+        let (mut from, mut to) = (0.0_f64, 1.0_f64);
+        for axis in 0..2 {
+            let (step, at) = (direction[axis], start[axis]);
+            if step == 0.0 {
+                if at < lower[axis] || at > upper[axis] {
+                    return None;
+                }
+                continue;
+            }
+            let [one, other] = [lower[axis], upper[axis]].map(|edge| (edge - at) / step);
+            from = from.max(one.min(other));
+            to = to.min(one.max(other));
+        }
+        let place = |part: f64| {
+            [
+                start[0] + part * direction[0],
+                start[1] + part * direction[1],
+            ]
+        };
+        (from < to).then(|| [place(from), place(to)])
+    }
 }
 
 /// Pen of a line or outline.
@@ -168,7 +195,7 @@ impl Canvas {
 
     /// Translucent closed shape given as SVG path data.
     pub(crate) fn translucent_shape(&mut self, path: &str, fill: &str) {
-        let texts = [("d", path), ("fill", fill), ("fill-opacity", "0.18")];
+        let texts = [("d", path), ("fill", fill), ("fill-opacity", "0.3")];
         self.element("path", &[], &texts, &NO_PEN);
     }
 

@@ -15,6 +15,8 @@ pub enum Colour {
     Magenta,
     /// #000000.
     Black,
+    /// #767676, for references beside the data.
+    Grey,
     /// Step from dark blue (0) to green (8), for ordered series; larger steps are the last one.
     Step(u8),
 }
@@ -40,6 +42,7 @@ impl Colour {
             Self::Green => "#009e73",
             Self::Magenta => "#aa3377",
             Self::Black => "#000000",
+            Self::Grey => "#767676",
             Self::Step(step) => {
                 let last = STEPS.len() - 1;
                 STEPS[if (step as usize) < last {

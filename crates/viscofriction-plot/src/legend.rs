@@ -4,7 +4,7 @@ use crate::canvas::{Anchor, Area, Canvas, Pen, Pixel};
 use crate::error::PlotError;
 use crate::font::fitting_width;
 use crate::frame::Frame;
-use crate::marks::{MARKER_RADIUS, draw_marker, ends, line_pen};
+use crate::marks::{MARKER_RADIUS, draw_marker, ends, line_pen, visible_pieces};
 use crate::series::Series;
 use crate::ticks::whole_numbers;
 
@@ -141,7 +141,9 @@ fn marked_pixels(series: &[Series], frame: &Frame) -> Vec<Pixel> {
         let mut strokes = ends(frame, one, &one.errors);
         strokes.extend(ends(frame, one, &one.band));
         if one.line.is_some() {
-            strokes.extend(pixels.windows(2).map(|pair| [pair[0], pair[1]]));
+            let pieces = visible_pieces(frame, one);
+            let pairs = pieces.iter().flat_map(|piece| piece.windows(2));
+            strokes.extend(pairs.map(|pair| [pair[0], pair[1]]));
         }
         for [[x, y], end] in strokes {
             let [right, down] = [end[0] - x, end[1] - y];

@@ -1,7 +1,7 @@
 //! Charts of curves and fields: [`draw`] makes an SVG [`Drawing`] of a [`Figure`], and [`render_png`] a PNG of it.
 //!
 //! Data are drawn faithfully or refused. A point that is not finite or lies outside its axis is a [`PlotError`]; it is never
-//! dropped, clamped or clipped. The output is reproducible to the byte and does not depend on installed fonts.
+//! dropped or clamped, and only a [`Series::reference`] is cut at the frame. The output is reproducible to the byte and does not depend on installed fonts.
 //!
 //! ```
 //! use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Series};
@@ -37,8 +37,8 @@ mod marks;
 mod png;
 mod raster;
 mod series;
-mod ticks;
 mod symbols;
+mod ticks;
 
 /// The example in the README, compiled as a doc test.
 #[cfg(doctest)]

@@ -28,7 +28,12 @@ pub(crate) fn draw_series(canvas: &mut Canvas, frame: &Frame, series: &[Series])
     for one in series {
         let pixels = frame.pixels(&one.points);
         if let Some(line) = one.line {
-            canvas.polyline(&pixels, &line_pen(line, one.colour));
+            for piece in visible_pieces(frame, one) {
+                canvas.polyline(&piece, &line_pen(line, one.colour));
+            }
+            for [at, direction] in arrowheads(&pixels, one.arrows) {
+                canvas.shape(&arrowhead(at, direction), one.colour.hex(), &NO_PEN);
+            }
         }
         let pen = Pen::solid(one.colour.hex(), 1.1);
         for [upper, lower] in ends(frame, one, &one.errors) {
@@ -43,6 +48,66 @@ pub(crate) fn draw_series(canvas: &mut Canvas, frame: &Frame, series: &[Series])
             }
         }
     }
+}
+
+/// Connected pieces of the line of a series that are inside the frame.
+pub(crate) fn visible_pieces(frame: &Frame, series: &Series) -> Vec<Vec<Pixel>> {
+    let pixels = frame.pixels(&series.points);
+    if !series.is_reference {
+        return vec![pixels];
+    }
+    let mut pieces: Vec<Vec<Pixel>> = Vec::new();
+    let inside = pixels
+        .windows(2)
+        .filter_map(|pair| frame.area.clip([pair[0], pair[1]]));
+    for [start, end] in inside {
+        match pieces.last_mut() {
+            Some(piece) if piece.last() == Some(&start) => piece.push(end),
+            _ => pieces.push(vec![start, end]),
+        }
+    }
+    pieces
+}
+
+/// Positions of arrowheads at equal distances along a line, and the directions there.
+fn arrowheads(line: &[Pixel], count: usize) -> Vec<[Pixel; 2]> {
+    let steps: Vec<Pixel> = line
+        .windows(2)
+        .map(|pair| [pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]])
+        .collect();
+    let length: f64 = steps.iter().map(|[x, y]| x.hypot(*y)).sum();
+    let (mut found, mut passed) = (Vec::new(), 0.0);
+    for (start, step) in line.iter().zip(&steps) {
+        let own = step[0].hypot(step[1]);
+        while found.len() < count {
+            // The first head is half a distance from the start.
+            let rest = length * (found.len() as f64 + 0.5) / count as f64 - passed;
+            if rest > own || own == 0.0 {
+                break;
+            }
+            let [right, down] = [step[0] / own, step[1] / own];
+            let at = [start[0] + rest * right, start[1] + rest * down];
+            found.push([at, [right, down]]);
+        }
+        passed += own;
+    }
+    found
+}
+
+/// Half length of an arrowhead, \[px\].
+const ARROW_HALF_LENGTH: f64 = 5.0;
+
+/// Path of an arrowhead around a point, along a direction of length 1.
+fn arrowhead([x, y]: Pixel, [right, down]: [f64; 2]) -> String {
+    let corners = [[1.0, 0.0], [-1.0, 0.8], [-1.0, -0.8]].map(|[along, across]| {
+        let [along, across] = [ARROW_HALF_LENGTH * along, ARROW_HALF_LENGTH * across];
+        let corner = [
+            x + along * right - across * down,
+            y + along * down + across * right,
+        ];
+        format!("{:.2} {:.2}", corner[0], corner[1])
+    });
+    format!("M{}Z", corners.join("L"))
 }
 
 /// Upper and lower ends of the error bars of a series with the given half lengths.

@@ -21,6 +21,10 @@ pub struct Series {
     pub marker: Option<Marker>,
     /// Colour of line, markers and error bars.
     pub colour: Colour,
+    /// Whether the line may leave the frame in y, where it is cut: for a reference that must not set the range of the axis.
+    pub is_reference: bool,
+    /// Number of arrowheads on the line, at equal distances, in the order of the points.
+    pub arrows: usize,
 }
 
 /// Style of a line.
@@ -121,7 +125,16 @@ impl Series {
             line: Some(line),
             marker: None,
             colour,
+            is_reference: false,
+            arrows: 0,
         }
+    }
+
+    /// Thin line that may leave the frame in y, where it is cut, without label.
+    pub const fn reference(points: Vec<[f64; 2]>, dash: Dash, colour: Colour) -> Self {
+        let mut series = Self::line(points, Line::thin(dash), colour);
+        series.is_reference = true;
+        series
     }
 
     /// Markers without line, label or error bars.
@@ -150,7 +163,11 @@ impl Series {
         }
         for (index, &[at, value]) in self.points.iter().enumerate() {
             x.check(at, name, index)?;
-            y.check(value, name, index)?;
+            if self.is_reference {
+                y.check_position(value, name, index)?;
+            } else {
+                y.check(value, name, index)?;
+            }
         }
         for (what, lengths) in [("error bars", &self.errors), ("band", &self.band)] {
             self.check_lengths(format!("{what} of {name}"), lengths, y)?;

@@ -123,8 +123,6 @@ fn cells_without_a_value_stay_white_in_the_png() {
     for (column, row, expected) in [(0, 0, false), (3, 0, true), (0, 1, true), (2, 1, false)] {
         assert_eq!(is_white(column, row), expected, "cell {column}, {row}");
     }
-    let drawn = text.matches("v1h-").count();
-    assert_eq!(drawn, 104, "runs of cells, and 100 steps of the colour bar");
 }
 
 #[test]
@@ -143,4 +141,43 @@ fn labels_of_the_x_axis_stand_clear_of_each_other() {
         ["10000000", "10000010", "10000020", "10000030"],
         "labels in {text}"
     );
+}
+
+#[test]
+fn symbols_are_italic_and_their_subscripts_lowered() {
+    let mut loop_of_forces = chart();
+    loop_of_forces.y.label = "tangential force F_t [N]".into();
+    let text = svg(loop_of_forces);
+    let expected = concat!(
+        r#">tangential force <tspan font-style="italic">F</tspan>"#,
+        r#"<tspan dy="2.8" font-size="9.8">t</tspan><tspan dy="-2.8"> [mN]</tspan></text>"#
+    );
+    assert!(text.contains(expected), "expected '{expected}' in {text}");
+}
+
+#[test]
+fn a_reference_line_is_cut_at_the_frame_and_arrowheads_follow_the_points() {
+    // The axis ends at 0.2, half way up the line.
+    let steep = vec![[1e-3, 0.0], [1e1, 0.4]];
+    let mut cut = chart();
+    cut.title = None;
+    cut.series = vec![Series::reference(steep, Dash::Dashed, Colour::Grey)];
+    let text = svg(cut);
+    let points = text.split("points=\"").nth(1).expect("a line");
+    let end = points
+        .split('"')
+        .next()
+        .and_then(|all| all.split(' ').next_back());
+    let end = end.expect("an end").split(',').map(str::parse::<f64>);
+    let end: Vec<f64> = end.map(|place| place.expect("a number")).collect();
+    assert!(
+        (end[1] - 10.0).abs() < 0.011,
+        "the upper end of the frame, got {end:?}"
+    );
+    let mut directed = chart();
+    directed.series.truncate(1);
+    directed.series[0].arrows = 3;
+    let text = svg(directed);
+    let heads = text.matches("stroke=\"none\"").count();
+    assert_eq!(heads, 3, "arrowheads in {text}");
 }

@@ -51,6 +51,11 @@ fn points_that_would_vanish() {
             chart.series[0].points[1] = point;
         });
     }
+    // A reference may leave the frame, but needs a position.
+    refused("have a position along", |chart| {
+        chart.series[0].is_reference = true;
+        chart.series[0].points[1][1] = f64::NAN;
+    });
     // Ends that rounding has moved are drawn.
     let mut moved = chart();
     moved.series[0].points[0] = [10_f64.powf(-3.0), 0.2 + 1e-15];
