@@ -221,8 +221,14 @@ impl Canvas {
             let turn = format!("rotate(-90 {} {})", rounded(x), rounded(y));
             self.xml.write_attribute("transform", &turn);
         }
+        let runs = runs(text);
+        if runs.len() > 1 {
+            // Programs that read or search the text find it in one piece.
+            let label = text.replace('&', "&amp;").replace('<', "&lt;");
+            self.xml.write_attribute("aria-label", &label);
+        }
         self.xml.set_preserve_whitespaces(true);
-        self.write_runs(&runs(text), f64::from(size));
+        self.write_runs(&runs, f64::from(size));
         self.xml.end_element();
         self.xml.set_preserve_whitespaces(false);
         self.texts.push(Text {

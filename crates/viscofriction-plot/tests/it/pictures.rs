@@ -153,6 +153,8 @@ fn symbols_are_italic_and_their_subscripts_lowered() {
         r#"<tspan dy="2.8" font-size="9.8">t</tspan><tspan dy="-2.8"> [mN]</tspan></text>"#
     );
     assert!(text.contains(expected), "expected '{expected}' in {text}");
+    let label = r#"aria-label="tangential force F_t [mN]""#;
+    assert!(text.contains(label), "expected '{label}' in {text}");
 }
 
 #[test]
