@@ -139,6 +139,29 @@ pub(crate) fn edge_singularity(loads: &[f64], bounds: &Bounds, mirrors: [Mirror;
 /// of runs are independent, except where runs are images of each other: four sides of L edges that are displaced alike make 2 L,
 /// which is the root of 4 L².
 pub(crate) fn boundary_uncertainty(loads: &[f64], bounds: &Bounds, mirrors: [Mirror; 2]) -> f64 {
+    let runs = boundary_runs(loads, bounds, mirrors, |_| 1.0);
+    let squares = runs.iter().map(|run| run.weight * run.weight);
+    squares.sum::<f64>().sqrt()
+}
+
+/// A straight run of edges of the boundary of a contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct BoundaryRun {
+    /// Sum of a weight over the loaded elements of the run.
+    pub(crate) weight: f64,
+    /// True if the boundary turns to the same side at both ends of the run, as at an extremum of the smooth boundary. Elsewhere that passes
+    /// from one side of the elements to the other along the run.
+    pub(crate) is_extremum: bool,
+}
+
+/// All straight runs of the boundary of the loaded elements, those of mirror images included. `weight` takes the index of an element in
+/// the box.
+pub(crate) fn boundary_runs(
+    loads: &[f64],
+    bounds: &Bounds,
+    mirrors: [Mirror; 2],
+    weight: impl Fn(usize) -> f64,
+) -> Vec<BoundaryRun> {
     let lower = bounds.lower.map(usize::cast_signed);
     let shape = bounds.shape();
     let upper = [0, 1].map(|axis| lower[axis] + shape[axis].cast_signed());
@@ -148,7 +171,8 @@ pub(crate) fn boundary_uncertainty(loads: &[f64], bounds: &Bounds, mirrors: [Mir
         Mirror::Centre => 1 - upper[axis]..upper[axis],
         Mirror::Edge => -upper[axis]..upper[axis],
     };
-    let has_load = |index: [isize; 2]| {
+    // Index in the box of a loaded element, or of the element that it is the image of.
+    let loaded = |index: [isize; 2]| {
         let [row, column] = [0, 1].map(|axis| {
             let folded = match mirrors[axis] {
                 Mirror::Centre => index[axis].abs(),
@@ -158,32 +182,48 @@ pub(crate) fn boundary_uncertainty(loads: &[f64], bounds: &Bounds, mirrors: [Mir
             // Beyond either end of the box this is no index.
             (folded - lower[axis]).cast_unsigned()
         });
-        row < shape[0] && column < shape[1] && loads[row * shape[1] + column] > 0.0
+        let index = (row < shape[0] && column < shape[1]).then(|| row * shape[1] + column);
+        index.filter(|index| loads[*index] > 0.0)
     };
-    let mut sum_of_squares = 0.0;
+    let mut runs = Vec::new();
     for axis in 0..2 {
         let at = |across: isize, along: isize| {
-            has_load(if axis == 0 {
+            loaded(if axis == 0 {
                 [across, along]
             } else {
                 [along, across]
             })
         };
-        // Along each line of edges, a run ends where the side of the loaded element changes.
+        // Along each line of edges, a run ends where the side of the loaded element changes: at a concave corner if both elements beyond
+        // the end are loaded, otherwise at a convex one.
         for line in range(axis).start..=range(axis).end {
-            let (mut loaded_side, mut length) = (0, 0.0);
-            for along in range(1 - axis) {
-                let side = i8::from(at(line, along)) - i8::from(at(line - 1, along));
-                if side != loaded_side {
-                    sum_of_squares += length * length;
-                    (loaded_side, length) = (side, 0.0);
+            let pair = |along: isize| [at(line, along), at(line - 1, along)];
+            let side = |along: isize| match pair(along) {
+                [Some(_), None] => 1,
+                [None, Some(_)] => -1,
+                _ => 0_i8,
+            };
+            let is_concave = |along: isize| pair(along).iter().all(Option::is_some);
+            let along = range(1 - axis);
+            let mut first = along.start;
+            while first < along.end {
+                let own_side = side(first);
+                let mut end = first + 1;
+                while end < along.end && side(end) == own_side {
+                    end += 1;
                 }
-                length += f64::from(side.abs());
+                if own_side != 0 {
+                    let elements = (first..end).filter_map(|one| pair(one)[0].or(pair(one)[1]));
+                    runs.push(BoundaryRun {
+                        weight: elements.map(&weight).sum(),
+                        is_extremum: is_concave(first - 1) == is_concave(end),
+                    });
+                }
+                first = end;
             }
-            sum_of_squares += length * length;
         }
     }
-    sum_of_squares.sqrt()
+    runs
 }
 
 #[cfg(test)]

@@ -69,8 +69,8 @@ pub(crate) struct OnGrid<S, O> {
     pub(crate) dissipated: Option<f64>,
     /// Parts of the error of the target that all grids have in common, so that refinement does not reveal them.
     pub(crate) common_error: ErrorParts,
-    /// Lower bound of the relative discretisation error of the target, because some grids agree by chance.
-    pub(crate) min_relative_error: f64,
+    /// Lower bound of the discretisation error of the target, in its unit, because grids may agree by chance.
+    pub(crate) target_uncertainty: f64,
     /// Lower bound of the discretisation error of the contact area, \[m²].
     pub(crate) area_uncertainty: f64,
     /// Convergence order of the contact area; `None` if it is that of the target.
@@ -92,7 +92,7 @@ impl<S, O> OnGrid<S, O> {
             controls_refinement: name == target || name == Name::Force,
             error_floor: match name {
                 Name::Area => self.area_uncertainty,
-                _ if name == target => self.min_relative_error * value.abs(),
+                _ if name == target => self.target_uncertainty,
                 _ => 0.0,
             },
             order: self.area_order.filter(|_| name == Name::Area),
@@ -101,6 +101,7 @@ impl<S, O> OnGrid<S, O> {
         // The friction from dissipation is appended as a further quantity.
         let dissipated = self.dissipated.map(|value| Quantity {
             controls_refinement: false,
+            error_floor: self.target_uncertainty,
             ..Quantity::from(value)
         });
         let quantities = self.quantities.iter().map(quantity);

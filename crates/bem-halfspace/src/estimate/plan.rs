@@ -1,6 +1,7 @@
 //! The grids that a refinement starts from: footprint and approximate contact length from surface, material and load.
 
 use indenters::{Axisymmetric, Control, SlidingLoad, Surface, contact_radius};
+use numerics::whole_part;
 
 use crate::elements::footprint::{Footprint, MAX_HEIGHT_IN_DEPTH_SCALES};
 use crate::elements::grid::whole_elements;
@@ -36,10 +37,11 @@ pub(crate) struct GridPlan {
     pub(crate) coarsest_spacing: f64,
     /// Exponent p of the sharpest point h ∼ r^p in contact; 2 or more for a smooth surface.
     pub(crate) apex_exponent: f64,
-    /// Sum of the squares of the jumps of the slope in contact over the square of the slope at its end, at most 1.
+    /// Sum of the squares of the jumps of the slope in contact over the square of the slope at its end, at most 1: at the edges of a body,
+    /// and between the cells of a height map along the line through its lowest point.
     pub(crate) kinks: f64,
-    /// True if the contact lies on a few cells of a height map whose slopes differ much.
-    pub(crate) shows_cells: bool,
+    /// True if elements resolve edges: those of a body, or those of single cells of a height map.
+    pub(crate) has_edges: bool,
 }
 
 impl GridPlan {
@@ -61,10 +63,14 @@ impl GridPlan {
             }
         })?;
         plan.kinks = kinks(surface, depth, &footprint)?;
-        plan.shows_cells = shows_cells(surface, depth);
-        if plan.kinks > NEGLIGIBLE_KINKS {
+        plan.has_edges = plan.kinks > NEGLIGIBLE_KINKS;
+        if plan.has_edges {
             // Each kink is as sharp as the apex of a cone.
             plan.apex_exponent = plan.apex_exponent.min(1.0);
+        }
+        if let Some(cells) = CellSlopes::new(surface, depth) {
+            plan.kinks = cells.kinks();
+            plan.has_edges = cells.are_visible();
         }
         Ok(plan)
     }
@@ -124,7 +130,7 @@ impl GridPlan {
         Self::smooth(footprint, spacing, surface.apex_exponent())
     }
 
-    /// A plan for a surface without kinks and without visible cells of a height map.
+    /// The plan for a surface without kinks.
     pub(crate) const fn smooth(
         footprint: Footprint,
         coarsest_spacing: f64,
@@ -135,7 +141,7 @@ impl GridPlan {
             coarsest_spacing,
             apex_exponent,
             kinks: 0.0,
-            shows_cells: false,
+            has_edges: false,
         }
     }
 
@@ -156,24 +162,55 @@ impl GridPlan {
     }
 }
 
-/// True if a height map lies below a `depth` \[m] on at most [`MAX_VISIBLE_CELLS`] cells along x, and its slope along x jumps
-/// between two of them away from the lowest point. Elements then resolve an edge like that of a flat end.
-fn shows_cells(surface: &dyn Surface, depth: f64) -> bool {
-    let Some(length) = surface.cell_length() else {
-        return false;
-    };
-    let [rear, front] = surface.extent_below(depth)[0].map(|end| (end / length).round());
-    if front - rear > MAX_VISIBLE_CELLS {
-        return false;
+/// Slopes along x of the cells of a height map at y = 0, on which it dips to a depth.
+struct CellSlopes {
+    /// Slopes of the cells from the rear to the front.
+    slopes: Vec<f64>,
+    /// Number of cells behind the lowest point.
+    n_behind: usize,
+}
+
+impl CellSlopes {
+    /// The slopes of a surface that dips to `depth` \[m]; `None` if it has no cells.
+    fn new(surface: &dyn Surface, depth: f64) -> Option<Self> {
+        let length = surface.cell_length()?;
+        let [behind, ahead] =
+            surface.extent_below(depth)[0].map(|end| whole_part((end / length).round().abs()));
+        let position = |cell: usize| cell as f64 - behind as f64 + 0.5;
+        let slope = |cell: usize| surface.gradient([position(cell) * length, 0.0])[0];
+        Some(Self {
+            slopes: (0..behind + ahead).map(slope).collect(),
+            n_behind: behind,
+        })
     }
-    // Slopes at the centres of the cells; compare each with its neighbour.
-    let slope = |cell: f64| surface.gradient([(cell + 0.5) * length, 0.0])[0];
-    let largest = slope(rear).abs().max(slope(front - 1.0).abs());
-    let inside = (1..).map(|step| rear + f64::from(step));
-    inside
-        .take_while(|cell| *cell < front)
-        .filter(|cell| cell.abs() > 0.5)
-        .any(|cell| (slope(cell) - slope(cell - 1.0)).abs() > MIN_EDGE_JUMP * largest)
+
+    /// Jumps of the slope between two cells away from the lowest point, as fractions of the steeper one of the slopes at both ends.
+    fn relative_jumps(&self) -> impl Iterator<Item = f64> {
+        let ends = [self.slopes.first(), self.slopes.last()];
+        let steepest = ends
+            .into_iter()
+            .flatten()
+            .fold(0.0, |steepest: f64, slope| steepest.max(slope.abs()));
+        let jumps = self.slopes.windows(2).enumerate();
+        jumps
+            .filter(|(index, _)| index + 1 != self.n_behind)
+            .map(|(_, pair)| pair[1] - pair[0])
+            .filter(|jump| *jump != 0.0)
+            .map(move |jump| jump / steepest)
+    }
+
+    /// Measure [`GridPlan::kinks`] of the cells.
+    fn kinks(&self) -> f64 {
+        let squares = self.relative_jumps().map(|jump| jump.powi(2));
+        squares.sum::<f64>().min(1.0)
+    }
+
+    /// True if the contact lies on a few cells, and the slope jumps between two of them away from the lowest point. Elements then resolve an
+    /// edge like that of a flat end.
+    fn are_visible(&self) -> bool {
+        self.slopes.len() as f64 <= MAX_VISIBLE_CELLS
+            && self.relative_jumps().any(|jump| jump.abs() > MIN_EDGE_JUMP)
+    }
 }
 
 /// Measure [`GridPlan::kinks`] of a body at a `depth` \[m], for the kinks inside its footprint; 0 for surfaces other than bodies of

@@ -391,9 +391,9 @@ impl PressSolution {
         options: GridOptions,
         elements: usize,
     ) -> OnGrid<Self, GridOptions> {
-        let error = match control {
-            Control::NormalForce(_) => self.indentation_depth,
-            Control::IndentationDepth(_) => elements as f64 * self.normal_force,
+        let (target, tolerance_factor) = match control {
+            Control::NormalForce(_) => (self.indentation_depth, 1.0),
+            Control::IndentationDepth(_) => (self.normal_force, elements as f64),
         };
         let n_contact = self.n_contact as f64;
         // Where the pressure is singular, the outline is that of the elements: it is too narrow by the widening of a punch, and their
@@ -412,10 +412,11 @@ impl PressSolution {
             },
             dissipated: None,
             common_error: ErrorParts {
-                iteration: Some(options.contact.tolerance * error),
+                iteration: Some(options.contact.tolerance * tolerance_factor * target),
                 ..ErrorParts::NONE
             },
-            min_relative_error: BOUNDARY_ERROR_FACTOR * n_contact.powf(-0.75) + edge_error,
+            target_uncertainty: (BOUNDARY_ERROR_FACTOR * n_contact.powf(-0.75) + edge_error)
+                * target.abs(),
             area_uncertainty: self.contact_area_uncertainty + self.edge_singularity * excess,
             area_order: Some(PRESSED_AREA_ORDER),
             spacing: options.spacing[0],

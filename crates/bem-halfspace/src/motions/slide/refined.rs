@@ -288,7 +288,11 @@ impl<'a> PlannedSlide<'a> {
                 truncation: end.truncation,
                 ..ErrorParts::NONE
             },
-            min_relative_error: 0.0,
+            target_uncertainty: if self.creep.is_elastic() {
+                0.0
+            } else {
+                transient.pressure.friction_uncertainty(self.surface)
+            },
             area_uncertainty: last.contact_area_uncertainty,
             area_order: None,
             spacing: options.spacing[0],
@@ -391,17 +395,11 @@ fn memory_length(elastomer: &dyn Elastomer, load: &SlidingLoad) -> f64 {
 /// A residual ε that alternates from element to element changes the pressure relatively by ε times the number of elements along the
 /// contact, and the friction by the same fraction of the mean modulus of the slope.
 fn iteration_error(surface: &dyn Surface, field: &PressureField) -> f64 {
-    let ([rows, columns], [dx, dy]) = (field.grid.shape(), field.grid.spacing());
     // Pressure-weighted mean of |∂h/∂x|, by chords over elements.
-    let [mut load, mut rise] = [0.0; 2];
-    for (index, pressure) in field.pressure.iter().enumerate() {
-        let x = field.origin[0] + (index / columns) as f64 * dx;
-        let y = field.origin[1] + (index % columns) as f64 * dy;
-        let difference = surface.height([x + 0.5 * dx, y]) - surface.height([x - 0.5 * dx, y]);
-        load += pressure;
-        if *pressure > 0.0 {
-            rise += pressure * (difference / dx).abs();
-        }
-    }
-    ContactOptions::default().tolerance * rows as f64 * (rise / load)
+    let weighted = field.pressure.iter().zip(field.slopes(surface));
+    let rise: f64 = weighted
+        .map(|(pressure, slope)| pressure * slope.abs())
+        .sum();
+    let load: f64 = field.pressure.iter().sum();
+    ContactOptions::default().tolerance * field.grid.shape()[0] as f64 * (rise / load)
 }

@@ -7,7 +7,7 @@ use numerics::{Accuracy, Request, positive};
 use rheology::Material as _;
 
 use crate::estimate::bars::{self, Resolution, Target, peak_has_limit};
-use crate::estimate::plan::{GridPlan, NEGLIGIBLE_KINKS};
+use crate::estimate::plan::GridPlan;
 use crate::estimate::refinement_limits::STATIONARY;
 use crate::stationary::steady::extrapolation::FLAT_END_ORDER;
 use crate::stationary::steady::grid_refinement::{DEFAULT_ASPECT, SteadyProblem, refine};
@@ -191,7 +191,7 @@ fn estimate(
 
         // On given elements assume the order of the sharpest feature: an edge, the apex, or a smooth body.
         let mut resolution = resolution(request, load.control(), has_peak);
-        if plan.kinks > NEGLIGIBLE_KINKS || plan.shows_cells {
+        if plan.has_edges {
             resolution.goal.order = FLAT_END_ORDER;
             resolution.max_dissipation_error_ratio = f64::INFINITY;
         } else {
@@ -201,7 +201,13 @@ fn estimate(
             let options = grid(plan, elements);
             let state = steady_on_grid(surface, elastomer, load, &options)
                 .map_err(|error| with_needed_elements(error, request.accuracy, elements))?;
-            Ok(state.on_grid(&creep, plan.kinks, options, load.sliding_distance()))
+            Ok(state.on_grid(
+                surface,
+                &creep,
+                plan.kinks,
+                options,
+                load.sliding_distance(),
+            ))
         };
         bars::resolve(&resolution, solve, finish)
     })

@@ -2,6 +2,8 @@
 
 use numerics::ErrorParts;
 
+use indenters::Surface;
+
 use crate::BemError;
 use crate::elements::area::boundary_uncertainty;
 use crate::elements::bounds::Bounds;
@@ -76,6 +78,7 @@ impl SteadySliding {
     /// the body in the contact.
     pub(super) fn on_grid(
         self,
+        surface: &dyn Surface,
         creep: &SlidingCreep,
         kinks: f64,
         options: SteadyOptions,
@@ -97,7 +100,7 @@ impl SteadySliding {
                 iteration: Some(self.iteration_error()),
                 ..ErrorParts::discretisation_only(subgrid_friction)
             },
-            min_relative_error: 0.0,
+            target_uncertainty: self.pressure.friction_uncertainty(surface),
             area_uncertainty: self.area_uncertainty(),
             area_order: None,
             spacing: options.spacing[0],
