@@ -49,7 +49,7 @@ pub(crate) fn gcr<T: Real>(
     limits: GcrLimits,
     mut find_direction: impl FnMut(GcrState<'_, T>, &mut [T], &mut [T]) -> bool,
 ) {
-    let [solution_bands, residual_bands] = [blocks_of(solution), blocks_of(residual)];
+    let [solution_blocks, residual_blocks] = [blocks_of(solution), blocks_of(residual)];
     let mut basis: VecDeque<BasisVector<T>> = VecDeque::new();
     let mut recycled: Option<BasisVector<T>> = None;
     let mut stagnant_image: Option<Vec<T>> = None;
@@ -88,10 +88,10 @@ pub(crate) fn gcr<T: Real>(
         });
 
         // Give the direction the same combination of the basis as its image, and move the solution.
-        solution_bands.for_each(
+        solution_blocks.for_each(
             [&mut *solution, &mut new.direction],
-            |band, [solution, direction]| {
-                let elements = solution_bands.elements(band);
+            |row_block, [solution, direction]| {
+                let elements = solution_blocks.elements(row_block);
                 for (factor, vector) in factors.iter().zip(&basis) {
                     add_scaled(direction, *factor, &vector.direction[elements.clone()]);
                 }
@@ -100,10 +100,10 @@ pub(crate) fn gcr<T: Real>(
         );
 
         // Move the residual.
-        residual_square = residual_bands.fold(
-            [(&mut *residual, residual_bands.starts_of_coarse_blocks(1))],
-            |band, [part]| {
-                let elements = residual_bands.elements(band);
+        residual_square = residual_blocks.fold(
+            [(&mut *residual, residual_blocks.starts_of_coarse_blocks(1))],
+            |row_block, [part]| {
+                let elements = residual_blocks.elements(row_block);
                 add_scaled(part, T::rounded(step), &new.image[elements.clone()]);
                 product_of_parts(part, part)
             },
@@ -159,16 +159,16 @@ fn orthogonalise<T: Real>(
 ) -> (Vec<T>, ImageProducts) {
     let mut factors = Vec::with_capacity(basis.len());
     let mut removed_square = 0.0;
-    let bands = blocks_of(image);
+    let row_blocks = blocks_of(image);
     // One pass over memory per vector: remove the component along the vector before, and project onto this one.
     for (index, vector) in basis.iter().enumerate() {
         let before = index
             .checked_sub(1)
             .map(|index| (factors[index], &basis[index].image[..]));
-        let projection = bands.fold(
-            [(&mut *image, bands.starts_of_coarse_blocks(1))],
-            |band, [part]| {
-                let elements = bands.elements(band);
+        let projection = row_blocks.fold(
+            [(&mut *image, row_blocks.starts_of_coarse_blocks(1))],
+            |row_block, [part]| {
+                let elements = row_blocks.elements(row_block);
                 if let Some((factor, image)) = before {
                     add_scaled(part, factor, &image[elements.clone()]);
                 }
@@ -182,10 +182,10 @@ fn orthogonalise<T: Real>(
     }
     // Remove the last component, and form the products of the result.
     let last = factors.last().zip(basis.back());
-    let [square, with_residual] = bands.fold(
-        [(image, bands.starts_of_coarse_blocks(1))],
-        |band, [part]| {
-            let elements = bands.elements(band);
+    let [square, with_residual] = row_blocks.fold(
+        [(image, row_blocks.starts_of_coarse_blocks(1))],
+        |row_block, [part]| {
+            let elements = row_blocks.elements(row_block);
             if let Some((factor, vector)) = last {
                 add_scaled(part, *factor, &vector.image[elements.clone()]);
             }
@@ -208,9 +208,9 @@ pub(crate) fn norm<T: Real>(vector: &[T]) -> f64 {
 
 /// Inner product of two vectors of equal length, in parallel with a fixed order of summation.
 fn inner_product<T: Real>(left: &[T], right: &[T]) -> f64 {
-    let bands = blocks_of(left);
-    bands.sum(|band| {
-        let elements = bands.elements(band);
+    let row_blocks = blocks_of(left);
+    row_blocks.sum(|row_block| {
+        let elements = row_blocks.elements(row_block);
         product_of_parts(&left[elements.clone()], &right[elements])
     })
 }

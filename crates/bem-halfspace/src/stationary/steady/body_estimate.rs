@@ -46,7 +46,7 @@ pub fn steady_memory(
     elements: usize,
 ) -> Result<f64, BemError> {
     let plan = plan_of_grids(surface, elastomer, load)?;
-    let options = grid(&plan, elements);
+    let options = grid_of_plan(&plan, elements);
     // A mirror symmetry halves the unknowns, and saves less of the kernel.
     let solved_fraction = if surface.mirrors()[1] { 0.5 } else { 0.7 };
     Ok(STEADY_BYTES_PER_ELEMENT * solved_fraction * options.footprint.n_elements(options.spacing))
@@ -93,11 +93,14 @@ pub fn steady_grid(
     elements: usize,
 ) -> Result<SteadyOptions, BemError> {
     positive("elements", elements as f64)?;
-    Ok(grid(&plan_of_grids(surface, elastomer, load)?, elements))
+    Ok(grid_of_plan(
+        &plan_of_grids(surface, elastomer, load)?,
+        elements,
+    ))
 }
 
 /// The grid with about `elements` elements along the contact, half as wide as long, in the footprint of a plan.
-fn grid(plan: &GridPlan, elements: usize) -> SteadyOptions {
+fn grid_of_plan(plan: &GridPlan, elements: usize) -> SteadyOptions {
     let dx = plan.length() / elements as f64;
     SteadyOptions::new([dx, DEFAULT_ASPECT * dx], plan.footprint.widened(dx))
 }
@@ -143,7 +146,7 @@ pub fn steady<'w>(
     request: impl Into<Request<'w>>,
 ) -> Result<SteadyEstimate, BemError> {
     let options = RefinementOptions::default();
-    estimate(surface, elastomer, load, &options, request.into())
+    refine_state(surface, elastomer, load, &options, request.into())
 }
 
 /// Like [`steady`], with the aspect ratio of the elements and the limit of the work as options.
@@ -157,12 +160,12 @@ pub fn steady_refined(
     options: &RefinementOptions,
 ) -> Result<SteadyEstimate, BemError> {
     let request = options.relative_error.into();
-    estimate(surface, elastomer, load, options, request)
+    refine_state(surface, elastomer, load, options, request)
 }
 
 /// The stationary state to the relative error of the `request`, which replaces that of the options, or on its number of elements; in a
 /// footprint that grows with the contact.
-fn estimate(
+fn refine_state(
     surface: &dyn Surface,
     elastomer: &dyn Elastomer,
     load: &SlidingLoad,
@@ -198,7 +201,7 @@ fn estimate(
             resolution.goal.order = bars::order_of_friction(plan.apex_exponent, BODY_ORDER);
         }
         let solve = |elements: usize, _: &dyn Fn(f64)| {
-            let options = grid(plan, elements);
+            let options = grid_of_plan(plan, elements);
             let state = steady_on_grid(surface, elastomer, load, &options)
                 .map_err(|error| with_needed_elements(error, request.accuracy, elements))?;
             Ok(state.on_grid(

@@ -203,7 +203,7 @@ impl<'mesh> ContactEquations<'mesh> {
                 let residual_rms = (state.residual_square / n).sqrt();
                 let continues = residual_rms > rms && (residual_rms > max || largest() > max);
                 if continues {
-                    directions.write(state.source, direction, image);
+                    directions.write_direction(state.source, direction, image);
                 }
                 continues
             },
@@ -253,7 +253,7 @@ impl<'a> Directions<'a> {
 
     /// Writes a `direction` of loads x that nearly close the `gaps`, up to the sign, and its `image`, the gaps K x − δ that they
     /// add. The change δ of the depth keeps the prescribed force or depth.
-    fn write(&mut self, gaps: &[f64], direction: &mut [f64], image: &mut [f64]) {
+    fn write_direction(&mut self, gaps: &[f64], direction: &mut [f64], image: &mut [f64]) {
         let control = self.mesh.loading.control;
         // Preconditioned loads, and the depth that restores the control.
         let mut loads = self.preconditioner.approximate_loads(gaps, self.region);

@@ -206,11 +206,11 @@ impl Mesh {
             .retain(|element| origin + element.column as f64 >= 0.0 && has_image(element.column));
         let mut columns = (0..self.shape[1]).rev();
         let last = columns.find(|&column| has_image(column)).unwrap_or(0);
-        self.inner_limits[1] = [self.image(last), last];
+        self.inner_limits[1] = [self.image_column(last), last];
     }
 
     /// Column of the mirror image of `column`.
-    fn image(&self, column: usize) -> usize {
+    fn image_column(&self, column: usize) -> usize {
         // The distance between the two is an integer, because the phase is 0 or 1/2.
         let distance = 2.0 * (self.origin[1] + column as f64);
         column - whole_part(distance.round())
@@ -220,7 +220,7 @@ impl Mesh {
     fn has_image(&self, element: &Element) -> bool {
         match self.mirror {
             Mirror::None => false,
-            Mirror::Centre => self.image(element.column) != element.column,
+            Mirror::Centre => self.image_column(element.column) != element.column,
             Mirror::Edge => true,
         }
     }
@@ -243,7 +243,7 @@ impl Mesh {
         direct
             + self
                 .table
-                .displacement(rows, to.column - self.image(from.column))
+                .displacement(rows, to.column - self.image_column(from.column))
     }
 
     /// Creep under the unit load of an element within the element. It is greater than zero, while the displacement itself has an
@@ -272,7 +272,7 @@ impl Mesh {
     pub(super) fn indices(&self, element: usize) -> [[usize; 2]; 2] {
         let Element { row, column, .. } = self.elements[element];
         let has_image = self.has_image(&self.elements[element]);
-        let image = has_image.then(|| self.image(column));
+        let image = has_image.then(|| self.image_column(column));
         [[row, column], [row, image.unwrap_or(column)]]
     }
 
@@ -282,14 +282,15 @@ impl Mesh {
         let neighbours = elements.iter().flat_map(|element| {
             let Element { row, column, .. } = self.elements[*element];
             let columns = column.saturating_sub(1)..=column + 1;
-            (row.saturating_sub(1)..=row + 1).flat_map(move |row| self.in_row(row, columns.clone()))
+            (row.saturating_sub(1)..=row + 1)
+                .flat_map(move |row| self.candidates_in_row(row, columns.clone()))
         });
         let found: BTreeSet<usize> = neighbours.collect();
         found.into_iter().collect()
     }
 
     /// Indices of the candidates of a row within a range of columns; candidates are numbered row by row.
-    fn in_row(&self, row: usize, columns: RangeInclusive<usize>) -> Range<usize> {
+    fn candidates_in_row(&self, row: usize, columns: RangeInclusive<usize>) -> Range<usize> {
         let [first, last] = [*columns.start(), columns.end() + 1].map(|column| {
             self.elements
                 .partition_point(|element| (element.row, element.column) < (row, column))
@@ -377,7 +378,7 @@ impl Mesh {
     pub(super) fn mean_gap_difference(&self, loads: &[f64], gaps: &[f64]) -> f64 {
         // Gap of a neighbour, 0 if it is loaded or no candidate.
         let gap = |row: usize, column: usize| {
-            let neighbour = self.in_row(row, column..=column).next();
+            let neighbour = self.candidates_in_row(row, column..=column).next();
             let open = neighbour.filter(|one| loads[*one] <= 0.0);
             open.map_or(0.0, |one| gaps[one])
         };

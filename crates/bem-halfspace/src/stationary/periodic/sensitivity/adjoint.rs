@@ -125,7 +125,7 @@ impl<'a> Adjoint<'a> {
         // Displacements and fields that the gradients share.
         let (pressure, total) = (self.pressure, self.total);
         let shares: Vec<f64> = pressure.iter().map(|pressure| pressure / total).collect();
-        let lifted = self.unit_compliance_response(pressure);
+        let unit_response = self.unit_compliance_response(pressure);
         let [none, mut by_pressures, mut slopes] = [0; 3].map(|_| vec![0.0; pressure.len()]);
 
         // The friction is the mean dissipation under the load, or the mean slope of the pressure times the displacement.
@@ -137,11 +137,11 @@ impl<'a> Adjoint<'a> {
         }
         kernel.slopes(pressure, &mut slopes);
         slopes.iter_mut().for_each(|slope| *slope /= total);
-        let mut friction = self.gradient(&none, &by_pressures, slopes, &lifted)?;
+        let mut friction = self.gradient(&none, &by_pressures, slopes, &unit_response)?;
         friction.by_log_wave_numbers = mean;
 
         // The depth is that of the mean plane, and contains the mean displacement of a layer.
-        let mut depth = self.gradient(&shares, &none, Vec::new(), &lifted)?;
+        let mut depth = self.gradient(&shares, &none, Vec::new(), &unit_response)?;
         let n = pressure.len() as f64;
         depth
             .by_height
@@ -153,24 +153,28 @@ impl<'a> Adjoint<'a> {
             friction_coefficient: friction,
             indentation_depth: Some(depth),
             normal_force: None,
-            contact_area: Some(self.area_gradient(&shares, &lifted)?),
+            contact_area: Some(self.area_gradient(&shares, &unit_response)?),
         })
     }
 
     /// Displacements under loads less their mean, for a compliance of 1 in each row: waves are multiplied by M/|q|.
     fn unit_compliance_response(&mut self, loads: &[f64]) -> Vec<f64> {
-        let mut lifted = vec![0.0; loads.len()];
+        let mut response = vec![0.0; loads.len()];
         let mean = mean(loads);
         let without_mean: Vec<f64> = loads.iter().map(|load| load - mean).collect();
         self.waves
-            .apply(&without_mean, &mut lifted, |_, [_, q]| q.recip().into());
-        lifted
+            .apply(&without_mean, &mut response, |_, [_, q]| q.recip().into());
+        response
     }
 
     /// The gradient of the logarithm of the area, from loads and gaps at the contact boundary (`elements/contact_boundary.rs`).
     ///
-    /// `shares` are the pressures over their sum, and `lifted` the displacements under them for a compliance of 1 in each row.
-    fn area_gradient(&mut self, shares: &[f64], lifted: &[f64]) -> Result<Gradient, BemError> {
+    /// `shares` are the pressures over their sum, and `unit_response` the displacements under them for a compliance of 1 in each row.
+    fn area_gradient(
+        &mut self,
+        shares: &[f64],
+        unit_response: &[f64],
+    ) -> Result<Gradient, BemError> {
         // Loads in contact, and gaps outside it from the mean height of the contact.
         let n = self.pressure.len();
         let [mut moved, mut heights] = [0; 2].map(|_| vec![0.0; n]);
@@ -189,7 +193,7 @@ impl<'a> Adjoint<'a> {
 
         // The boundary between them.
         kernel.displace(&unit_pressure(n), &mut moved);
-        let bends = [0, 1].map(|axis| second_difference(self.grid.shape(), axis));
+        let differences = [0, 1].map(|axis| second_difference(self.grid.shape(), axis));
         let [dx, dy] = self.grid.spacing();
         let field = BoundaryField {
             shape: self.grid.shape(),
@@ -197,7 +201,7 @@ impl<'a> Adjoint<'a> {
             aspect: dy / dx,
             values: values.collect(),
             inside,
-            second_difference: bends.each_ref().map(|bend| dot(&moved, bend)),
+            second_difference: differences.each_ref().map(|one| dot(&moved, one)),
             unit_depth_response: None,
         };
         let measure = ContactBoundary::new(&field).area;
@@ -215,16 +219,20 @@ impl<'a> Adjoint<'a> {
         }
         let sum: f64 = by_gaps.iter().sum();
         add_scaled(&mut by_gaps, -sum, shares);
-        let mut gradient = self.gradient(&by_gaps, &by_pressures, Vec::new(), lifted)?;
+        let mut gradient = self.gradient(&by_gaps, &by_pressures, Vec::new(), unit_response)?;
 
         // Derivatives by the second difference of the kernel.
-        let mut bend = vec![0.0; n];
+        let mut by_kernel = vec![0.0; n];
         for (axis, by_second_difference) in measure.by_second_difference.iter().enumerate() {
-            add_scaled(&mut bend, by_second_difference / area, &bends[axis]);
+            add_scaled(
+                &mut by_kernel,
+                by_second_difference / area,
+                &differences[axis],
+            );
         }
-        gradient.by_unit_response = self.by_heights(&reversed(&bend, self.grid));
-        let lifted = self.unit_compliance_response(&unit_pressure(n));
-        let by_row = self.by_rows(&gradient.by_unit_response, &lifted)?;
+        gradient.by_unit_response = self.by_heights(&reversed(&by_kernel, self.grid));
+        let unit_response = self.unit_compliance_response(&unit_pressure(n));
+        let by_row = self.by_rows(&gradient.by_unit_response, &unit_response)?;
         for (sum, by_row) in gradient.by_row.iter_mut().zip(by_row) {
             *sum += by_row;
         }
@@ -233,17 +241,17 @@ impl<'a> Adjoint<'a> {
 
     /// The gradient of a quantity with the derivatives `by_pressures`, and explicit ones `by_displacement`.
     ///
-    /// The adjoint loads start from the field `start` and keep its sum. `lifted` has the displacements under the pressures for a
+    /// The adjoint loads start from the field `start` and keep its sum. `unit_response` has the displacements under the pressures for a
     /// compliance of 1 in each row.
     fn gradient(
         &mut self,
         start: &[f64],
         by_pressures: &[f64],
         by_displacement: Vec<f64>,
-        lifted: &[f64],
+        unit_response: &[f64],
     ) -> Result<Gradient, BemError> {
         // Adjoint loads of the reversed contact, then the derivatives by heights and compliances that follow from them.
-        let (loads, rise) = self.solve(
+        let (loads, eta) = self.solve(
             reversed(start, self.grid),
             &reversed(by_pressures, self.grid),
         )?;
@@ -251,13 +259,13 @@ impl<'a> Adjoint<'a> {
         let mut by_centre = by_height.clone();
         add_scaled(&mut by_centre, 1.0, &by_displacement);
         Ok(Gradient {
-            by_row: self.by_rows(&by_centre, lifted)?,
+            by_row: self.by_rows(&by_centre, unit_response)?,
             by_height,
             by_displacement,
             by_unit_response: Vec::new(),
             by_uniform_displacement: 0.0,
             by_log_wave_numbers: 0.0,
-            by_pressure: start.len() as f64 * rise,
+            by_pressure: start.len() as f64 * eta,
         })
     }
 
@@ -297,11 +305,11 @@ impl<'a> Adjoint<'a> {
                 let pairs = gap.iter().zip(&self.contact);
                 pairs.filter_map(|(gap, inside)| inside.then_some(*gap))
             };
-            let rise = inside().sum::<f64>() / n_contact;
-            let residual = inside().map(|gap| (gap - rise).powi(2)).sum::<f64>().sqrt();
+            let eta = inside().sum::<f64>() / n_contact;
+            let residual = inside().map(|gap| (gap - eta).powi(2)).sum::<f64>().sqrt();
             let first = *first.get_or_insert(residual);
             if residual <= ADJOINT_TOLERANCE * first {
-                return Ok((loads, rise));
+                return Ok((loads, eta));
             }
             if residual > STAGNATION_RATIO * before {
                 break;
@@ -336,10 +344,10 @@ fn second_difference([rows, columns]: [usize; 2], axis: usize) -> Vec<f64> {
         0 => (columns % (rows * columns), (rows - 1) * columns),
         _ => (1 % columns, columns - 1),
     };
-    let mut bend = unit_pressure(rows * columns);
-    bend[next] -= 0.5;
-    bend[last] -= 0.5;
-    bend
+    let mut coefficients = unit_pressure(rows * columns);
+    coefficients[next] -= 0.5;
+    coefficients[last] -= 0.5;
+    coefficients
 }
 
 /// A row-major field reversed along x: the adjoint contact slides the other way.

@@ -40,7 +40,7 @@ use adjoint::{Adjoint, Gradient, KernelChange, unit_pressure};
 const PERIOD_TOLERANCE: f64 = 1e-9;
 /// Derivatives and error bars from two grids. The derivatives are those on the fine grid, because the elements at the contact boundary
 /// differ from grid to grid without a common order. The error bar is 2.5 times the difference of the grids; the factor is chosen.
-const LIMIT: TwoGridExtrapolation = TwoGridExtrapolation {
+const EXTRAPOLATION: TwoGridExtrapolation = TwoGridExtrapolation {
     correction: 0.0,
     area_correction: 0.0,
     error: 2.5,
@@ -147,7 +147,7 @@ impl PeriodicSensitivity {
         &self,
         surfaces: [&PeriodicSurface; 2],
     ) -> Result<Change<Estimate>, BemError> {
-        self.change(|state| state.between_surfaces(surfaces))
+        self.with_error(|state| state.between_surfaces(surfaces))
     }
 
     /// The change from one material and velocity to another, both near those of the state, on the same base.
@@ -161,7 +161,7 @@ impl PeriodicSensitivity {
     ) -> Result<Change<Estimate>, BemError> {
         let [from, to] = [0, 1].map(|end| Sliding::new(&materials[end], velocities[end]));
         let ends = [from?, to?];
-        self.change(|state| state.between_materials(ends.each_ref()))
+        self.with_error(|state| state.between_materials(ends.each_ref()))
     }
 
     /// The change from one elastomer and velocity to another, including their bases, such as layers of different thickness or
@@ -176,12 +176,12 @@ impl PeriodicSensitivity {
     ) -> Result<Change<Estimate>, BemError> {
         let [from, to] = [0, 1].map(|end| Sliding::new(elastomers[end], velocities[end]));
         let ends = [from?, to?];
-        self.change(|state| state.between_elastomers(ends.each_ref()))
+        self.with_error(|state| state.between_elastomers(ends.each_ref()))
     }
 
     /// The derivative by the mean pressure, per pascal, or by the depth, per metre, whichever is prescribed.
     pub fn by_load(&self) -> Change<Estimate> {
-        LIMIT.limit_of_single(self.fine.by_load(), self.coarse.by_load())
+        EXTRAPOLATION.limit_of_single(self.fine.by_load(), self.coarse.by_load())
     }
 
     /// The derivatives by the logarithms of the storage and of the loss modulus in bands of angular frequencies, as
@@ -196,18 +196,18 @@ impl PeriodicSensitivity {
             let [fine, coarse] = [&self.fine, &self.coarse].map(|one| one.by_moduli(band));
             let ([fine_storage, fine_loss], [storage, loss]) = (fine?, coarse?);
             Ok([
-                LIMIT.limit_of_single(fine_storage, storage),
-                LIMIT.limit_of_single(fine_loss, loss),
+                EXTRAPOLATION.limit_of_single(fine_storage, storage),
+                EXTRAPOLATION.limit_of_single(fine_loss, loss),
             ])
         })
     }
 
-    /// A change of the state with its discretisation error, from the changes `of(state)` on the fine and on the coarse grid.
-    fn change(
+    /// A change of the state with its discretisation error, from the changes `on_grid(state)` on the fine and on the coarse grid.
+    fn with_error(
         &self,
-        of: impl Fn(&State) -> Result<Change<f64>, BemError>,
+        on_grid: impl Fn(&State) -> Result<Change<f64>, BemError>,
     ) -> Result<Change<Estimate>, BemError> {
-        Ok(LIMIT.limit_of_single(of(&self.fine)?, of(&self.coarse)?))
+        Ok(EXTRAPOLATION.limit_of_single(on_grid(&self.fine)?, on_grid(&self.coarse)?))
     }
 }
 
@@ -254,14 +254,15 @@ impl State {
         add_scaled(&mut heights, -1.0, &from);
         let [from, to] = surfaces.map(PeriodicSurface::period);
         if (0..2).all(|axis| from[axis].total_cmp(&to[axis]).is_eq()) {
-            return Ok(self.change(|gradient| dot(&gradient.by_height, &heights)));
+            return Ok(self.total_change(|gradient| dot(&gradient.by_height, &heights)));
         }
         // Stretched elements have another kernel, with the same heights and pressures.
         let [from, to] = [from, to].map(|period| self.stretched_grid(period));
         let (from, to) = (from?, to?);
         let kernel = self.between_kernels([(&self.sliding, &from), (&self.sliding, &to)])?;
-        let change = self
-            .change(|gradient| dot(&gradient.by_height, &heights) + gradient.by_kernel(&kernel));
+        let change = self.total_change(|gradient| {
+            dot(&gradient.by_height, &heights) + gradient.by_kernel(&kernel)
+        });
         let [from, to] = [from, to].map(|grid| grid.element_area());
         let n_elements = self.pressure.len() as f64;
         Ok(Change {
@@ -284,13 +285,13 @@ impl State {
         let [from, to] = ends.map(|end| end.compliances(&self.along_x));
         let (from, to) = (from?, to?);
         let changes: Vec<_> = to.iter().zip(&from).map(|(to, from)| to - from).collect();
-        Ok(self.change(|gradient| gradient.by_compliances(&changes)))
+        Ok(self.total_change(|gradient| gradient.by_compliances(&changes)))
     }
 
     /// The change from one elastomer and velocity to another, by the displacements under the pressures.
     fn between_elastomers(&self, ends: [&Sliding; 2]) -> Result<Change<f64>, BemError> {
         let kernel = self.between_kernels(ends.map(|end| (end, &self.grid)))?;
-        Ok(self.change(|gradient| gradient.by_kernel(&kernel)))
+        Ok(self.total_change(|gradient| gradient.by_kernel(&kernel)))
     }
 
     /// The change from one kernel to another, each that of a material on a grid with the shape of this one.
@@ -339,7 +340,7 @@ impl State {
                 -compliance * compliance * part(compliance.inv())
             });
             let changes: Vec<_> = changes.collect();
-            self.change(|gradient| gradient.by_compliances(&changes))
+            self.total_change(|gradient| gradient.by_compliances(&changes))
         };
         Ok([
             of(|modulus| Complex::new(modulus.re, 0.0)),
@@ -347,10 +348,10 @@ impl State {
         ])
     }
 
-    /// The change of all quantities under the given mean pressure or at the given depth. `of(gradient)` is the change
+    /// The change of all quantities under the given mean pressure or at the given depth. `under_pressure(gradient)` is the change
     /// of one quantity under a constant mean pressure.
-    fn change(&self, of: impl Fn(&Gradient) -> f64) -> Change<f64> {
-        let change = self.gradients.map(of);
+    fn total_change(&self, under_pressure: impl Fn(&Gradient) -> f64) -> Change<f64> {
+        let change = self.gradients.map(under_pressure);
         match self.control {
             PeriodicControl::MeanPressure(_) => change,
             PeriodicControl::MeanDepth(_) => change.at_constant_depth(&self.by_force()),

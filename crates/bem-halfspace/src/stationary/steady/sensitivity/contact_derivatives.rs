@@ -119,9 +119,9 @@ impl ContactDerivatives {
         let has_depth = loading.creep.fluidity() <= 0.0 && loading.strip.is_none();
         let mut gradients = Change {
             friction_coefficient: system.gradient(&adjoint[0], points.slope_unit()),
-            indentation_depth: has_depth.then(|| system.depth(loading.depth_scale)),
+            indentation_depth: has_depth.then(|| system.depth_gradient(loading.depth_scale)),
             normal_force: None,
-            contact_area: measures.map(|[area, _]| system.measure(&adjoint[2], area)),
+            contact_area: measures.map(|[area, _]| system.measure_gradient(&adjoint[2], area)),
         };
         let by_slope_term = contact.with_images(&contact.loads).into_iter();
         let slope_factor = points.slope_unit() / contact.total;
@@ -139,7 +139,8 @@ impl ContactDerivatives {
             friction_coefficient: friction.value * points.slope_unit(),
             points,
             gradients,
-            boundary_weight: measures.map(|[_, weight]| system.measure(&adjoint[3], weight)),
+            boundary_weight: measures
+                .map(|[_, weight]| system.measure_gradient(&adjoint[3], weight)),
             control: loading.control,
             normal_force: system.force_per_load * contact.total,
             depth: loading.depth_scale * solution.depth,
@@ -242,10 +243,10 @@ impl ContactDerivatives {
         }
     }
 
-    /// The change of all quantities under the given force or at the given depth. `of(gradient)` is the change of one
+    /// The change of all quantities under the given force or at the given depth. `on_fixed_elements(gradient)` is the change of one
     /// quantity on fixed elements under a constant force.
-    pub(super) fn total_change(&self, of: impl Fn(&Gradient) -> f64) -> Change<f64> {
-        let under_force = self.under_force(of);
+    pub(super) fn total_change(&self, on_fixed_elements: impl Fn(&Gradient) -> f64) -> Change<f64> {
+        let under_force = self.under_force(on_fixed_elements);
         match self.control {
             Control::NormalForce(_) => under_force,
             Control::IndentationDepth(_) => {
@@ -256,8 +257,8 @@ impl ContactDerivatives {
 
     /// The change of each quantity under a constant force: that on fixed elements plus the effect of the moving contact boundary. The
     /// latter is −R times the change of the boundary weight over that by dilation, with the defects R of the scaling identity.
-    fn under_force(&self, of: impl Fn(&Gradient) -> f64) -> Change<f64> {
-        let fixed = self.gradients.map(&of);
+    fn under_force(&self, on_fixed_elements: impl Fn(&Gradient) -> f64) -> Change<f64> {
+        let fixed = self.gradients.map(&on_fixed_elements);
         let Some((dilation, weight)) = self.dilation.as_ref().zip(self.boundary_weight.as_ref())
         else {
             return Change {
@@ -266,7 +267,7 @@ impl ContactDerivatives {
             };
         };
         // Growth of the contact in units of ln λ.
-        let growth = of(weight) / dilation.boundary_weight;
+        let growth = on_fixed_elements(weight) / dilation.boundary_weight;
         let defects = &dilation.defects;
         let depth = fixed.indentation_depth.zip(defects.indentation_depth);
         let area = fixed.contact_area;
@@ -301,13 +302,13 @@ impl BorderedSystem<'_> {
     }
 
     /// The gradient of the depth, \[m].
-    fn depth(&self, depth_scale: f64) -> Gradient {
+    fn depth_gradient(&self, depth_scale: f64) -> Gradient {
         let no_loads = vec![0.0; self.unit_depth.len()];
         self.with_depth_response(&no_loads, self.stiffness.recip(), depth_scale)
     }
 
     /// The gradient of a measure of the contact, its area or boundary weight, which also depends on the kernel explicitly.
-    fn measure(&self, adjoint: &[f64], measure: &BoundaryDerivatives) -> Gradient {
+    fn measure_gradient(&self, adjoint: &[f64], measure: &BoundaryDerivatives) -> Gradient {
         let mut gradient = self.gradient(adjoint, 1.0);
         let by_second_difference = measure.by_second_difference;
         gradient

@@ -301,13 +301,13 @@ impl GridKernel {
         let flow = self.creep.flow_per_length * self.spacing;
         if band[0] <= 0.0 && flow > 0.0 {
             let by_log_moduli = [Complex::default(), Complex::from(-0.5 * flow)];
-            waves.add(&mut kernels, UNIFORM_WAVE_NUMBER * ends[1], by_log_moduli);
+            waves.add_wave(&mut kernels, UNIFORM_WAVE_NUMBER * ends[1], by_log_moduli);
         }
         // All other waves.
         for [wave_number, weight] in waves.nodes(ends) {
             let by_log_moduli = self.by_log_moduli(wave_number)?;
             let amplitudes = by_log_moduli.map(|derivative| derivative * (weight / PI));
-            waves.add(&mut kernels, wave_number, amplitudes);
+            waves.add_wave(&mut kernels, wave_number, amplitudes);
         }
         Ok(kernels)
     }

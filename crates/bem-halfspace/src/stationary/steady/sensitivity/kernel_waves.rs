@@ -72,7 +72,7 @@ impl KernelWaves<'_> {
     }
 
     /// Adds the wave of a wave number, in 1/Δx, to two kernels, each with its factor of `amplitudes` on the wave of a unit compliance.
-    pub(super) fn add(
+    pub(super) fn add_wave(
         &self,
         kernels: &mut [KernelTable; 2],
         wave_number: f64,
@@ -80,7 +80,7 @@ impl KernelWaves<'_> {
     ) {
         let half = 0.5 * wave_number;
         let mean = half.sin() / half;
-        let along_y = self.along_y(wave_number, self.max_offsets[1]);
+        let along_y = self.factors_along_y(wave_number, self.max_offsets[1]);
         for (kernel, amplitude) in kernels.iter_mut().zip(amplitudes) {
             let along_x = |offset: isize| {
                 let x = offset as f64 + self.collocation_shift;
@@ -91,7 +91,7 @@ impl KernelWaves<'_> {
     }
 
     /// The integral factor of k̂(q, y), without sin(q/2)/(q/2), at the distances y of the columns 0 to `columns`.
-    fn along_y(&self, q: f64, columns: usize) -> Vec<f64> {
+    fn factors_along_y(&self, q: f64, columns: usize) -> Vec<f64> {
         let half = 0.5 * self.aspect;
         if columns == 0 && half >= self.base.influence_radius() {
             // In plane strain an element is longer than the influence radius.

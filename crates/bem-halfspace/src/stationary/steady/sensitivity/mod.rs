@@ -233,12 +233,12 @@ impl SteadySensitivity {
         self.limit(|grids| grids.to_elastomer(&creep))
     }
 
-    /// The extrapolated limit of a change, from the changes `of(grids)` on the shifted fine and coarse grids.
+    /// The extrapolated limit of a change, from the changes `on_grids(grids)` on the shifted fine and coarse grids.
     fn limit(
         &self,
-        of: impl Fn(&SensitivityOnGrid) -> Result<Vec<Change<f64>>, BemError>,
+        on_grids: impl Fn(&SensitivityOnGrid) -> Result<Vec<Change<f64>>, BemError>,
     ) -> Result<Change<Estimate>, BemError> {
-        Ok(limit(of(&self.fine)?, of(&self.coarse)?))
+        Ok(limit(on_grids(&self.fine)?, on_grids(&self.coarse)?))
     }
 
     /// The extrapolated friction coefficient.
@@ -382,10 +382,12 @@ impl SensitivityOnGrid {
         Ok(mean_over_shifts(changes).friction_coefficient.mean)
     }
 
-    /// The change on each grid; `of(gradient)` is that of one quantity on fixed elements under a constant force.
-    fn changes(&self, of: impl Fn(&Gradient) -> f64) -> Vec<Change<f64>> {
+    /// The change on each grid; `on_fixed_elements(gradient)` is that of one quantity on fixed elements under a constant force.
+    fn changes(&self, on_fixed_elements: impl Fn(&Gradient) -> f64) -> Vec<Change<f64>> {
         let contacts = self.contacts.iter();
-        contacts.map(|contact| contact.total_change(&of)).collect()
+        contacts
+            .map(|contact| contact.total_change(&on_fixed_elements))
+            .collect()
     }
 
     /// The derivative by the given force or depth on each grid.
