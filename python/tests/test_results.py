@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import math
 import pickle
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,7 @@ import pytest
 from conftest import ROOT
 
 import viscofriction as vf
+from viscofriction._results import QUANTITIES
 
 SPEEDS = np.logspace(-3, 1, 5)
 SOLID = vf.StandardSolid(1e6, 1e7, 1e4)
@@ -39,6 +41,52 @@ def test_every_printed_quantity_is_an_attribute() -> None:
         answer["friction"]
     with pytest.raises(AttributeError):
         _ = answer.friction
+
+
+WAVES: dict[str, Any] = {"period": (1e-3, 1e-3), "hurst_exponent": 0.8, "rms_slope": 0.1}
+WAVES |= {"longest_wavelength": 1e-3, "shortest_wavelength": 2.5e-4, "seed": 1}
+ROUGH = vf.SelfAffine(**WAVES)
+#: Every kind of answer, with quantities that it has beside force or pressure.
+KINDS: dict[str, tuple[Callable[[], vf.Answer], set[str]]] = {
+    "pressed": (lambda: vf.press(vf.Sphere(5e-3), vf.Elastic(1e6), normal_force=1.0), {"contact_area", "indentation_depth"}),
+    "line": (lambda: vf.slide(vf.Sphere(5e-3), SOLID, normal_force=1.0, velocity=0.1, model="line"), {"friction_coefficient"}),
+    "cycle": (
+        lambda: vf.move(vf.Cone(0.1), SOLID, normal_force=1.0, stroke=1e-2, frequency=1.0, model="line", relative_error=0.05),
+        {"friction_coefficient", "peak_friction", "dissipated_energy"},
+    ),
+    "rough": (
+        lambda: vf.slide(ROUGH, SOLID, mean_pressure=1e5, velocity=1e-3, relative_error=0.1),
+        {"friction_coefficient", "area_fraction", "mean_pressure", "friction_from_dissipation", "contact_area"},
+    ),
+    "realisations": (
+        lambda: vf.slide(vf.SelfAffine(**WAVES, realisations=2), SOLID, mean_pressure=1e5, velocity=1e-3, relative_error=0.1),
+        {"friction_coefficient", "area_fraction", "mean_pressure"},
+    ),
+}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_kind_of_answer_has_its_quantities_as_attributes(kind: str) -> None:
+    solve, expected = KINDS[kind]
+    answer = solve()
+    printed = {line.split(":")[0].strip() for line in repr(answer).splitlines()[1:] if not line.strip().startswith("warning")}
+    known = {name for name in QUANTITIES if getattr(answer, name) is not None}
+    assert expected <= known <= printed, printed
+    for name in QUANTITIES:
+        value, error = getattr(answer, name), getattr(answer, f"{name}_error")
+        assert (value is None) == (error is None) == math.isnan(answer[name]), name
+        assert value is None or (value, error) == (answer[name], answer[f"{name}_error"])
+    plain = answer.to_dict()
+    assert all(plain[name] == getattr(answer, name) for name in known)
+
+
+def test_a_sweep_has_columns_of_the_printed_names() -> None:
+    scene = {"indenter": vf.Cone(0.1), "material": vf.Viscous(1e4), "load": {"normal_force": 1.0, "velocity": 0.1}}
+    table = vf.sweep(scene, {"load.velocity": [0.1, 0.2]})
+    answer = vf.slide(vf.Cone(0.1), vf.Viscous(1e4), normal_force=1.0, velocity=[0.1, 0.2])
+    for name in QUANTITIES:
+        assert np.array_equal(table[name], answer[name], equal_nan=True), name
+        assert np.array_equal(table[f"{name}_error"], answer[f"{name}_error"], equal_nan=True), name
 
 
 def test_units_of_a_cylinder_are_per_length() -> None:
