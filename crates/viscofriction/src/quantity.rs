@@ -190,8 +190,17 @@ impl Quantity {
 
     /// Name, symbol and unit as at the axis of a picture, such as "contact area A \[m²]"; the unit is that of a finite body.
     pub fn label(&self) -> String {
+        self.label_with(self.unit.of_body)
+    }
+
+    /// The same with the unit for a cylinder, whose forces, areas and energies are per length.
+    pub fn label_of_cylinder(&self) -> String {
+        self.label_with(self.unit.of_cylinder)
+    }
+
+    fn label_with(&self, unit: &str) -> String {
         let symbol = self.symbol;
-        let unit = match self.unit.of_body {
+        let unit = match unit {
             "" => String::new(),
             unit => format!("[{unit}]"),
         };

@@ -27,7 +27,7 @@ pub(crate) use file::TableFile;
 use file::{Existing, RowTable, SweepFile, checked, line};
 use measured::Measured;
 use picture::PictureFiles;
-pub(crate) use picture::{beside, labelled};
+pub(crate) use picture::{beside, labelled, labelled_in};
 use samples::Samples;
 
 /// Arguments of the command.

@@ -18,7 +18,12 @@ use crate::output::{OutputFile, eprint_line, folder_of, name_of, picture, remove
 use crate::run::range_with_zero;
 
 /// Keys of the quantities that may be drawn, in order of preference.
-const DRAWN: [&str; 3] = [FRICTION, "indentation_depth", "normal_force"];
+const DRAWN: [&str; 4] = [
+    FRICTION,
+    "indentation_depth",
+    "normal_force",
+    "contact_area",
+];
 /// Column of the friction coefficient.
 pub(super) const FRICTION: &str = "friction_coefficient";
 /// Range of the steps between values, over the largest step, up to which they count as equal (chosen, above rounding); for
@@ -96,7 +101,9 @@ impl PictureFiles {
         measured: Option<&Measured>,
         scene: Option<&str>,
     ) -> Result<()> {
-        let drawn = figure(table, measured).and_then(|figure| Ok((picture(&figure)?, figure)));
+        let is_per_length = is_cylinder(table, scene);
+        let drawn = figure(table, measured, is_per_length)
+            .and_then(|figure| Ok((picture(&figure)?, figure)));
         let figure = match drawn {
             Ok(((svg, png), figure)) => {
                 let fingerprint = table.rows.first().map_or("", |row| &row.fields[0]);
@@ -140,14 +147,20 @@ fn signature(fingerprint: &str) -> String {
 }
 
 /// The figure of the rows, or the reason why there is none.
-fn figure(table: &RowTable, measured: Option<&Measured>) -> Result<Figure> {
+fn figure(table: &RowTable, measured: Option<&Measured>, is_per_length: bool) -> Result<Figure> {
     if let Some(samples) = Samples::of(table) {
         return Ok(samples.figure());
     }
     let values = |name: &str| table.numbers(name);
     let is_known = |name: &str| values(name).iter().any(Option::is_some);
     let mut keys = keys(table)?;
+    // A key that varies is no result.
+    let varies = |name: &str| {
+        let mut names = keys.iter().map(|key| key.name.rsplit('.').next());
+        names.any(|last| last == Some(name))
+    };
     let is_drawn = |name: &str| match name {
+        _ if varies(name) => false,
         "indentation_depth" => {
             let forces = sorted(values("normal_force").into_iter().flatten());
             forces.len() < 2 || keys.iter().any(|key| key.name == "load.normal_force")
@@ -162,7 +175,8 @@ fn figure(table: &RowTable, measured: Option<&Measured>) -> Result<Figure> {
         bail!("no point has a friction coefficient, which was measured");
     }
     let drawn = Drawn {
-        label: quantity.label(),
+        label: labelled_in(name, is_per_length),
+        is_per_length,
         values: values(name),
         errors: values(&format!("{name}_error")),
         of_material: values(&format!("{name}_material_error")),
@@ -170,7 +184,7 @@ fn figure(table: &RowTable, measured: Option<&Measured>) -> Result<Figure> {
         theory: values(&format!("persson_{name}_2006")),
     };
     let over = keys.remove(abscissa(&keys).context("no key that varies has numbers")?);
-    let curves = Curves::new(&keys, table.rows.len());
+    let curves = Curves::new(&keys, table.rows.len(), is_per_length);
     match &keys[..] {
         _ if curves.labels.len() <= MAX_CURVES => {
             let points = measured.map_or(Vec::new(), |measured| {
@@ -269,21 +283,14 @@ struct Curves {
 
 impl Curves {
     /// Groups the rows; labels beyond one more than [`MAX_CURVES`] are not stored.
-    fn new(keys: &[Key<'_>], rows: usize) -> Self {
+    fn new(keys: &[Key<'_>], rows: usize, is_per_length: bool) -> Self {
         let (mut labels, mut of) = (Vec::new(), Vec::new());
         let keys: Vec<(&str, Vec<String>)> =
             keys.iter().map(|key| (key.name, key.shown())).collect();
         for row in 0..rows {
             let value = |(name, shown): &(&str, Vec<String>)| {
                 let name = name.rsplit('.').next().unwrap_or(name);
-                let (label, value) = (labelled(name), &shown[row]);
-                match label
-                    .strip_suffix(']')
-                    .and_then(|label| label.split_once(" ["))
-                {
-                    Some((quantity, unit)) => format!("{quantity} = {value} {unit}"),
-                    None => format!("{label} = {value}"),
-                }
+                entry(&labelled_in(name, is_per_length), name, &shown[row])
             };
             let label = keys.iter().map(value).collect::<Vec<_>>().join(", ");
             let known = labels.iter().position(|known| *known == label);
@@ -296,10 +303,31 @@ impl Curves {
     }
 }
 
+/// Entry of the legend for a value of a key with a label: a word that needs no key, else the symbol, or the whole label without
+/// one, with the value and its unit.
+fn entry(label: &str, name: &str, value: &str) -> String {
+    match (name, value) {
+        ("model", "line") => return "one-dimensional".to_owned(),
+        ("model", "half-space") => return "half space".to_owned(),
+        ("model" | "method", _) => return value.to_owned(),
+        _ => (),
+    }
+    let parts = label.strip_suffix(']');
+    let (quantity, unit) = parts
+        .and_then(|label| label.split_once(" ["))
+        .unwrap_or((label, ""));
+    let last = quantity.rsplit(' ').next().unwrap_or(quantity);
+    let is_symbol = last.chars().nth(1).is_none() || last.chars().nth(1) == Some('_');
+    let shown = if is_symbol { last } else { quantity };
+    format!("{shown} = {value} {unit}").trim_end().to_owned()
+}
+
 /// The drawn quantity, by row.
 struct Drawn {
     /// Axis label.
     label: String,
+    /// Whether forces are per length, as for a cylinder.
+    is_per_length: bool,
     /// Values by row; `None` for a row without the quantity.
     values: Vec<Option<f64>>,
     /// Absolute errors by row.
@@ -338,7 +366,7 @@ impl Drawn {
             ..Series::line(points, line(Dash::Solid), Colour::Blue)
         };
         let theory = known(&self.theory).into_iter().map(|(_, point)| point);
-        let theory = Series::line(theory.collect(), line(Dash::Dashed), Colour::Blue);
+        let theory = Series::reference(theory.collect(), Dash::Dashed, Colour::Blue);
         [computed, theory]
     }
 }
@@ -397,7 +425,8 @@ fn chart(over: &Key, curves: &Curves, drawn: &Drawn, measured: Vec<Series>) -> F
             "" => is_labelled.then(|| "computed".to_owned()),
             name => Some(name.to_owned()),
         };
-        theory.label = (curve + 1 == curves.labels.len()).then(|| "Persson (2006)".to_owned());
+        let is_last = curve + 1 == curves.labels.len();
+        theory.label = is_last.then(|| "theory, Persson (2006)".to_owned());
         let is_seen = |one: &Series| one.points.len() > usize::from(one.marker.is_none());
         series.extend([computed, theory].into_iter().filter(is_seen));
     }
@@ -407,12 +436,13 @@ fn chart(over: &Key, curves: &Curves, drawn: &Drawn, measured: Vec<Series>) -> F
         .copied()
         .chain(measured.iter().flat_map(abscissae));
     let x = axis(
-        over.name,
+        &labelled_in(over.name, drawn.is_per_length),
         &sorted(of_axis.iter().copied()),
         range_of(&sorted(all)),
     );
     series.extend(measured);
-    let ends = series.iter().flat_map(|one| {
+    let data = series.iter().filter(|one| !one.is_reference);
+    let ends = data.flat_map(|one| {
         let or_none = |lengths: &[f64], place: usize| lengths.get(place).copied().unwrap_or(0.0);
         let length = move |place| or_none(&one.errors, place).max(or_none(&one.band, place));
         let points = one.points.iter().enumerate();
@@ -437,15 +467,15 @@ fn abscissae(series: &Series) -> impl Iterator<Item = f64> {
 
 /// An axis between two ends with a margin, so that no marker is cut; logarithmic for computed places with equal factors or in a
 /// wide range.
-fn axis(key: &str, places: &[f64], [low, high]: [f64; 2]) -> Axis {
+fn axis(label: &str, places: &[f64], [low, high]: [f64; 2]) -> Axis {
     let [first, last] = range_of(places);
     let is_wide = first > 0.0 && last / first >= MIN_LOGARITHMIC_RATIO;
     if last >= 2.0 * first && !is_arithmetic(places) && (is_geometric(places) || is_wide) {
         let room = (high / low).powf(AXIS_MARGIN);
-        return Axis::log10(labelled(key), [low / room, high * room]);
+        return Axis::log10(label, [low / room, high * room]);
     }
     let room = AXIS_MARGIN * (high - low);
-    Axis::linear(labelled(key), [low - room, high + room])
+    Axis::linear(label, [low - room, high + room])
 }
 
 /// Margin at each end of an axis, as a fraction of its length (chosen).
@@ -499,6 +529,25 @@ pub(crate) fn labelled(key: &str) -> String {
     }
 }
 
+/// Axis label of a key as [`labelled`], with units per length if the body is a cylinder.
+pub(crate) fn labelled_in(key: &str, is_per_length: bool) -> String {
+    let name = key.rsplit('.').next().unwrap_or(key);
+    match Quantity::named(name).filter(|_| is_per_length) {
+        Some(quantity) => quantity.label_of_cylinder(),
+        None => labelled(key),
+    }
+}
+
+/// True if the body of a sweep is a cylinder, by the scene if it is known, else by a key that varies.
+pub(super) fn is_cylinder(table: &RowTable, scene: Option<&str>) -> bool {
+    let scene = scene.and_then(|text| text.parse::<toml::Table>().ok());
+    let in_scene = scene
+        .as_ref()
+        .and_then(|scene| scene.get("indenter")?.get("cylinder"));
+    let mut keys = table.keys().unwrap_or(0..0);
+    in_scene.is_some() || keys.any(|key| table.header[key].starts_with("indenter.cylinder"))
+}
+
 /// A colour map of a quantity over two keys. An error if the values of a key are not equally spaced.
 fn colour_map([one, other]: [&Key<'_>; 2], drawn: &Drawn) -> Result<Figure> {
     let over = [one, other].map(Key::numbers);
@@ -516,23 +565,30 @@ fn colour_map([one, other]: [&Key<'_>; 2], drawn: &Drawn) -> Result<Figure> {
         let place = place(places[0][column], places[1][row]);
         found.get(&place).copied()
     });
-    let [x, y] = [cells(one.name, &places[0])?, cells(other.name, &places[1])?];
+    let cells = |key: &Key<'_>, places: &[f64]| {
+        cells(
+            key.name,
+            &labelled_in(key.name, drawn.is_per_length),
+            places,
+        )
+    };
+    let [x, y] = [cells(one, &places[0])?, cells(other, &places[1])?];
     Ok(Figure::single(Chart::map(x, y, field.stretched())))
 }
 
-/// An axis whose cells are centred at the values `places` of a key, linear or logarithmic. An error for a single value, and for
+/// An axis whose cells are centred at the values `places` of a key with a label, linear or logarithmic. An error for a single value, and for
 /// values neither at equal steps nor at equal factors.
-fn cells(key: &str, places: &[f64]) -> Result<Axis> {
+fn cells(key: &str, label: &str, places: &[f64]) -> Result<Axis> {
     let (Some(first), Some(last), true) = (places.first(), places.last(), places.len() > 1) else {
         bail!("{key} has only one value");
     };
     let steps = (places.len() - 1) as f64;
     if is_arithmetic(places) {
         let half = 0.5 * (last - first) / steps;
-        Ok(Axis::linear(labelled(key), [first - half, last + half]))
+        Ok(Axis::linear(label, [first - half, last + half]))
     } else if is_geometric(places) {
         let half = (last / first).powf(0.5 / steps);
-        Ok(Axis::log10(labelled(key), [first / half, last * half]))
+        Ok(Axis::log10(label, [first / half, last * half]))
     } else {
         bail!("the values of {key} are neither an equal step nor an equal factor apart")
     }

@@ -6,7 +6,7 @@ use viscofriction::{Estimate, QUANTITIES};
 use viscofriction_plot::Figure;
 
 use super::file::RowTable;
-use super::picture::labelled;
+use super::picture::{is_cylinder, labelled_in};
 use super::samples::Samples;
 use crate::output::markdown;
 use crate::page::Page;
@@ -35,7 +35,14 @@ pub(super) fn page(
         page.table(&samples.table());
     }
     page.heading("The answers");
-    page.table(&rows(table, keys));
+    let is_per_length = is_cylinder(table, scene);
+    page.table(&rows(table, keys, is_per_length));
+    if !known_uncertainties(table).is_empty() {
+        page.paragraph(
+            "Behind ± stands the error of the computation. The standard uncertainty is that of the moduli and of the uncertain \
+             numbers of the scene.",
+        );
+    }
     page.heading("How far to trust them");
     let warnings = each_once(table.rows.iter().map(|row| row.warnings()));
     if warnings.is_empty() {
@@ -46,8 +53,37 @@ pub(super) fn page(
     Ok(page.finish())
 }
 
+/// Columns of theories, and their labels.
+const THEORIES: [(&str, &str); 2] = [
+    (
+        "persson_friction_coefficient_2006",
+        "friction, Persson (2006)",
+    ),
+    (
+        "persson_area_fraction_xu",
+        "area fraction, Xu and others (2024)",
+    ),
+];
+
+/// Columns of standard uncertainties that are known and differ from 0, without errors, and their labels.
+fn known_uncertainties(table: &RowTable) -> Vec<(usize, Option<usize>, String)> {
+    let is_known = |column: usize| {
+        let mut cells = table
+            .rows
+            .iter()
+            .map(|row| row.fields[column].parse::<f64>());
+        cells.any(|cell| cell.is_ok_and(|value| value > 0.0))
+    };
+    let columns = QUANTITIES.iter().filter_map(|quantity| {
+        let column = table.place(&format!("{}_uncertainty", quantity.key));
+        let label = format!("standard uncertainty of {}", quantity.name());
+        Some((column.filter(|&column| is_known(column))?, None, label))
+    });
+    columns.collect()
+}
+
 /// Table of the varied keys and results of each point, and of the failures if there are any.
-fn rows(table: &RowTable, keys: std::ops::Range<usize>) -> comfy_table::Table {
+fn rows(table: &RowTable, keys: std::ops::Range<usize>, is_per_length: bool) -> comfy_table::Table {
     let place = |name: &str| table.place(name);
     let is_known = |column: usize| table.rows.iter().any(|row| !row.fields[column].is_empty());
     let columns = QUANTITIES.iter().filter_map(|quantity| {
@@ -55,12 +91,18 @@ fn rows(table: &RowTable, keys: std::ops::Range<usize>) -> comfy_table::Table {
         Some((
             column,
             place(&format!("{}_error", quantity.key)),
-            quantity.label(),
+            labelled_in(quantity.key, is_per_length),
         ))
     });
+    let theories = THEORIES.iter().filter_map(|(name, label)| {
+        let column = place(name).filter(|&column| is_known(column))?;
+        Some((column, None, (*label).to_owned()))
+    });
+    let columns = columns.chain(known_uncertainties(table)).chain(theories);
     let columns: Vec<(usize, Option<usize>, String)> = columns.collect();
     let failure = place(FAILURE).filter(|&column| is_known(column));
-    let heads = keys.clone().map(|key| labelled(&table.header[key]));
+    let heads = keys.clone();
+    let heads = heads.map(|key| labelled_in(&table.header[key], is_per_length));
     let heads = heads.chain(columns.iter().map(|(_, _, label)| label.clone()));
     let heads = heads.chain(failure.map(|_| "no answer, because".to_owned()));
     let mut shown = markdown(&heads.collect::<Vec<_>>().join(" | "));

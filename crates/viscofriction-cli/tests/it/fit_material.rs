@@ -425,6 +425,9 @@ fn a_sweep_has_the_band_of_the_material() {
     let is_known = errors.len() == 3 && errors.iter().all(|error| *error > 0.0);
     assert!(is_known, "{errors:?}");
     assert!(folder.text("v.svg").contains("fill-opacity"), "a band");
+    let page = folder.text("v.html");
+    let total = "<th>standard uncertainty of friction coefficient</th>";
+    assert!(page.contains(total), "no {total} in {page}");
     // Rows without these columns are those of another sweep.
     folder.ends(
         format!("sweep scene.toml --resume {vary}").as_str(),
