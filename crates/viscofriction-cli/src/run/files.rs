@@ -8,11 +8,12 @@ use viscofriction::npy::to_npy;
 use viscofriction::scene::Source;
 use viscofriction::solve::{Answer, Curve, HistoryRow, Problem};
 
+use super::pictures::Shown;
 use super::{Timed, pictures, report, spectrum};
 use viscofriction_plot::Figure;
 
 use crate::output::{NewFiles, OutputFolder, to_csv};
-use crate::sweep::labelled;
+use crate::sweep::{labelled, labelled_in};
 
 /// Names of all files that an answer may have.
 pub(super) const NAMES: &str = "result.json report.html realisations.csv history.csv history.svg history.png history_over_time.svg history_over_time.png \
@@ -54,7 +55,7 @@ pub(super) fn write(
         let names = format!("seed{}", names.collect::<String>());
         out.write("realisations.csv", &to_csv(&names, rows)?)?;
     }
-    write_pressure(answer, (&out, &mut pictures))?;
+    write_pressure(answer, shown(source, answer)?, (&out, &mut pictures))?;
     write_line(answer, (&out, &mut pictures))?;
     write_history(answer, (&out, &mut pictures))?;
     for (name, figure) in &pictures {
@@ -67,9 +68,27 @@ pub(super) fn write(
     out.finish()
 }
 
+/// What the map of the pressure shows.
+fn shown(source: &Source, answer: &Answer) -> Result<Shown> {
+    let scene = source.table()?;
+    let map = scene
+        .get("indenter")
+        .and_then(|body| body.get("height-map"));
+    let edges = map.and_then(|map| map.get("edges")?.as_str());
+    Ok(match (answer.area_fraction, edges) {
+        (None, _) => Shown::Body,
+        (Some(_), Some("mirrored")) => Shown::Quarter,
+        (Some(_), _) => Shown::Period,
+    })
+}
+
 /// Writes the pressure on the half space as pressure.csv and pressure.npy, row-major with the shape (n_y, n_x), and its
 /// coordinates; and adds its picture.
-fn write_pressure(answer: &Answer, (out, pictures): (&NewFiles<'_>, &mut Pictures)) -> Result<()> {
+fn write_pressure(
+    answer: &Answer,
+    shown: Shown,
+    (out, pictures): (&NewFiles<'_>, &mut Pictures),
+) -> Result<()> {
     let Some(field) = &answer.fields.pressure else {
         return Ok(());
     };
@@ -89,7 +108,7 @@ fn write_pressure(answer: &Answer, (out, pictures): (&NewFiles<'_>, &mut Picture
     out.write("pressure.npy", &to_npy(&pressures, &[y.len(), x.len()]))?;
     out.write("pressure_x.npy", &to_npy(&x, &[x.len()]))?;
     out.write("pressure_y.npy", &to_npy(&y, &[y.len()]))?;
-    pictures.push(("pressure", pictures::pressure(answer, field)?));
+    pictures.push(("pressure", pictures::pressure(answer, field, shown)?));
     Ok(())
 }
 
@@ -130,47 +149,62 @@ fn write_columns(curve: &Curve, out: &NewFiles<'_>) -> Result<()> {
 fn write_motion(answer: &Answer, (out, pictures): (&NewFiles<'_>, &mut Pictures)) -> Result<()> {
     write_columns(&answer.fields.curve, out)?;
     let steps = &answer.fields.motion_steps;
-    let force = labelled("tangential_force");
-    let over = |x: &str, axis: usize| {
-        // Close the loop of a cycle over the position, but not over time.
-        let closes = axis == 1 && answer.dissipated_energy.is_some();
-        let first = steps.first().filter(|_| closes);
-        let points = steps.iter().chain(first);
-        let points = points.map(|step| [step[axis], step[2]]);
-        pictures::curve(x, &force, points.collect())
-    };
-    pictures.push(("motion", over("position x [m]", 1)));
-    pictures.push(("motion_over_time", over("time t [s]", 0)));
+    let force = labelled_in("tangential_force", answer.is_per_length);
+    // Close the loop of a cycle over the position, but not over time.
+    let first = steps.first().filter(|_| answer.dissipated_energy.is_some());
+    let looped = steps.iter().chain(first).map(|step| [step[1], step[2]]);
+    let looped = pictures::directed_curve("position x [m]", &force, looped.collect(), Vec::new());
+    pictures.push(("motion", looped));
+    let over_time = steps.iter().map(|step| [step[0], step[2]]);
+    let over_time = pictures::curve("time t [s]", &force, over_time.collect());
+    pictures.push(("motion_over_time", over_time));
     Ok(())
 }
 
-/// Writes a history: its points with their errors, force over depth if both vary, and the computed quantity over time.
-fn write_curve(curve: &Curve, (out, pictures): (&NewFiles<'_>, &mut Pictures)) -> Result<()> {
+/// Writes a history: its points with their errors, force over depth if both vary, and the computed quantity over time. Its
+/// pictures are curves through the steps between the points where these are known, else the points alone.
+fn write_curve(answer: &Answer, (out, pictures): (&NewFiles<'_>, &mut Pictures)) -> Result<()> {
+    let curve = &answer.fields.curve;
     write_columns(curve, out)?;
-    let times = &curve.times;
+    let steps = &answer.fields.history_steps;
     let known = |name| curve.column(name).map_or(&[][..], |column| &column.values);
     let names = ["normal_force", "indentation_depth"];
-    let ([force, depth], labels) = (names.map(known), names.map(labelled));
+    let ([force, depth], labels) = (
+        names.map(known),
+        names.map(|name| labelled_in(name, answer.is_per_length)),
+    );
+    let [of_force, of_depth] = [&labels[0], &labels[1]];
+    // Steps that are the points need no markers.
+    let has_markers = steps.len() != curve.times.len();
+    let shown = |given: Vec<[f64; 2]>| if has_markers { given } else { Vec::new() };
     let varies = |values: &[Estimate]| values.windows(2).any(|pair| pair[0] != pair[1]);
     if varies(force) && varies(depth) {
-        let points = depth
-            .iter()
-            .zip(force)
-            .map(|(depth, force)| [depth.value, force.value]);
-        let figure = pictures::points(&labels[1], &labels[0], points.collect());
+        let given = depth.iter().zip(force);
+        let given = given
+            .map(|(depth, force)| [depth.value, force.value])
+            .collect();
+        let along = steps.iter().map(|step| [step[1], step[2]]).collect();
+        let figure = if steps.is_empty() {
+            pictures::points(of_depth, of_force, given)
+        } else {
+            pictures::directed_curve(of_depth, of_force, along, shown(given))
+        };
         pictures.push(("history", figure));
     }
     let is_found = depth.iter().any(|depth| depth.error > 0.0);
-    let found = if is_found { depth } else { force };
-    let points = times
-        .iter()
-        .zip(found)
-        .map(|(time, found)| [*time, found.value]);
-    let figure = pictures::points(
-        "time t [s]",
-        &labels[usize::from(is_found)],
-        points.collect(),
-    );
+    let (found, label, column) = if is_found {
+        (depth, of_depth, 1)
+    } else {
+        (force, of_force, 2)
+    };
+    let given = curve.times.iter().zip(found);
+    let given = given.map(|(time, found)| [*time, found.value]).collect();
+    let along = steps.iter().map(|step| [step[0], step[column]]).collect();
+    let figure = if steps.is_empty() {
+        pictures::points("time t [s]", label, given)
+    } else {
+        pictures::curve_through("time t [s]", label, along, shown(given))
+    };
     pictures.push(("history_over_time", figure));
     Ok(())
 }
@@ -181,7 +215,7 @@ fn write_history(answer: &Answer, (out, pictures): (&NewFiles<'_>, &mut Pictures
         return write_motion(answer, (out, pictures));
     }
     if !answer.fields.curve.times.is_empty() {
-        return write_curve(&answer.fields.curve, (out, pictures));
+        return write_curve(answer, (out, pictures));
     }
     let rows = &answer.fields.history;
     if rows.is_empty() {

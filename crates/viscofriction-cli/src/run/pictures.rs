@@ -8,48 +8,145 @@ use viscofriction_plot::{Axis, Chart, Colour, Dash, Field, Figure, Line, Marker,
 /// elements at the edge of the contact, many decades below the others, would determine the scale.
 const DARKEST_LOAD_FRACTION: f64 = 0.01;
 
-/// Map of the pressure, on a logarithmic scale if the peak is unbounded; with an arrow along the motion if the body slides.
-pub(super) fn pressure(answer: &Answer, field: &PressureField) -> Result<Figure> {
-    let shape = field.grid.shape();
-    let range = |axis: usize| {
-        let [origin, spacing] = [field.origin[axis], field.grid.spacing()[axis]];
-        let last = origin + (shape[axis] as f64 - 0.5) * spacing;
-        [origin - 0.5 * spacing, last]
+/// What a map of the pressure shows of its field.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Shown {
+    /// A finite body: the contact, the lowest point as a cross, and an arrow along the motion beside the contact.
+    Body,
+    /// One period of a surface.
+    Period,
+    /// One quarter of the period of a map with its mirror images: the map itself.
+    Quarter,
+}
+
+/// Smallest height over width of a map beside whose colour bar a long label fits (chosen).
+const TALL: f64 = 0.85;
+/// Largest height over width of a map above which a long title fits, and a short one (chosen).
+const WIDE: [f64; 2] = [1.4, 4.0];
+
+/// Map of the pressure, on a logarithmic scale if the peak is unbounded.
+pub(super) fn pressure(answer: &Answer, field: &PressureField, shown: Shown) -> Result<Figure> {
+    let slides = answer.friction_coefficient.is_some();
+    let [columns, rows] = field.grid.shape();
+    let window = match shown {
+        Shown::Body => Window::around_body(field, slides),
+        Shown::Period => Window::of_elements([0..columns, 0..rows]),
+        Shown::Quarter => Window::of_elements([0..columns / 2, 0..rows / 2]),
     };
     let loaded = field.pressure.iter().filter(|pressure| **pressure > 0.0);
     let mut loaded: Vec<f64> = loaded.copied().collect();
     loaded.sort_by(f64::total_cmp);
     let highest = *loaded.last().context("nothing is loaded")?;
-    let (colours, lowest) = if answer.peak_pressure.is_some() {
-        (Axis::linear("pressure P [Pa]", [0.0, highest]), 0.0)
-    } else {
-        let of_darkest = DARKEST_LOAD_FRACTION * loaded.iter().sum::<f64>();
-        let mut load = 0.0;
-        let mut above = loaded.iter().skip_while(|pressure| {
-            load += **pressure;
-            load < of_darkest
-        });
-        let lowest = above
-            .next()
-            .map_or(highest, |lowest| lowest.min(0.4 * highest));
-        (Axis::log10("pressure P [Pa]", [lowest, highest]), lowest)
+    let lowest = match answer.peak_pressure {
+        Some(_) => 0.0,
+        None => darkest(&loaded, highest),
     };
-    let is_cut = loaded[0] < lowest;
-    let pressures = Field::new(shape, colours, |x, y| {
-        let pressure = field.pressure[x * shape[1] + y];
+    let [x, y] = [0, 1].map(|axis| window.range(field, axis));
+    let ratio = (y[1] - y[0]) / (x[1] - x[0]);
+    let label = if loaded[0] < lowest && ratio > TALL {
+        "pressure P, darkest: 1 % of load [Pa]"
+    } else {
+        "pressure P [Pa]"
+    };
+    let colours = match answer.peak_pressure {
+        Some(_) => Axis::linear(label, [lowest, highest]),
+        None => Axis::log10(label, [lowest, highest]),
+    };
+    let pressures = Field::new(window.shape(), colours, |column, row| {
+        let [x, y] = window.element(field, [column, row])?;
+        let pressure = field.pressure[x * rows + y];
         (pressure > 0.0).then(|| pressure.max(lowest))
     });
-    let [x, y] = [range(0), range(1)];
-    let motion = answer.friction_coefficient.map(|_| arrow(x, y, true));
-    // The title does not fit above narrow maps.
-    let has_room = x[1] - x[0] > 0.5 * (y[1] - y[0]);
-    let title = (is_cut && has_room).then(|| "darkest: 1 % of the load".to_owned());
+    let title = match (shown, slides) {
+        (Shown::Body, _) | (Shown::Period, false) => None,
+        (Shown::Period, true) => Some("motion →"),
+        (Shown::Quarter, true) if ratio < WIDE[0] => Some("motion →; one of four mirror images"),
+        (Shown::Quarter, true) => Some("motion →"),
+        (Shown::Quarter, false) => Some("one of four"),
+    };
+    let mut series = Vec::new();
+    if shown == Shown::Body {
+        let cross = Marker::filled(Shape::Plus);
+        // A contact that has moved far away from the lowest point is drawn without it.
+        if [x, y].iter().all(|[from, to]| *from < 0.0 && 0.0 < *to) {
+            series.push(Series::markers(vec![[0.0, 0.0]], cross, Colour::Red));
+        }
+        if slides {
+            series.push(arrow(x, y, true));
+        }
+    }
     let [x, y] = [Axis::linear("x [m]", x), Axis::linear("y [m]", y)];
     Ok(Figure::single(Chart {
-        title,
-        series: motion.into_iter().collect(),
+        title: title.filter(|_| ratio < WIDE[1]).map(str::to_owned),
+        series,
         ..Chart::map(x, y, pressures)
     }))
+}
+
+/// Upper end of the darkest colour of a logarithmic scale; `loaded` are the positive pressures in increasing order.
+fn darkest(loaded: &[f64], highest: f64) -> f64 {
+    let of_darkest = DARKEST_LOAD_FRACTION * loaded.iter().sum::<f64>();
+    let mut load = 0.0;
+    let mut above = loaded.iter().skip_while(|pressure| {
+        load += **pressure;
+        load < of_darkest
+    });
+    let lowest = above.next();
+    lowest.map_or(highest, |lowest| lowest.min(0.4 * highest))
+}
+
+/// Elements of a map, and blank ones around them, as half-open ranges along x and y that may begin below 0.
+struct Window([std::ops::Range<isize>; 2]);
+
+impl Window {
+    /// Some of the elements of a field.
+    fn of_elements(elements: [std::ops::Range<usize>; 2]) -> Self {
+        Self(elements.map(|range| range.start.cast_signed()..range.end.cast_signed()))
+    }
+
+    /// All elements, the lowest point of the body, and below them room for an arrow if the body slides.
+    fn around_body(field: &PressureField, slides: bool) -> Self {
+        let spacing = field.grid.spacing();
+        let [x, mut y] = [0, 1].map(|axis| {
+            let count = field.grid.shape()[axis].cast_signed();
+            #[expect(clippy::cast_possible_truncation, reason = "a number of elements")]
+            let lowest = (-field.origin[axis] / spacing[axis]).round() as isize;
+            // One element beyond the cross keeps it clear of the frame.
+            let margin = 1 + count / 20;
+            let limit = 2 * count;
+            if (-limit..=limit).contains(&lowest) {
+                0.min(lowest - margin)..count.max(lowest + 1 + margin)
+            } else {
+                0..count
+            }
+        });
+        if slides {
+            let below = (y.end - y.start) / 8 + 1;
+            y.start -= below;
+        }
+        Self([x, y])
+    }
+
+    fn shape(&self) -> [usize; 2] {
+        [&self.0[0], &self.0[1]].map(|range| range.clone().count())
+    }
+
+    /// Ends of the window along an axis, \[m].
+    fn range(&self, field: &PressureField, axis: usize) -> [f64; 2] {
+        let [origin, spacing] = [field.origin[axis], field.grid.spacing()[axis]];
+        let place = |element: isize| origin + (element as f64 - 0.5) * spacing;
+        [place(self.0[axis].start), place(self.0[axis].end)]
+    }
+
+    /// Element of the field at a column and a row of the window; `None` for a blank one.
+    fn element(&self, field: &PressureField, [column, row]: [usize; 2]) -> Option<[usize; 2]> {
+        let at = |range: &std::ops::Range<isize>, index: usize, count: usize| {
+            let element = usize::try_from(range.start + index.cast_signed()).ok()?;
+            (element < count).then_some(element)
+        };
+        let [columns, rows] = field.grid.shape();
+        Some([at(&self.0[0], column, columns)?, at(&self.0[1], row, rows)?])
+    }
 }
 
 /// Arrow along +x, the motion, in the lower left corner of a chart with the ranges `x` and `y`; `is_true` if both axes have the
@@ -69,23 +166,57 @@ pub(crate) fn arrow(x: [f64; 2], y: [f64; 2], is_true: bool) -> Series {
     Series::line(points, Line::thick(Dash::Solid), Colour::Black)
 }
 
+/// Arrowheads on a curve over another quantity than time (chosen).
+const ARROWS: usize = 4;
+
+/// A quantity over another as a line, with arrowheads that show in which direction it is passed.
+pub(super) fn directed_curve(
+    x: &str,
+    y: &str,
+    points: Vec<[f64; 2]>,
+    given: Vec<[f64; 2]>,
+) -> Figure {
+    let line = Series::line(points, Line::thick(Dash::Solid), Colour::Blue);
+    let line = Series {
+        arrows: ARROWS,
+        ..line
+    };
+    over(x, y, vec![line, of_points(given)])
+}
+
+/// A quantity over another as a line, with some of its points as markers.
+pub(super) fn curve_through(
+    x: &str,
+    y: &str,
+    points: Vec<[f64; 2]>,
+    given: Vec<[f64; 2]>,
+) -> Figure {
+    let line = Series::line(points, Line::thick(Dash::Solid), Colour::Blue);
+    over(x, y, vec![line, of_points(given)])
+}
+
 /// A figure of a quantity over another as a line; `x` and `y` are the axis labels.
 pub(super) fn curve(x: &str, y: &str, points: Vec<[f64; 2]>) -> Figure {
     let line = Line::thick(Dash::Solid);
-    single_series(x, y, Series::line(points, line, Colour::Blue))
+    over(x, y, vec![Series::line(points, line, Colour::Blue)])
 }
 
 /// A figure of a quantity over another as separate points; `x` and `y` are the axis labels.
 pub(super) fn points(x: &str, y: &str, points: Vec<[f64; 2]>) -> Figure {
-    let marker = Marker::filled(Shape::Circle);
-    single_series(x, y, Series::markers(points, marker, Colour::Blue))
+    over(x, y, vec![of_points(points)])
 }
 
-/// A figure of one series.
-fn single_series(x: &str, y: &str, series: Series) -> Figure {
-    let range = |axis: usize| range_with_zero(series.points.iter().map(|point| point[axis]));
+fn of_points(points: Vec<[f64; 2]>) -> Series {
+    Series::markers(points, Marker::filled(Shape::Circle), Colour::Blue)
+}
+
+/// A figure of those series that have points.
+fn over(x: &str, y: &str, mut series: Vec<Series>) -> Figure {
+    series.retain(|one| !one.points.is_empty());
+    let points = || series.iter().flat_map(|one| &one.points);
+    let range = |axis: usize| range_with_zero(points().map(|point| point[axis]));
     let [x, y] = [Axis::linear(x, range(0)), Axis::linear(y, range(1))];
-    Figure::single(Chart::new(x, y, vec![series]))
+    Figure::single(Chart::new(x, y, series))
 }
 
 /// A range that includes 0 and all values, with a margin of 5 % of its length; [−1, 1] if all are 0.

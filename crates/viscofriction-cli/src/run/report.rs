@@ -228,11 +228,14 @@ const FREQUENCY_HALF_RANGE: f64 = 1e3;
 /// Caption of a picture by the name of its file.
 fn caption(name: &str) -> &'static str {
     match name {
-        "pressure" => "Pressure over the contact.",
+        "pressure" => {
+            "Pressure over the contact. For a finite body the cross is the lowest point, and the arrow points along the motion."
+        }
         "line_load" => "Load per length along the line of the one-dimensional model.",
         "line_pressure" => "Pressure along the middle of the contact.",
-        "motion" => "Tangential force over the position.",
+        "motion" => "Tangential force over the position; the arrowheads follow the motion.",
         "motion_over_time" => "Tangential force over time.",
+        "history" => "Force over depth; the arrowheads follow the time.",
         "history_over_time" => "The quantity that was found, over time.",
         "spectral_sensitivity" => {
             "Above: storage and loss modulus of the material. Below: what one per cent more of either changes of the friction, \

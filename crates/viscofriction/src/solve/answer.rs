@@ -172,6 +172,9 @@ pub struct Fields {
     pub history: Vec<HistoryRow>,
     /// Points of the requested history or motion, or of the indentation [since first touch](super::with_fields()).
     pub curve: Curve,
+    /// Steps of an indentation history, with its points among them: time \[s], depth \[m] and force \[N]; empty if only the points are
+    /// known.
+    pub history_steps: Vec<[f64; 3]>,
     /// Steps of a motion: time \[s], position \[m] and tangential force \[N].
     pub motion_steps: Vec<[f64; 3]>,
 }

@@ -3,7 +3,8 @@
 use std::f64::consts::PI;
 
 use friction_analytic::indentation_pressure;
-use mdr_core::{CurvePoint, work_along};
+use indenters::HistoryPoint;
+use mdr_core::{CurvePoint, indent_along, work_along};
 use numerics::Estimate;
 
 use super::analytic::{pressed, stiffness};
@@ -19,6 +20,8 @@ use crate::scene::{Control, Method};
 const N_PLACES: usize = 100;
 /// Error requested of the work along a history, over its largest value (chosen).
 const WORK: f64 = 1e-4;
+/// Smallest number of steps along an indentation history (chosen; output only).
+const N_STEPS: u32 = 160;
 /// Number of intervals in time at which the contact since first touch is evaluated (chosen; output only).
 const N_TIMES: usize = 60;
 
@@ -35,7 +38,9 @@ pub fn with_fields(problem: &Problem, mut answer: Answer) -> Answer {
             if let (Motion::Pressing(load), false) =
                 (problem.motion(), problem.simple() == Some(&Simple::Elastic))
             {
-                answer.fields.curve = mdr::curve_of(&since_touch(problem, body, load.duration()));
+                let points = since_touch(problem, body, load.duration());
+                answer.fields.history_steps = points.iter().map(step).collect();
+                answer.fields.curve = mdr::curve_of(&points);
             }
             pressure_of_revolution(problem, body, &answer)
         }
@@ -51,6 +56,13 @@ pub fn with_fields(problem: &Problem, mut answer: Answer) -> Answer {
     {
         let options = mdr::history_options(problem, WORK);
         let profile = layer::equivalent_profile(problem, body, points).ok();
+        if let Some(profile) = &profile {
+            let steps = subdivided(points);
+            // A picture without these steps shows the points alone.
+            if let Ok(curve) = indent_along(&**profile, problem.material(), &steps, &options) {
+                answer.fields.history_steps = curve.iter().map(step).collect();
+            }
+        }
         let work = profile
             .and_then(|profile| work_along(&*profile, problem.material(), points, &options).ok());
         let column = work.map(|values| CurveColumn {
@@ -60,6 +72,42 @@ pub fn with_fields(problem: &Problem, mut answer: Answer) -> Answer {
         answer.fields.curve.columns.extend(column);
     }
     answer
+}
+
+/// Time, depth and force of a point of a curve.
+fn step(point: &CurvePoint) -> [f64; 3] {
+    let [depth, force] = [point.indentation_depth.value, point.normal_force.value];
+    [point.time, depth, force]
+}
+
+/// A history with intermediate points, in which forces and depths are linear from point to point; jumps stay.
+fn subdivided(points: &[HistoryPoint]) -> Vec<HistoryPoint> {
+    let Some((first, last)) = points.first().zip(points.last()) else {
+        return Vec::new();
+    };
+    let longest = (last.time - first.time) / f64::from(N_STEPS);
+    let mut steps = vec![*first];
+    for pair in points.windows(2) {
+        let duration = pair[1].time - pair[0].time;
+        let (from, to) = (pair[0].control.value(), pair[1].control.value());
+        let parts = whole_parts(duration / longest);
+        steps.extend((1..parts).map(|index| {
+            let part = f64::from(index) / f64::from(parts);
+            HistoryPoint {
+                time: pair[0].time + part * duration,
+                control: pair[0].control.with(from + part * (to - from)),
+            }
+        }));
+        steps.push(pair[1]);
+    }
+    steps
+}
+
+/// Number of parts of an interval, at least 1; `ratio` is its length over that of a part.
+fn whole_parts(ratio: f64) -> u32 {
+    (1..=2 * N_STEPS)
+        .find(|count| f64::from(*count) >= ratio)
+        .unwrap_or(1)
 }
 
 /// The contact at the times duration (k/60)⁴ \[s], dense just after first touch where it changes fastest. Times below those of
