@@ -105,7 +105,7 @@ pub(crate) fn road(options: &Road) -> Result<()> {
     let found = found.map_err(|error| source.locate(&error))?;
     let rows: Vec<Row> = found.iter().map(|one| row(one, &found[0])).collect();
     if let Some(files) = &files {
-        files.write(&rows)?;
+        files.write(&rows, spacing_of_map(&source)?)?;
     }
     print_line(&table(&rows))?;
     let warnings = found.iter().filter_map(CutOff::known);
@@ -127,6 +127,20 @@ pub(crate) fn road(options: &Road) -> Result<()> {
         );
     }
     Ok(())
+}
+
+/// Larger spacing of the points of the height map of a scene, \[m]; `None` for other surfaces.
+fn spacing_of_map(source: &Source) -> Result<Option<f64>> {
+    let Indenter::HeightMap(table) = scene_of(source, None)?.indenter else {
+        return Ok(None);
+    };
+    let memory = half_of_free_memory().unwrap_or(u64::MAX);
+    let file = source.folder().join(&table.file);
+    let contents = read_input(&file, memory)?;
+    let rest = memory.saturating_sub(contents.len() as u64);
+    let map = table.read(&file, &contents, rest);
+    let map = map.map_err(|error| source.locate(&error))?;
+    Ok(Some(map.spacing[0].max(map.spacing[1])))
 }
 
 impl Road {
@@ -230,8 +244,8 @@ impl Files {
     }
 
     /// Replaces the files in an order that never leaves a picture beside the rows of another run.
-    fn write(&self, rows: &[Row]) -> Result<()> {
-        let (svg, png) = drawn(&picture::figure(rows))?;
+    fn write(&self, rows: &[Row], spacing: Option<f64>) -> Result<()> {
+        let (svg, png) = drawn(&picture::figure(rows, spacing))?;
         let names = format!(
             "shortest_wavelength rms_slope {} persson_friction_of_shorter_waves warnings failure",
             NUMBERS.join(" ")

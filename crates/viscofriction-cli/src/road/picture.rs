@@ -7,16 +7,57 @@ use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series
 use super::Row;
 use crate::run::range_with_zero;
 
-/// Friction and area over the shortest wavelength of the surface, each beside a theory.
-pub(super) fn figure(rows: &[Row]) -> Figure {
-    let friction = ("persson_friction_coefficient_2006", "Persson (2006)");
-    let area = ("persson_area_fraction_xu", "Xu (2024)");
-    let friction = chart("friction_coefficient", friction, rows);
-    Figure::new([friction, chart("area_fraction", area, rows)], 2)
+/// Root mean square slope above which linear theory is rough, see docs/road.md.
+const STEEPEST: f64 = 0.5;
+/// Shortest wavelength that an instrument resolves, in points of its map (chosen, see docs/road.md).
+const POINTS_PER_WAVE: f64 = 4.0;
+/// Margin at each end of the wavelengths, as a factor (chosen).
+const ROOM: f64 = 1.25;
+
+/// The figure of a cut-off series; `spacing` is that of the points of a measured map, \[m].
+pub(super) fn figure(rows: &[Row], spacing: Option<f64>) -> Figure {
+    let limits = [
+        (
+            spacing.map(|spacing| POINTS_PER_WAVE * spacing),
+            Dash::Dotted,
+            "4 points of the map",
+        ),
+        (steep_below(rows), Dash::DashDot, "rms slope 0.5"),
+    ];
+    let limits = limits.map(|(length, dash, label)| Limit {
+        length,
+        dash,
+        label,
+    });
+    let friction = (
+        "persson_friction_coefficient_2006",
+        "theory, Persson (2006)",
+    );
+    let area = ("persson_area_fraction_xu", "theory, Xu and others (2024)");
+    let friction = chart("friction_coefficient", friction, rows, &limits);
+    Figure::new([friction, chart("area_fraction", area, rows, &limits)], 2)
+}
+
+/// A wavelength below which results are not valid.
+struct Limit {
+    /// The wavelength, \[m]; `None` if it is not known or not within the series.
+    length: Option<f64>,
+    dash: Dash,
+    label: &'static str,
+}
+
+/// Wavelength at which the rms slope reaches [`STEEPEST`], \[m], interpolated over its logarithm; `None` if no cut-off is steeper.
+fn steep_below(rows: &[Row]) -> Option<f64> {
+    rows.windows(2).find_map(|pair| {
+        let [steep, flat] = [0, 1].map(|place| pair[place].rms_slope - STEEPEST);
+        let ends = [0, 1].map(|place| pair[place].shortest_wavelength.ln());
+        let part = steep / (steep - flat);
+        (steep > 0.0 && flat <= 0.0).then(|| (ends[0] + part * (ends[1] - ends[0])).exp())
+    })
 }
 
 /// A chart of one quantity, with the column and the name of its theory.
-fn chart(key: &str, (theory, name): (&str, &str), rows: &[Row]) -> Chart {
+fn chart(key: &str, (theory, name): (&str, &str), rows: &[Row], limits: &[Limit]) -> Chart {
     let label = Quantity::named(key)
         .map(Quantity::label)
         .unwrap_or_default();
@@ -28,23 +69,34 @@ fn chart(key: &str, (theory, name): (&str, &str), rows: &[Row]) -> Chart {
     let theory = rows
         .iter()
         .filter_map(|row| Some([row.shortest_wavelength, row.number(theory)?]));
-    let theory: Vec<[f64; 2]> = theory.collect();
     let ends = points.iter().zip(&errors);
     let ends = ends.flat_map(|([_, value], error)| [value - error, value + error]);
-    let all: Vec<f64> = ends.chain(theory.iter().map(|[_, value]| *value)).collect();
+    let range = range_with_zero(ends);
+    let lengths = rows.iter().map(|row| row.shortest_wavelength);
+    let [shortest, longest] = lengths.fold([f64::INFINITY, 0.0_f64], |[low, high], length| {
+        [low.min(length), high.max(length)]
+    });
+    let x = Axis::log10(
+        "shortest wavelength λ [m]",
+        [
+            shortest / ROOM,
+            longest * ROOM.max(2.0 * shortest / longest),
+        ],
+    );
+    // Dots leave bars visible that are smaller than other markers.
     let computed = Series {
-        marker: Some(Marker::filled(Shape::Circle)),
+        marker: Some(Marker::filled(Shape::Dot)),
         errors,
         ..Series::line(points, Line::thin(Dash::Solid), Colour::Blue)
     };
-    let theory = Series::line(theory, Line::thin(Dash::Dashed), Colour::Red);
+    let theory = Series::reference(theory.collect(), Dash::Dashed, Colour::Red);
     let mut series = vec![computed.labelled("computed"), theory.labelled(name)];
     series.retain(|one| one.points.len() > usize::from(one.marker.is_none()));
-    let lengths = rows.iter().map(|row| row.shortest_wavelength);
-    let x = Axis::decades("shortest wavelength λ [m]", lengths);
-    Chart::new(
-        x,
-        Axis::linear(label, range_with_zero(all.into_iter())),
-        series,
-    )
+    series.extend(limits.iter().filter_map(|limit| {
+        let length = limit.length?;
+        let line = range.map(|value| [length, value]).to_vec();
+        let line = Series::line(line, Line::thin(limit.dash), Colour::Grey);
+        (x.range[0] < length && length < x.range[1]).then(|| line.labelled(limit.label))
+    }));
+    Chart::new(x, Axis::linear(label, range), series)
 }
