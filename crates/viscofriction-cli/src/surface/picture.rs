@@ -1,20 +1,29 @@
 //! Picture of a height map and its spectra.
 
+use std::f64::consts::TAU;
+
 use viscofriction::indenters::HeightMap;
-use viscofriction::indenters::rough::PowerSpectrum;
+use viscofriction::indenters::rough::{PowerSpectrum, Ring};
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Field, Figure, Line, Marker, Series, Shape};
 
 use crate::material::decades;
 use crate::run::arrow;
 
-/// Ratio of the longer to the shorter side of a map up to which it is drawn to scale (chosen); longer maps are stretched.
-const MAX_ASPECT_RATIO: f64 = 2.0;
+/// Largest aspect ratio of a map drawn to scale (chosen).
+const MAX_ASPECT_RATIO: f64 = 1.6;
+/// Shortest wavelength that an instrument resolves, in points of its map (chosen, see docs/road.md).
+const POINTS_PER_WAVE: f64 = 4.0;
+/// Smallest number of rings of a line fitted to a spectrum (chosen).
+const FEWEST_RINGS: usize = 4;
+/// Steepest exponent of the shortest waves that counts as noise, whose spectrum is constant (chosen).
+const FLAT: f64 = -1.0;
 
 /// The figure of a map.
 pub(super) fn figure(map: &HeightMap, spectrum: &PowerSpectrum) -> Figure {
     let isotropic = spectrum.radial.iter();
     let isotropic = isotropic.map(|ring| [ring.wave_number, ring.density]);
-    let radial = curve(isotropic.collect(), Colour::Blue);
+    let radial = curve(isotropic.collect(), Colour::Blue).labelled("map");
+    let references = references(map, spectrum);
     let [along_x, along_y] = &spectrum.profiles;
     let profiles = [
         curve(along_x.clone(), Colour::Blue).labelled("along x"),
@@ -23,8 +32,18 @@ pub(super) fn figure(map: &HeightMap, spectrum: &PowerSpectrum) -> Figure {
     let charts = [
         heights(map),
         section(map),
-        chart("mean of C over directions [m⁴]", vec![radial]),
-        chart("C of profiles [m³]", profiles.into()),
+        chart(
+            "all directions",
+            "power spectrum C [m⁴]",
+            vec![radial],
+            references,
+        ),
+        chart(
+            "profiles",
+            "power spectrum C [m³]",
+            profiles.into(),
+            Vec::new(),
+        ),
     ];
     Figure::new(charts, 2)
 }
@@ -43,17 +62,84 @@ fn heights(map: &HeightMap) -> Chart {
     let is_long = sides[0].max(sides[1]) > MAX_ASPECT_RATIO * sides[0].min(sides[1]);
     let field = if is_long { field.stretched() } else { field };
     Chart {
-        title: Some("yellow touches first".into()),
-        series: vec![motion_arrow(x, y, !is_long)],
+        title: Some("yellow touches first; motion →".into()),
         ..Chart::map(Axis::linear("x [m]", x), Axis::linear("y [m]", y), field)
     }
 }
 
-/// A red arrow along the motion; `is_true` if both axes have the same scale.
-fn motion_arrow(x: [f64; 2], y: [f64; 2], is_true: bool) -> Series {
+/// The power law of a self-affine surface that fits the spectrum, its level of noise, and the limit of the instrument.
+fn references(map: &HeightMap, spectrum: &PowerSpectrum) -> Vec<Series> {
+    let [dx, dy] = map.spacing();
+    let limit = TAU / (POINTS_PER_WAVE * dx.max(dy));
+    let is_seen = |ring: &&Ring| ring.wave_number > 0.0 && ring.density > 0.0;
+    let rings: Vec<&Ring> = spectrum.radial.iter().filter(is_seen).collect();
+    let (Some(first), Some(last)) = (rings.first(), rings.last()) else {
+        return Vec::new();
+    };
+    let ends = [first.wave_number, last.wave_number];
+    let (resolved, others): (Vec<&Ring>, Vec<&Ring>) = rings
+        .iter()
+        .copied()
+        .partition(|ring| ring.wave_number <= limit);
+    let mut found = Vec::new();
+    if let Some([exponent, factor]) = power_law(&resolved) {
+        let hurst = -0.5 * exponent - 1.0;
+        let points = ends.map(|wave_number| [wave_number, factor * wave_number.powf(exponent)]);
+        let line = Series::reference(points.to_vec(), Dash::Dashed, Colour::Red);
+        let name = if (0.0..=1.0).contains(&hurst) {
+            format!("self-affine, Hurst exponent {hurst:.2}")
+        } else {
+            format!("power law of exponent {exponent:.1}").replace('-', "−")
+        };
+        found.push(line.labelled(name));
+    }
+    if let Some([exponent, factor]) = power_law(&others).filter(|[exponent, _]| *exponent > FLAT) {
+        let middle = (limit * last.wave_number).sqrt();
+        let level = factor * middle.powf(exponent);
+        let points = ends.map(|wave_number| [wave_number, level]).to_vec();
+        found.push(Series::reference(points, Dash::DashDot, Colour::Grey).labelled("noise floor"));
+    }
+    if ends[0] < limit && limit < ends[1] {
+        let densities = rings.iter().map(|ring| ring.density);
+        let [low, high] = densities.fold([f64::INFINITY, 0.0_f64], |[low, high], density| {
+            [low.min(density), high.max(density)]
+        });
+        let points = vec![[limit, low], [limit, high]];
+        let line = Series::line(points, Line::thin(Dash::Dotted), Colour::Grey);
+        found.push(line.labelled("4 points of the map"));
+    }
+    found
+}
+
+/// Exponent and factor of C = factor · q^exponent by least squares of the logarithms; `None` for too few rings.
+///
+/// The weight of a ring is its number of waves, the reciprocal variance of the logarithm of its density for a Gaussian random
+/// surface.
+fn power_law(rings: &[&Ring]) -> Option<[f64; 2]> {
+    if rings.len() < FEWEST_RINGS {
+        return None;
+    }
+    let sums = rings.iter().fold([0.0; 5], |[w, x, y, xx, xy], ring| {
+        let (weight, q, c) = (ring.waves as f64, ring.wave_number.ln(), ring.density.ln());
+        [
+            w + weight,
+            x + weight * q,
+            y + weight * c,
+            xx + weight * q * q,
+            xy + weight * q * c,
+        ]
+    });
+    let [w, x, y, xx, xy] = sums;
+    let exponent = (w * xy - x * y) / (w * xx - x * x);
+    let factor = ((y - exponent * x) / w).exp();
+    (exponent.is_finite() && factor.is_finite() && factor > 0.0).then_some([exponent, factor])
+}
+
+/// A red arrow along the motion, for axes of different scales.
+fn motion_arrow(x: [f64; 2], y: [f64; 2]) -> Series {
     Series {
         colour: Colour::Red,
-        ..arrow(x, y, is_true)
+        ..arrow(x, y, false)
     }
 }
 
@@ -76,7 +162,7 @@ fn section(map: &HeightMap) -> Chart {
     let series = vec![
         Series::line(points, Line::thick(Dash::Solid), Colour::Blue).labelled("rigid body, above"),
         Series::line(flat, dashed, Colour::Green).labelled("elastomer, below"),
-        motion_arrow(x, [1.1 * highest, 1.1 * highest + y[1] - y[0]], false)
+        motion_arrow(x, [1.1 * highest, 1.1 * highest + y[1] - y[0]])
             .labelled("motion of the body"),
     ];
     Chart {
@@ -101,9 +187,12 @@ fn curve(points: Vec<[f64; 2]>, colour: Colour) -> Series {
     Series::line(shown, Line::thick(Dash::Solid), colour)
 }
 
-/// A chart of spectral densities over the wave number, both logarithmic; empty spectra are left out.
-fn chart(label: &str, mut series: Vec<Series>) -> Chart {
+/// A chart of spectra, whose ranges hold them but not their references.
+fn chart(title: &str, label: &str, mut series: Vec<Series>, references: Vec<Series>) -> Chart {
     // With waves along one axis only, the other spectrum is empty.
     series.retain(|one| !one.points.is_empty());
-    decades("wave number [1/m]", label, series)
+    let mut chart = decades("wave number q = 2π/λ [1/m]", label, series);
+    chart.title = Some(title.to_owned());
+    chart.series.extend(references);
+    chart
 }
