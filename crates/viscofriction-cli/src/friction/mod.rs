@@ -90,7 +90,8 @@ pub(crate) fn fit(options: &FitFriction) -> Result<()> {
     let found = found.map_err(|error| options.refused(&source, error))?;
     // Write the files before printing, because a closed pipe ends the program.
     if let Some(out) = &out {
-        options.write(&found, &notes, out)?;
+        let curve = pool.install(|| found.curve(&scene, files));
+        options.write((&found, curve), &notes, out)?;
     }
     if options.format == Format::Json {
         let mut json = serde_json::to_value(&found)?;
@@ -128,7 +129,12 @@ impl FitFriction {
     }
 
     /// Writes all files; material.toml is the last.
-    fn write(&self, found: &FittedFriction, notes: &[String], folder: &OutputFolder) -> Result<()> {
+    fn write(
+        &self,
+        (found, curve): (&FittedFriction, Vec<[f64; 2]>),
+        notes: &[String],
+        folder: &OutputFolder,
+    ) -> Result<()> {
         let out = folder.begin()?;
         let findings = found.fit.findings.iter();
         let findings = findings.map(|one| (&one.name, one.unit, crate::indentation::numbers(one)));
@@ -152,7 +158,7 @@ impl FitFriction {
         let header = "velocity_m_per_s temperature_c normal_force_n shifted_velocity_m_per_s friction_coefficient \
                       standard_error friction_coefficient_fit residual";
         out.write("fit.csv", &to_csv(header, rows)?)?;
-        out.draw("fit", &picture::figure(found))?;
+        out.draw("fit", &picture::figure(found, curve, self.noise))?;
         // Write the material last, so that its presence implies the others. Flags precede the numbers as comments.
         let findings = self.table(found, notes).replace('\n', "\n# ");
         let material = found.material_file()?;

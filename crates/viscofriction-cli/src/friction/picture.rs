@@ -1,41 +1,47 @@
 //! Picture of measured and fitted friction over the reduced velocity, and of the residuals.
 
+use measurements::friction::FrictionNoise;
 use viscofriction::friction_fit::FittedFriction;
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series, Shape};
 
 /// Margin above and below the values, over their range (chosen).
 const MARGIN: f64 = 0.06;
 
-/// The figure of a fit: measured and fitted friction over a_T v, and the relative residuals.
-pub(super) fn figure(found: &FittedFriction) -> Figure {
-    let mut order: Vec<usize> = (0..found.points.len()).collect();
-    let speed = |at: usize| found.shifted_velocities[at];
-    order.sort_by(|&one, &other| speed(one).total_cmp(&speed(other)));
-    let along = |value: &dyn Fn(usize) -> f64| -> Vec<[f64; 2]> {
-        order.iter().map(|&at| [speed(at), value(at)]).collect()
-    };
-    let error = |at: usize| found.points[at].standard_error.unwrap_or(0.0);
+/// Approximate number of temperatures in the legend, besides the last one (chosen).
+const LABELLED: usize = 6;
+
+/// The figure of a fit; `curve` is the computed friction over the reduced velocity, or empty, and `noise` that of the fit.
+pub(super) fn figure(found: &FittedFriction, curve: Vec<[f64; 2]>, noise: FrictionNoise) -> Figure {
     let measured = |at: usize| found.points[at].friction_coefficient;
     let fitted = |at: usize| found.fit.fitted[at];
-    let points = Series {
-        errors: order.iter().map(|&at| error(at)).collect(),
-        ..Series::markers(along(&measured), Marker::filled(Shape::Dot), Colour::Blue)
+    // Without standard errors the bars are the scatter around the fit.
+    let error = |at: usize| {
+        let scatter = match noise {
+            FrictionNoise::Relative => found.fit.residual * fitted(at).abs(),
+            FrictionNoise::Absolute => found.fit.residual,
+        };
+        found.points[at].standard_error.unwrap_or(scatter)
     };
-    let forces: Vec<Option<f64>> = found
-        .points
-        .iter()
-        .map(|point| point.normal_force)
-        .collect();
-    // With several forces the fitted friction is not a function of the velocity, so draw markers.
-    let of_fit = if forces.windows(2).all(|pair| pair[0] == pair[1]) {
-        Series::line(along(&fitted), Line::thick(Dash::Solid), Colour::Red)
+    let groups = by_temperature(found);
+    let markers = |value: &dyn Fn(usize) -> f64, error: &dyn Fn(usize) -> f64| -> Vec<Series> {
+        let series = groups.iter().map(|(colour, label, rows)| {
+            let points = rows
+                .iter()
+                .map(|&at| [found.shifted_velocities[at], value(at)]);
+            Series {
+                errors: rows.iter().map(|&at| error(at)).collect(),
+                label: label.clone(),
+                ..Series::markers(points.collect(), Marker::filled(Shape::Dot), *colour)
+            }
+        });
+        series.collect()
+    };
+    let of_fit = if curve.len() > 1 {
+        Series::line(curve, Line::thick(Dash::Solid), Colour::Red)
     } else {
-        Series::markers(along(&fitted), Marker::open(Shape::Circle), Colour::Red)
-    };
-    let residual = |at: usize| measured(at) / fitted(at) - 1.0;
-    let residuals = Series {
-        errors: order.iter().map(|&at| error(at) / fitted(at)).collect(),
-        ..Series::markers(along(&residual), Marker::filled(Shape::Dot), Colour::Black)
+        let rows = 0..found.points.len();
+        let points = rows.map(|at| [found.shifted_velocities[at], fitted(at)]);
+        Series::markers(points.collect(), Marker::open(Shape::Circle), Colour::Red)
     };
     let is_shifted = found.points.iter().any(|point| point.temperature.is_some());
     let speeds = if is_shifted {
@@ -43,12 +49,40 @@ pub(super) fn figure(found: &FittedFriction) -> Figure {
     } else {
         "speed v [m/s]"
     };
-    let both = vec![points.labelled("measured"), of_fit.labelled("fit")];
+    let mut friction = vec![of_fit.labelled("fit")];
+    friction.extend(markers(&measured, &error));
+    let mut residuals = markers(&|at| measured(at) / fitted(at) - 1.0, &|at| {
+        error(at) / fitted(at).abs()
+    });
+    // The legend of the first chart says it.
+    residuals.iter_mut().for_each(|one| one.label = None);
     let charts = [
-        chart([speeds, "friction coefficient μ"], both),
-        chart([speeds, "residual / fit"], vec![residuals]),
+        chart([speeds, "friction coefficient μ"], friction),
+        chart([speeds, "measured/fit − 1"], residuals),
     ];
     Figure::new(charts, 2)
+}
+
+/// Colour, entry of the legend, and indices of the points of each temperature, in order of temperature; without temperatures one
+/// group of all points.
+fn by_temperature(found: &FittedFriction) -> Vec<(Colour, Option<String>, Vec<usize>)> {
+    let temperature = |at: usize| found.points[at].temperature;
+    let mut temperatures: Vec<f64> = (0..found.points.len()).filter_map(temperature).collect();
+    temperatures.sort_by(f64::total_cmp);
+    temperatures.dedup();
+    if temperatures.len() < 2 {
+        let all = (0..found.points.len()).collect();
+        return vec![(Colour::Blue, Some("measured".to_owned()), all)];
+    }
+    let last = temperatures.len() - 1;
+    let every = temperatures.len().div_ceil(LABELLED);
+    let group = |(place, value): (usize, &f64)| {
+        let is_same = |at: &usize| temperature(*at).is_some_and(|own| own.total_cmp(value).is_eq());
+        let rows = (0..found.points.len()).filter(is_same).collect();
+        let label = (place == last || place % every == 0).then(|| format!("measured, {value} °C"));
+        (Colour::between(place as f64 / last as f64), label, rows)
+    };
+    temperatures.iter().enumerate().map(group).collect()
 }
 
 /// A chart over the velocity on a logarithmic axis; `along` and `label` are the axis labels. The linear axis includes 0 and the

@@ -11,6 +11,7 @@ mod limits;
 mod malformed;
 mod measured_friction;
 mod moduli_change_with_temperature;
+mod pictures;
 mod scenes;
 mod support;
 mod surfaces;

@@ -276,7 +276,47 @@ fn not_converged(model: &Model) -> FrictionFitError {
     }
 }
 
+/// Points of a computed curve (chosen; output only).
+const N_CURVE: usize = 40;
+/// Relative error of the friction along a computed curve (chosen; output only).
+const CURVE_ERROR: f64 = 5e-3;
+
 impl FittedFriction {
+    /// Friction of the fitted material over the reduced velocity \[m/s], at equal factors over the range of the points; `scene` and
+    /// `files` are those of the fit.
+    ///
+    /// It is empty if the points have several forces, because friction is then no function of the reduced velocity. Velocities at
+    /// which the scene has no answer are left out.
+    pub fn curve(&self, scene: &Scene, (folder, read): (&Path, ReadFile)) -> Vec<[f64; 2]> {
+        let has_one_force = self
+            .points
+            .windows(2)
+            .all(|pair| pair[0].normal_force == pair[1].normal_force);
+        let range = self.shifted_velocities.iter();
+        let [low, high] = range.fold([f64::INFINITY, 0.0_f64], |[low, high], velocity| {
+            [low.min(*velocity), high.max(*velocity)]
+        });
+        let Ok(mut scene) = with_load(scene, &self.points) else {
+            return Vec::new();
+        };
+        if !has_one_force || high <= low {
+            return Vec::new();
+        }
+        scene.material = self.material.clone();
+        scene.solve.relative_error = Some(CURVE_ERROR);
+        scene.solve.elements = None;
+        let point = |index: usize| {
+            let part = index as f64 / (N_CURVE - 1) as f64;
+            let velocity = low * (high / low).powf(part);
+            let mut scene = scene.clone();
+            scene.load.velocity = Some(velocity);
+            let problem = Problem::new(&scene, folder, read).ok()?;
+            let answer = crate::solve::solve(&problem).ok()?;
+            Some([velocity, answer.friction_coefficient?.value])
+        };
+        (0..N_CURVE).filter_map(point).collect()
+    }
+
     /// The material as a TOML file for scenes.
     ///
     /// # Errors
