@@ -1,11 +1,11 @@
-//! The files that list all bodies and materials, written from the schema of the scene: the schema itself, the tables of
-//! `docs/scenes.md`, and the Python classes.
+//! The files that list all bodies and materials, written from the schema of the scene: the schema itself, the tables of keys
+//! on pages of `docs/`, and the Python classes.
 
 use std::fs;
 
 use anyhow::{Context, Result};
 use serde_json::Value as Json;
-use viscofriction::scene::{Key, Kind, json_schema, keys, kinds, number, resolved};
+use viscofriction::scene::{Key, Kind, json_schema, keys, kinds, number, resolved, schema};
 
 use crate::ci::workspace_root;
 
@@ -35,7 +35,17 @@ __all__ = [
 ]
 ";
 
-/// Writes the three generated files into the workspace and prints their paths.
+/// Pages with tables. The table of a definition of the schema stands between comments with its name: of a body or material all kinds,
+/// of other tables their keys. Between comments with `NAME keys` are the keys of all kinds.
+const PAGES: [&str; 3] = [
+    "docs/scenes.md",
+    "docs/height-maps.md",
+    "docs/rough-surfaces.md",
+];
+/// Bodies whose keys have a table of their own.
+const OWN_TABLES: [&str; 3] = ["height-map", "self-affine", "spectrum"];
+
+/// Writes the generated files into the workspace and prints their paths.
 pub(crate) fn write() -> Result<()> {
     for (path, text) in files()? {
         fs::write(workspace_root().join(path), text).context(path)?;
@@ -44,57 +54,152 @@ pub(crate) fn write() -> Result<()> {
     Ok(())
 }
 
-/// Paths, from the root of the workspace, and contents of the three generated files. Of `docs/scenes.md` only the text
-/// between the marks `<!-- NAME -->` and `<!-- /NAME -->` is replaced; fails where a mark is missing.
-fn files() -> Result<[(&'static str, String); 3]> {
-    let page_path = "docs/scenes.md";
-    let mut page = fs::read_to_string(workspace_root().join(page_path)).context(page_path)?;
+/// Paths, from the root of the workspace, and contents of the generated files. Of [`PAGES`] only the text between the marks
+/// `<!-- NAME -->` and `<!-- /NAME -->` is replaced.
+fn files() -> Result<Vec<(&'static str, String)>> {
     let (mut classes, mut names) = (HEAD.to_owned(), Vec::new());
     for (definition, base) in [("Indenter", "Body"), ("MaterialTable", "Material")] {
-        let kinds = kinds(definition);
-        let rows: String = kinds.iter().map(row).collect();
-        let [begin, end] = ["", "/"].map(|slash| format!("<!-- {slash}{definition} -->\n"));
-        let place = page.split_once(&begin).zip(page.split_once(&end));
-        let ((before, _), (_, after)) = place.context(begin.clone())?;
-        page = format!("{before}{begin}\n{ROWS}{rows}\n{end}{after}");
-        for kind in kinds.iter().filter(|kind| kind.name != BY_HAND) {
+        for kind in kinds(definition).iter().filter(|kind| kind.name != BY_HAND) {
             classes += &class(kind, base);
             names.push(format!("\"{}\"", class_name(kind)));
         }
     }
     let classes = classes.replace("NAMES", &names.join(",\n    "));
-    Ok([
+    let mut files = vec![
         ("docs/scene.schema.json", json_schema()?),
-        (page_path, page),
         ("python/viscofriction/_kinds.py", classes),
-    ])
+    ];
+    for path in PAGES {
+        let page = fs::read_to_string(workspace_root().join(path)).context(path)?;
+        files.push((path, with_tables(&page)?));
+    }
+    Ok(files)
 }
 
-/// Head of each table of `docs/scenes.md` in Markdown; [`row`] writes its rows.
-const ROWS: &str =
-    "| kind | in Python | what it is | keys, and those that may be left out |\n|---|---|---|---|\n";
+/// The page with the present table between each pair of marks; an error if the second mark of a pair is missing.
+fn with_tables(page: &str) -> Result<String> {
+    let mut parts = page.split("<!-- ");
+    let mut text = parts.next().unwrap_or_default().to_owned();
+    while let Some(part) = parts.next() {
+        let (name, _) = part.split_once(" -->").context("an open comment")?;
+        let end = parts.next().and_then(|part| part.strip_prefix('/'));
+        let rest = end.and_then(|part| part.strip_prefix(name));
+        let rest = rest.with_context(|| format!("no end of the table {name}"))?;
+        text += &format!("<!-- {name} -->\n\n{}\n<!-- /{name}{rest}", table(name));
+    }
+    Ok(text)
+}
 
-/// The row of a kind in Markdown: first the required keys, then, behind a semicolon, those that may be left out.
+/// The table of a mark in Markdown; the name of the mark is explained at [`PAGES`].
+fn table(name: &str) -> String {
+    let definition = name.trim_end_matches(" keys");
+    let kinds = kinds(definition);
+    let (head, rows): (_, Vec<String>) = if name != definition {
+        let head = "key | of | unit | range | unless given | meaning";
+        (head, rows_of_kinds(&kinds))
+    } else if kinds.is_empty() {
+        let head = "key | unit | range | unless given | meaning";
+        let row = |key: Key| format!("{} | {}", name_cell(&key), cells(&key));
+        (
+            head,
+            keys(&schema()["$defs"][definition]).map(row).collect(),
+        )
+    } else {
+        let head = "kind | in Python | what it is | keys, and those that may be left out";
+        (head, kinds.iter().map(row).collect())
+    };
+    let line = vec!["---"; head.split(" | ").count()].join("|");
+    let rows: String = rows.iter().map(|row| format!("| {row} |\n")).collect();
+    format!("| {head} |\n|{line}|\n{rows}")
+}
+
+/// The row of a kind in Markdown, without its outer bars: first the required keys, then, behind a semicolon, the others.
 fn row(kind: &Kind) -> String {
     let (required, others): (Vec<Key>, Vec<Key>) =
         kind.keys.iter().copied().partition(|key| key.is_required);
-    let cells = [required, others].map(|keys| keys.iter().map(cell).collect::<Vec<_>>().join(", "));
-    let cells = cells.join("; ");
+    let lists = [required, others].map(|keys| {
+        let names: Vec<String> = keys.iter().map(name_cell).collect();
+        names.join(", ")
+    });
+    let lists = lists.join("; ");
     let (name, class, sentence) = (kind.name, class_name(kind), kind.sentence);
-    format!(
-        "| `{name}` | `{class}` | {sentence} | {} |\n",
-        cells.trim_end_matches("; ")
-    )
+    let lists = lists.trim_end_matches("; ");
+    format!("`{name}` | `{class}` | {sentence} | {lists}")
 }
 
-/// A key in Markdown, with its unit where it is a number, or with the keys of each table where it is a list of tables.
-fn cell(key: &Key) -> String {
-    let unit = number(key.words).and_then(|number| number["x-unit"].as_str());
-    match (unit, list_of(key)) {
-        (Some(unit), _) => format!("`{}` \\[{unit}]", key.name),
-        (None, Some(keys)) => format!("`{}`, a list of `{{ {keys} }}`", key.name),
-        (None, None) => format!("`{}`", key.name),
+/// A row in Markdown, without its outer bars, for each key of the kinds; kinds that have the same key share its row.
+fn rows_of_kinds(kinds: &[Kind]) -> Vec<String> {
+    let kinds = kinds.iter().filter(|kind| !OWN_TABLES.contains(&kind.name));
+    let kinds: Vec<&Kind> = kinds.collect();
+    let mut rows: Vec<([String; 2], Vec<&str>)> = Vec::new();
+    for kind in &kinds {
+        for key in &kind.keys {
+            let row = [name_cell(key), cells(key)];
+            match rows.iter_mut().find(|(known, _)| *known == row) {
+                Some((_, of)) => of.push(kind.name),
+                None => rows.push((row, vec![kind.name])),
+            }
+        }
     }
+    let row = |([name, cells], of): &([String; 2], Vec<&str>)| {
+        let others = kinds.iter().map(|kind| kind.name);
+        let others = others.filter(|kind| !of.contains(kind)).collect();
+        let (word, listed) = match others {
+            others if of.len() > 4 => ("all but ", others),
+            _ => ("", of.clone()),
+        };
+        format!("{name} | {word}`{}` | {cells}", listed.join("`, `"))
+    };
+    rows.iter().map(row).collect()
+}
+
+/// Name of a key in Markdown, with the keys of each table where it is a list of tables.
+fn name_cell(key: &Key) -> String {
+    let items = list_of(key).map(|keys| format!(", a list of `{{ {keys} }}`"));
+    format!("`{}`{}", key.name, items.unwrap_or_default())
+}
+
+/// Unit, range, default and meaning of a key, as cells of a row in Markdown.
+fn cells(key: &Key) -> String {
+    let words = number(key.words).unwrap_or(key.words);
+    let unit = words["x-unit"].as_str().unwrap_or_default();
+    let range = match words["x-allowed"].as_str().unwrap_or_default() {
+        "finite and greater than 0" => "> 0",
+        "finite and at least 0" => "≥ 0",
+        "finite and not 0" => "≠ 0",
+        "greater than -1 and at most 0.5" => "−1 < ν ≤ 1/2",
+        range => range,
+    };
+    // The doc comment states range, unit and default within its sentence.
+    let description = key.words["description"].as_str().unwrap_or_default();
+    let mut meaning = description.replace('\n', " ").replace('|', "\\|");
+    for stated in [format!(" {range}"), format!(" \\[{unit}]")] {
+        if !stated.trim().is_empty() {
+            meaning = meaning.replacen(&format!(",{stated}"), "", 1);
+            meaning = meaning.replacen(&stated, "", 1);
+        }
+    }
+    let (meaning, stated) = match meaning.split_once("; without it ") {
+        Some((meaning, default)) => (
+            format!("{meaning}."),
+            default.trim_end_matches('.').to_owned(),
+        ),
+        None => (meaning.clone(), String::new()),
+    };
+    let default = match &key.words["default"] {
+        _ if key.is_required => "required".to_owned(),
+        Json::Null => stated,
+        default => format!("`{default}`"),
+    };
+    let choices = resolved(key.words)["oneOf"].as_array();
+    let choices = choices.into_iter().flatten().map(|choice| {
+        let table = keys(choice).next().map(|key| key.name.to_owned());
+        let name = table.unwrap_or_else(|| choice["const"].to_string());
+        let description = choice["description"].as_str().unwrap_or_default();
+        format!(" `{name}`: {}", description.replace('\n', " "))
+    });
+    let choices: String = choices.collect();
+    format!("{unit} | {range} | {default} | {meaning}{choices}")
 }
 
 /// Name of the class in Python: of [`CLASS_NAMES`], or the kind in camel case.

@@ -77,7 +77,7 @@ enum Command {
     Evidence(evidence::Evidence),
     /// Count what each library crate pulls in when it is built alone. Markdown.
     Dependencies(ci::Dependencies),
-    /// Write the files that list all bodies and materials: the schema of the scene, tables of docs/scenes.md, Python classes.
+    /// Write the files that list all bodies and materials: the schema of the scene, tables of keys in docs, Python classes.
     Kinds,
     /// Make everything that is published, and try each part where nothing of the workspace is installed.
     Release {

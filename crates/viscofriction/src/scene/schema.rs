@@ -17,7 +17,7 @@ use super::{Scene, SceneError};
 
 /// Ranges as doc comments state them, with the keywords that they become in the schema. `x-allowed` is the wording in messages,
 /// where it differs from that of the comment.
-fn ranges() -> [(&'static str, Json); 9] {
+fn ranges() -> [(&'static str, Json); 12] {
     [
         (
             "> 0",
@@ -41,6 +41,15 @@ fn ranges() -> [(&'static str, Json); 9] {
             json!({ "minimum": 0.01, "maximum": 0.99 }),
         ),
         ("from 1 to 1000", json!({ "minimum": 1, "maximum": 1000 })),
+        ("from 1 to 1024", json!({ "minimum": 1, "maximum": 1024 })),
+        (
+            "from 8 to 100000",
+            json!({ "minimum": 8, "maximum": 100_000 }),
+        ),
+        (
+            "above 0 and at most 0.1",
+            json!({ "exclusiveMinimum": 0, "maximum": 0.1 }),
+        ),
         (
             "0, 90, 180 or 270",
             json!({ "minimum": 0, "maximum": 270, "multipleOf": 90 }),
