@@ -14,7 +14,8 @@ use viscofriction::solve::{
 };
 use viscofriction::sweep::{Plan, SweepRow, Varied, Vary, each_once, header};
 use viscofriction::{
-    Answer, Estimate, Files, Motion, Problem, QUANTITIES, ReadFile, Scene, SolveError, plan, solve,
+    Answer, Estimate, Files, Motion, Problem, QUANTITIES, ReadFile, Scene, SolveError, Warning,
+    plan, solve,
 };
 
 use crate::background;
@@ -242,7 +243,8 @@ fn other(py: Python<'_>, answer: Answer) -> PyResult<Bound<'_, PyDict>> {
     dictionary.set_item("is_per_length", answer.is_per_length)?;
     dictionary.set_item("unknowns", answer.unknowns)?;
     dictionary.set_item("iterations", answer.iterations)?;
-    dictionary.set_item("warnings", &answer.warnings)?;
+    let warnings: Vec<String> = answer.warnings.iter().map(Warning::to_string).collect();
+    dictionary.set_item("warnings", warnings)?;
     dictionary.set_item("not_modelled", &answer.not_modelled)?;
     let left_out = answer.left_out.iter().copied().map(<&str>::from);
     let left_out: Vec<&str> = left_out.collect();

@@ -57,7 +57,7 @@ pub use quantity::{ByQuantity, QUANTITIES, Quantity};
 pub use scene::Scene;
 pub use solve::{
     Answer, Body, ContactBox, Fields, HistoryRow, Motion, NotOffered, Omission, Plan, Problem,
-    Revolution, SolveError, plan, plan_of, problem_of, solve, with_fields,
+    Revolution, SolveError, Warning, plan, plan_of, problem_of, solve, with_fields,
 };
 pub use text::{WrongInput, line_of};
 pub use {bem_halfspace, friction_analytic, indenters, mdr_core, numerics, rheology};

@@ -10,7 +10,7 @@ use viscofriction::numerics::{InvalidParameter, MessageNumber, Rounded};
 use viscofriction::scene::{Indenter, SceneError, Source};
 use viscofriction::solve::{Answer, CutOff, Problem, cut_offs, plan_of, scene_of};
 use viscofriction::sweep::each_once;
-use viscofriction::{Estimate, WrongInput};
+use viscofriction::{Estimate, Warning, WrongInput};
 
 use crate::input::{half_of_free_memory, read_input, read_scene};
 use crate::output::{
@@ -109,7 +109,7 @@ pub(crate) fn road(options: &Road) -> Result<()> {
     }
     print_line(&table(&rows))?;
     let warnings = found.iter().filter_map(CutOff::known);
-    let warnings = warnings.map(|one| one.warnings.iter().map(String::as_str).collect());
+    let warnings = warnings.map(|one| one.warnings.iter().collect());
     let warnings = each_once(warnings);
     for warning in &warnings {
         eprint_line(&format!("warning: {warning}"));
@@ -193,7 +193,10 @@ fn row(one: &CutOff, all: &CutOff) -> Row {
         rms_slope: one.rms_slope,
         numbers: NUMBERS.map(number),
         persson_friction_of_shorter_waves: one.still_to_come(all),
-        warnings: known.map_or_else(String::new, |answer| answer.warnings.join(" | ")),
+        warnings: known.map_or_else(String::new, |answer| {
+            let sentences = answer.warnings.iter().map(Warning::to_string);
+            sentences.collect::<Vec<_>>().join(" | ")
+        }),
         failure: failure.unwrap_or_default(),
     }
 }

@@ -15,6 +15,7 @@ use super::omission::Omission;
 use super::problem::{Motion, Problem};
 use super::realisations::Ensemble;
 use super::sensitivity::{Budget, Sensitivity, SpectralSensitivity};
+use super::warning::Warning;
 use crate::quantity::{ByQuantity, QUANTITIES, Quantity, scattered};
 use crate::scene::{Method, Model};
 
@@ -67,8 +68,8 @@ pub struct Answer {
     pub iterations: usize,
     /// True if forces and areas are per unit length along y.
     pub is_per_length: bool,
-    /// Sentences about the validity of the answer.
-    pub warnings: Vec<String>,
+    /// Limits of the validity of the answer.
+    pub warnings: Vec<Warning>,
     /// Reason why the request was not met; `None` unless the answer comes from a [`SolveError`].
     pub not_reached: Option<String>,
     /// Physical effects that the model leaves out, from a fixed list of words.

@@ -7,6 +7,7 @@ use serde::Serialize;
 use serde::ser::{SerializeMap as _, Serializer};
 
 use super::answer::Answer;
+use super::warning::Warning;
 
 /// Relative change of friction or area by the shortest octave above which a warning is given (chosen).
 const MAX_CHANGE: f64 = 0.1;
@@ -72,41 +73,31 @@ impl WithoutShortestOctave {
 
     /// A warning if friction or area without the octave differs by more than [`MAX_CHANGE`], and by more than both error
     /// estimates. `slope` is the rms slope of the whole surface.
-    pub(super) fn warning(&self, answer: &Answer, slope: f64) -> Option<String> {
-        let (friction, area) = (answer.friction_coefficient, answer.area_fraction);
+    pub(super) fn warning(&self, answer: &Answer, slope: f64) -> Option<Warning> {
+        // Friction coefficient and area fraction with and without the octave.
         let changes = [
-            ("the friction", friction, self.friction_coefficient),
-            ("the area", area, Some(self.area_fraction)),
+            answer.friction_coefficient.zip(self.friction_coefficient),
+            answer.area_fraction.map(|area| (area, self.area_fraction)),
         ];
-        let known = changes
-            .into_iter()
-            .filter_map(|(name, with, without)| Some((name, with?, without?)));
-        let known: Vec<(&str, Estimate, Estimate)> =
-            known.filter(|(_, with, _)| with.value > 0.0).collect();
-        let matters = |(_, with, without): &(&str, Estimate, Estimate)| {
+        let changes = changes.map(|change| change.filter(|(with, _)| with.value > 0.0));
+        let matters = |(with, without): (Estimate, Estimate)| {
             let change = (with.value - without.value).abs();
             change > MAX_CHANGE * with.value && change > with.error + without.error
         };
-        if !known.iter().any(matters) {
+        if !changes.into_iter().flatten().any(matters) {
             return None;
         }
-        let changes = known.iter().map(|(name, with, without)| {
-            format!(
-                "{name} would be {:.2} times as large",
-                without.value / with.value
-            )
-        });
-        let changes: Vec<String> = changes.collect();
+        let factor = |(with, without): (Estimate, Estimate)| without.value / with.value;
+        let [friction_factor, area_factor] = changes.map(|change| change.map(factor));
         // Rms slope of the octave itself, because mean square slopes add up over waves.
         let octave = ((slope + self.rms_slope) * (slope - self.rms_slope))
             .max(0.0)
             .sqrt();
-        Some(format!(
-            "the answer depends on the shortest waves that were kept: without the shortest octave, whose own root mean square \
-             slope is {:.0} % of that of all waves, {}",
-            100.0 * octave / slope,
-            changes.join(" and ")
-        ))
+        Some(Warning::ShortestWaves {
+            relative_slope: octave / slope,
+            friction_factor,
+            area_factor,
+        })
     }
 }
 

@@ -26,6 +26,7 @@ mod road;
 pub(crate) mod sensitivity;
 mod shared_memory;
 mod validity;
+mod warning;
 mod with_fields;
 pub(crate) mod work;
 
@@ -53,6 +54,7 @@ pub use sensitivity::{
 };
 pub(crate) use sensitivity::{check_uncertainties, relative_change};
 pub use shared_memory::share_memory;
+pub use warning::Warning;
 pub use with_fields::with_fields;
 
 use self::dissipation::dissipation;

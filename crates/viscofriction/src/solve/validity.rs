@@ -3,47 +3,43 @@
 use std::f64::consts::PI;
 
 use indenters::Surface as _;
-use numerics::Rounded;
 
 use super::answer::Answer;
 use super::body::{Body, Revolution};
 use super::curve::{AREA, DEPTH, RADIUS};
 use super::half_space::Simple;
 use super::problem::{Motion, Problem};
+use super::warning::Warning;
 
 /// Mean slope of the body in contact above which a warning is given (chosen: linear theory needs a small one).
-const MAX_MEAN_SLOPE: f64 = 0.5;
+pub(super) const MAX_MEAN_SLOPE: f64 = 0.5;
 /// Indentation depth over the radius of a sphere, or over the thickness of a layer, above which a warning is given (chosen: a
 /// third).
 const MAX_RELATIVE_DEPTH: f64 = 1.0 / 3.0;
 
 /// Warnings about the validity of an answer, after those of its files; without any the linear theory holds.
-pub(super) fn warnings(problem: &Problem, answer: &Answer) -> Vec<String> {
+pub(super) fn warnings(problem: &Problem, answer: &Answer) -> Vec<Warning> {
     let body = problem.body();
-    let mut warnings = problem.warnings().to_vec();
-    if let Some(slope) = mean_slope(body, answer).filter(|slope| *slope > MAX_MEAN_SLOPE) {
-        warnings.push(format!(
-            "the mean slope of the surface in contact is {slope:.2}, and linear theory needs a small one: above {MAX_MEAN_SLOPE} \
-             its answers are rough"
-        ));
+    let of_files = problem.warnings().iter().cloned();
+    let mut warnings: Vec<Warning> = of_files.map(Warning::File).collect();
+    if let Some(mean_slope) = mean_slope(body, answer).filter(|slope| *slope > MAX_MEAN_SLOPE) {
+        warnings.push(Warning::SteepContact { mean_slope });
     }
     let last = answer.indentation_depth.map_or(0.0, |depth| depth.value);
     let depth = answer.fields.curve.largest(DEPTH).max(last);
     if let Body::Revolution(Revolution::Sphere(sphere)) = body
         && depth > MAX_RELATIVE_DEPTH * sphere.radius()
     {
-        warnings.push(format!(
-            "the indentation depth {depth:.3e} m is more than a third of the radius {} m of the sphere, where linear \
-             theory ends",
-            Rounded(sphere.radius())
-        ));
+        warnings.push(Warning::DeepForSphere {
+            indentation_depth: depth,
+            radius: sphere.radius(),
+        });
     }
     if depth > MAX_RELATIVE_DEPTH * problem.thickness() {
-        warnings.push(format!(
-            "the indentation depth {depth:.3e} m is more than a third of the thickness {} m of the layer, where linear \
-             theory ends",
-            Rounded(problem.thickness())
-        ));
+        warnings.push(Warning::DeepForLayer {
+            indentation_depth: depth,
+            thickness: problem.thickness(),
+        });
     }
     warnings.extend(extrapolation_warning(problem, answer).or_else(|| duration_warning(problem)));
     warnings.extend(shortest_octave_warning(body, answer));
@@ -51,37 +47,33 @@ pub(super) fn warnings(problem: &Problem, answer: &Answer) -> Vec<String> {
 }
 
 /// Warning if a large part of the friction comes from frequencies at which the material was not measured; `None` otherwise.
-fn extrapolation_warning(problem: &Problem, answer: &Answer) -> Option<String> {
-    let [lowest, highest] = problem.window()?.map(Rounded);
-    let percent = |share: Option<f64>| format!("{:.0} %", 100.0 * share.unwrap_or_default());
+fn extrapolation_warning(problem: &Problem, answer: &Answer) -> Option<Warning> {
+    let valid_frequencies = problem.window()?;
     let of_window = &answer.dissipation;
-    of_window.is_extrapolated().then(|| {
-        format!(
-            "{} of the friction comes from frequencies at which the material was not measured: {} from below {lowest} rad/s \
-             and {} from above {highest} rad/s; there its moduli are extrapolated",
-            percent(of_window.outside_window),
-            percent(of_window.below_window),
-            percent(of_window.above_window)
-        )
-    })
+    let outside = [of_window.below_window, of_window.above_window];
+    of_window
+        .is_extrapolated()
+        .then(|| Warning::UnmeasuredFrequencies {
+            outside: outside.map(Option::unwrap_or_default),
+            outside_window: of_window.outside_window.unwrap_or_default(),
+            valid_frequencies,
+        })
 }
 
 /// Warning if a duration of the load is outside the times 1/ω of the measured frequencies; `None` otherwise.
-fn duration_warning(problem: &Problem) -> Option<String> {
+fn duration_warning(problem: &Problem) -> Option<Warning> {
     let [longest, shortest] = problem.window()?.map(f64::recip);
     let mut taken = problem.durations();
     taken.sort_by(f64::total_cmp);
     let (first, last) = (*taken.first()?, *taken.last()?);
-    (first < shortest || last > longest).then(|| {
-        format!(
-            "what happens takes from {first:.3e} s to {last:.3e} s, and the frequencies at which the material was measured are \
-             those of times from {shortest:.3e} s to {longest:.3e} s; beyond them its moduli are extrapolated"
-        )
+    (first < shortest || last > longest).then_some(Warning::UnmeasuredTimes {
+        times: [first, last],
+        valid_times: [shortest, longest],
     })
 }
 
 /// Warning if the answer depends on the shortest octave of waves of a rough surface; `None` otherwise.
-fn shortest_octave_warning(body: &Body, answer: &Answer) -> Option<String> {
+fn shortest_octave_warning(body: &Body, answer: &Answer) -> Option<Warning> {
     let Body::Periodic(surface) = body else {
         return None;
     };

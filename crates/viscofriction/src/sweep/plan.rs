@@ -13,7 +13,8 @@ use crate::files::{Files, ReadFile};
 use crate::quantity::differentiated;
 use crate::scene::{PATH_KEYS, Scene, SceneError, Source, scene_file, split_index};
 use crate::solve::{
-    Answer, Problem, check_uncertainties, plan_of, sampled, share_memory, solve, with_sensitivity,
+    Answer, Problem, Warning, check_uncertainties, plan_of, sampled, share_memory, solve,
+    with_sensitivity,
 };
 use crate::text::WrongInput;
 
@@ -200,7 +201,10 @@ impl Plan {
             let files = (self.source.folder(), self.read);
             match with_sensitivity(scene, files, problem, alone.clone(), &SilentProgress) {
                 Ok(found) => *alone = found,
-                Err(why) => alone.warnings.push(format!("{NO_UNCERTAINTY}{why}")),
+                Err(why) => {
+                    let why = Warning::NoUncertainty(why.to_string());
+                    alone.warnings.push(why);
+                }
             }
         }
         let failure = answer.as_ref().err().map(ToString::to_string);
@@ -256,7 +260,8 @@ impl Plan {
             differentiated().flat_map(|quantity| [&material, &total].map(|of| of.of(quantity.key)));
         let numbers = numbers.chain(uncertainties.filter(|_| self.sensitivity));
         let numbers = numbers.map(|value| value.map_or(String::new(), decimal));
-        let warnings = one_line(&answer.warnings.join(BETWEEN_WARNINGS));
+        let warnings = answer.warnings.iter().map(Warning::to_string);
+        let warnings = one_line(&warnings.collect::<Vec<_>>().join(BETWEEN_WARNINGS));
         let after = [answer.unknowns.to_string(), warnings];
         names.into_iter().chain(numbers).chain(after).collect()
     }
@@ -334,10 +339,6 @@ pub fn header(plan: &Plan) -> Vec<String> {
     let after = ["unknowns", "warnings", "failure"].map(str::to_owned);
     before.chain(plan.columns()).chain(after).collect()
 }
-
-/// Begins the warning of a row without uncertainties.
-const NO_UNCERTAINTY: &str =
-    "the columns of uncertainty are empty, because there are no derivatives: ";
 
 /// Replaces line breaks, because a row is one line.
 fn one_line(text: &str) -> String {

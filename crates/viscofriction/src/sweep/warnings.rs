@@ -4,54 +4,53 @@ use std::fmt;
 
 /// A warning that some of many answers share.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct SharedWarning {
-    /// The sentence of the first answer; others may differ in their numbers.
-    pub sentence: String,
+pub struct SharedWarning<W> {
+    /// The warning of the first answer; those of others may differ in their numbers.
+    pub warning: W,
     /// Number of answers with this warning.
     pub answers: usize,
     /// Total number of answers.
     pub of: usize,
 }
 
-impl fmt::Display for SharedWarning {
+impl<W: fmt::Display> fmt::Display for SharedWarning<W> {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self {
-            sentence,
+            warning,
             answers,
             of,
         } = self;
-        write!(out, "{sentence} (at {answers} of {of} points)")
+        write!(out, "{warning} (at {answers} of {of} points)")
     }
 }
 
-/// Each warning once, in order of first appearance.
-pub fn each_once<'a>(answers: impl IntoIterator<Item = Vec<&'a str>>) -> Vec<SharedWarning> {
-    let mut found: Vec<(String, SharedWarning)> = Vec::new();
+/// Each warning once, in order of first appearance; warnings are the same if their sentences differ only in their numbers.
+pub fn each_once<W: fmt::Display>(
+    answers: impl IntoIterator<Item = Vec<W>>,
+) -> Vec<SharedWarning<W>> {
+    let mut found: Vec<(String, SharedWarning<W>)> = Vec::new();
     let mut of = 0;
     for warnings in answers {
         of += 1;
-        for sentence in warnings {
-            let kind = without_numbers(sentence);
+        for warning in warnings {
+            let kind = without_numbers(&warning.to_string());
             match found.iter_mut().find(|(known, _)| *known == kind) {
-                Some((_, warning)) => warning.answers += 1,
+                Some((_, shared)) => shared.answers += 1,
                 None => {
-                    let sentence = sentence.to_owned();
                     let answers = 1;
-                    found.push((
-                        kind,
-                        SharedWarning {
-                            sentence,
-                            answers,
-                            of,
-                        },
-                    ));
+                    let shared = SharedWarning {
+                        warning,
+                        answers,
+                        of,
+                    };
+                    found.push((kind, shared));
                 }
             }
         }
     }
     let counted = found
         .into_iter()
-        .map(|(_, warning)| SharedWarning { of, ..warning });
+        .map(|(_, shared)| SharedWarning { of, ..shared });
     counted.collect()
 }
 

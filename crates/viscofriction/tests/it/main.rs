@@ -23,6 +23,7 @@ mod sensitivities_of_more_scenes;
 mod shared;
 mod support;
 mod sweeps_share_bodies;
+mod warnings;
 mod windows;
 
 /// Cases of the tests.

@@ -17,6 +17,7 @@ use super::cut_off::WithoutShortestOctave;
 use super::dissipation::Dissipation;
 use super::error::{Result, SolveError};
 use super::problem::Problem;
+use super::warning::Warning;
 use crate::quantity::{ByQuantity, QUANTITIES, Quantity};
 use crate::sweep::each_once;
 pub(crate) use coarse::Coarse;
@@ -171,11 +172,14 @@ fn mean_of(answers: &[Answer], seeds: &[u64]) -> Answer {
         mean_estimate(shares.map(|share| share.map(Estimate::exact))).map(|mean| mean.value)
     };
     let warnings = answers.iter();
-    let warnings = warnings.map(|one| one.warnings.iter().map(String::as_str).collect());
-    let warnings = each_once(warnings).into_iter().map(|one| {
-        let [some, all] = [one.answers, one.of];
-        format!("{} (of {some} of {all} surfaces)", one.sentence)
-    });
+    let warnings = warnings.map(|one| one.warnings.clone());
+    let warnings = each_once(warnings)
+        .into_iter()
+        .map(|shared| Warning::OfSurfaces {
+            warning: Box::new(shared.warning),
+            surfaces: shared.answers,
+            of: shared.of,
+        });
     let mut mean = Answer {
         persson: Persson::mean(answers.iter().map(|one| one.persson)),
         without_shortest_octave: without_shortest_octave(answers),

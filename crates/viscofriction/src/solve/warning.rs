@@ -1,0 +1,161 @@
+//! Limits of the validity of an answer, as numbers and as sentences.
+
+use std::fmt;
+
+use numerics::Rounded;
+use serde::{Serialize, Serializer};
+
+use super::validity::MAX_MEAN_SLOPE;
+
+/// A limit of the validity of an answer, with the numbers that exceed it.
+///
+/// [`Display`](fmt::Display) and JSON give the sentence that the program prints.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Warning {
+    /// The surface is too steep in the contact for linear theory.
+    SteepContact {
+        /// Mean slope from the lowest point to the farthest edge of the contact; the rms slope of a periodic surface; the friction
+        /// coefficient if no edge is known.
+        mean_slope: f64,
+    },
+    /// The depth is large relative to the radius of a sphere.
+    DeepForSphere {
+        /// Largest indentation depth, \[m].
+        indentation_depth: f64,
+        /// Radius of the sphere, \[m].
+        radius: f64,
+    },
+    /// The depth is large relative to the thickness of a layer.
+    DeepForLayer {
+        /// Largest indentation depth, \[m].
+        indentation_depth: f64,
+        /// Thickness of the layer, \[m].
+        thickness: f64,
+    },
+    /// Friction comes from frequencies at which the material was not measured.
+    UnmeasuredFrequencies {
+        /// Fractions of the friction from frequencies below and above the measured ones.
+        outside: [f64; 2],
+        /// Fraction of the friction from all of these frequencies.
+        outside_window: f64,
+        /// Lowest and highest measured angular frequency, \[rad/s].
+        valid_frequencies: [f64; 2],
+    },
+    /// The load takes times at which the material was not measured.
+    UnmeasuredTimes {
+        /// Shortest and longest time of the load, \[s].
+        times: [f64; 2],
+        /// Shortest and longest measured time, the inverse of the measured angular frequencies, \[s].
+        valid_times: [f64; 2],
+    },
+    /// The answer depends on the shortest waves of a rough surface.
+    ShortestWaves {
+        /// Rms slope of the shortest octave, relative to that of all waves.
+        relative_slope: f64,
+        /// Factor on the friction coefficient if the shortest octave is left out; `None` without friction.
+        friction_factor: Option<f64>,
+        /// Factor on the contact area if the shortest octave is left out; `None` without contact.
+        area_factor: Option<f64>,
+    },
+    /// The file of the body has implausible contents, in words.
+    File(String),
+    /// The requested uncertainties are not known; the reason in words.
+    NoUncertainty(String),
+    /// Some of several random surfaces have a warning.
+    OfSurfaces {
+        /// The warning of the first of them; those of others may differ in their numbers.
+        warning: Box<Self>,
+        /// Number of surfaces with this warning.
+        surfaces: usize,
+        /// Number of all surfaces.
+        of: usize,
+    },
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let percent = |fraction: f64| format!("{:.0} %", 100.0 * fraction);
+        match self {
+            Self::SteepContact { mean_slope } => write!(
+                out,
+                "the mean slope of the surface in contact is {mean_slope:.2}, and linear theory needs a small one: above {MAX_MEAN_SLOPE} \
+                 its answers are rough"
+            ),
+            Self::DeepForSphere {
+                indentation_depth,
+                radius,
+            } => write!(
+                out,
+                "the indentation depth {indentation_depth:.3e} m is more than a third of the radius {} m of the sphere, where linear \
+                 theory ends",
+                Rounded(*radius)
+            ),
+            Self::DeepForLayer {
+                indentation_depth,
+                thickness,
+            } => write!(
+                out,
+                "the indentation depth {indentation_depth:.3e} m is more than a third of the thickness {} m of the layer, where linear \
+                 theory ends",
+                Rounded(*thickness)
+            ),
+            Self::UnmeasuredFrequencies {
+                outside,
+                outside_window,
+                valid_frequencies,
+            } => {
+                let [below, above] = outside.map(percent);
+                let [lowest, highest] = valid_frequencies.map(Rounded);
+                write!(
+                    out,
+                    "{} of the friction comes from frequencies at which the material was not measured: {below} from below {lowest} rad/s \
+                     and {above} from above {highest} rad/s; there its moduli are extrapolated",
+                    percent(*outside_window)
+                )
+            }
+            Self::UnmeasuredTimes {
+                times: [first, last],
+                valid_times: [shortest, longest],
+            } => write!(
+                out,
+                "what happens takes from {first:.3e} s to {last:.3e} s, and the frequencies at which the material was measured are \
+                 those of times from {shortest:.3e} s to {longest:.3e} s; beyond them its moduli are extrapolated"
+            ),
+            Self::ShortestWaves {
+                relative_slope,
+                friction_factor,
+                area_factor,
+            } => {
+                let changes = [("friction", friction_factor), ("area", area_factor)];
+                let change = |(name, factor): (&str, &Option<f64>)| {
+                    factor.map(|factor| format!("the {name} would be {factor:.2} times as large"))
+                };
+                let changes: Vec<String> = changes.into_iter().filter_map(change).collect();
+                write!(
+                    out,
+                    "the answer depends on the shortest waves that were kept: without the shortest octave, whose own root mean square \
+                     slope is {} of that of all waves, {}",
+                    percent(*relative_slope),
+                    changes.join(" and ")
+                )
+            }
+            Self::File(sentence) => out.write_str(sentence),
+            Self::NoUncertainty(why) => write!(
+                out,
+                "the columns of uncertainty are empty, because there are no derivatives: {why}"
+            ),
+            Self::OfSurfaces {
+                warning,
+                surfaces,
+                of,
+            } => write!(out, "{warning} (of {surfaces} of {of} surfaces)"),
+        }
+    }
+}
+
+impl Serialize for Warning {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
