@@ -10,7 +10,7 @@ use numpy::{IntoPyArray as _, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rheology::fit::{Isotherm, IsothermShift, ModulusPoint, VerticalChoice, VerticalShift};
-use viscofriction::scene::Shift;
+use viscofriction::scene::{Shift, ShiftLaw};
 
 use crate::materials::{Options, fitted};
 use crate::reading::read_table;
@@ -93,6 +93,38 @@ pub(crate) fn points(columns: &[PyReadonlyArray1<'_, f64>; 3]) -> Vec<ModulusPoi
 /// One isotherm, as [`read_moduli`] returns it.
 type Given<'py> = (f64, [PyReadonlyArray1<'py, f64>; 3]);
 
+/// Options of the superposition of isotherms; temperatures are in the unit of the table.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Superposition {
+    /// Temperature about which the constants of the law hold; `None` for that of the middle isotherm.
+    reference_temperature: Option<f64>,
+    /// Temperature of the material; `None` for the reference temperature.
+    temperature: Option<f64>,
+    /// C₁ and C₂ \[K] of the law of Williams, Landel and Ferry.
+    wlf: Option<[f64; 2]>,
+    /// Activation energy of the law of Arrhenius, \[J/mol].
+    arrhenius: Option<f64>,
+    /// How moduli change with temperature, by the names of the program.
+    vertical: Option<String>,
+}
+
+impl Superposition {
+    /// The options of the library.
+    fn shifting(&self) -> PyResult<Shifting> {
+        let law = match (self.wlf, self.arrhenius) {
+            (Some(_), Some(_)) => return Err(wrong("either wlf or arrhenius, not both")),
+            (wlf, energy) => wlf.map(ShiftLaw::Wlf).or(energy.map(ShiftLaw::Arrhenius)),
+        };
+        Ok(Shifting {
+            reference_temperature: self.reference_temperature,
+            law,
+            temperature: self.temperature,
+            vertical: self.vertical.as_deref().map(vertical_shift).transpose()?,
+        })
+    }
+}
+
 /// Fits a Prony series to the master curve of isotherms at a temperature, by default at that of the middle isotherm. The
 /// dictionary is that of `fit_oscillation` with, for each isotherm, temperature, log₁₀ a_T, b_T, whether the law of the others
 /// placed it, and the standard errors of ln a_T and ln b_T. It also has the kind of vertical shift and whether the data show it,
@@ -102,7 +134,7 @@ pub(crate) fn fit_isotherms<'py>(
     py: Python<'py>,
     isotherms: Vec<Given<'py>>,
     celsius: bool,
-    wanted: (Option<f64>, Option<String>),
+    superposition: Superposition,
     options: Options,
 ) -> PyResult<Bound<'py, PyDict>> {
     let isotherm = |(temperature, columns): &Given<'py>| Isotherm {
@@ -110,12 +142,7 @@ pub(crate) fn fit_isotherms<'py>(
         points: points(columns),
     };
     let isotherms: Vec<Isotherm> = isotherms.iter().map(isotherm).collect();
-    let (reference_temperature, vertical) = wanted;
-    let shifting = Shifting {
-        reference_temperature,
-        law: None,
-        vertical: vertical.as_deref().map(vertical_shift).transpose()?,
-    };
+    let shifting = superposition.shifting()?;
     let found = moduli::master_curve(&isotherms, celsius, shifting).map_err(wrong)?;
     let master = found.master;
     let shift = found.shift.map(|shift| serde_json::to_string(&shift));

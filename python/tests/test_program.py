@@ -114,6 +114,17 @@ def test_a_table_of_an_instrument_has_the_fit_of_the_program(
     assert fit.covariance is not None and np.array_equal(fit.covariance, relative * np.outer(moduli, moduli))
     assert fit.covariance_method == theirs["covariance"]["method"]
     if len(temperatures) > 1:
+        for options, theirs in (
+            ({"wlf": (8.86, 101.6), "reference_temperature": 20.0}, "--wlf 8.86 101.6 --reference-temperature 20"),
+            ({"wlf": (8.86, 101.6), "temperature": 12.0}, "--wlf 8.86 101.6 --temperature 12"),
+            ({"arrhenius": 1.65e5}, "--arrhenius 1.65e5"),
+            ({"temperature": 24.0}, "--temperature 24"),
+        ):
+            ours = vf.fit_material(table, **options)  # type: ignore[arg-type]
+            program("fit-material", table, *theirs.split(), "--out", tmp_path / theirs)
+            [(_, prony)] = tomllib.loads((tmp_path / theirs / "material.toml").read_text())["material"].items()
+            assert ours.material.branches == tuple((one["modulus"], one["relaxation_time"]) for one in prony["branches"]), theirs
+            assert ours.shift == prony["shift"] and ours.temperature == options.get("temperature", 20.0), theirs
         wanted = vf.fit_material(table, reference_temperature=24.0)
         shifted = fit.at(24.0)
         assert wanted.temperature == 24.0

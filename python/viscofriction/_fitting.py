@@ -6,7 +6,7 @@ import json
 import math
 import os
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,6 +17,10 @@ from ._materials import Prony
 
 Numbers = NDArray[np.float64]
 File = str | os.PathLike[str]
+#: What a "storage modulus" without a letter is: E' or G'.
+Deformation = Literal["tension", "shear"]
+#: How the moduli of isotherms change with temperature.
+Vertical = Literal["none", "entropic", "free"]
 
 __all__ = ["Fit", "IsothermShift", "Moduli", "fit_material", "fit_relaxation", "read_moduli", "scaling_factor"]
 
@@ -54,8 +58,8 @@ class Fit:
     log10_factors: tuple[tuple[float, float], ...] = ()
     #: Of several isotherms what is known of each of them on the master curve.
     shifts: tuple[IsothermShift, ...] = ()
-    #: How the moduli of several isotherms change with temperature: "none", "entropic" or "free".
-    vertical: str | None = None
+    #: How the moduli of several isotherms change with temperature; None of a single curve.
+    vertical: Vertical | None = None
     #: Whether that was asked for or is what the isotherms show; without it they do not show whether moduli change, and b_T = 1.
     vertical_is_found: bool = True
     #: Of isotherms the temperature of the material, in the unit of the table.
@@ -118,7 +122,7 @@ class Moduli(Compared):
     modulus: Numbers | None = None
 
 
-def read_moduli(file: File, *, poisson_ratio: float = 0.5, deformation: str | None = None) -> Moduli:
+def read_moduli(file: File, *, poisson_ratio: float = 0.5, deformation: Deformation | None = None) -> Moduli:
     """The moduli of a table as an instrument exports it; names and units, separator, decimal mark and encoding are found.
 
     Columns are a frequency with two of E', E'' and tan delta, or of G', G'' and tan delta, perhaps a temperature; or a time with
@@ -145,15 +149,21 @@ def fit_material(
     smoothing: float | None = None,
     liquid: bool = False,
     poisson_ratio: float = 0.5,
-    deformation: str | None = None,
+    deformation: Deformation | None = None,
     reference_temperature: float | None = None,
-    vertical: str | None = None,
+    temperature: float | None = None,
+    wlf: tuple[float, float] | None = None,
+    arrhenius: float | None = None,
+    vertical: Vertical | None = None,
 ) -> Fit:
     """The Prony series with the least relative error of shear moduli [Pa] that were measured over frequency [Hz], in any order.
 
     Instead of the three arrays the name of a file will do, which ``read_moduli`` reads; isotherms are then shifted to
-    ``reference_temperature``, or onto the one in the middle. ``vertical`` says how their moduli change with temperature:
-    "none", "entropic" (with the absolute temperature, as those of rubber) or "free" (by a factor of each); without it as they show.
+    ``reference_temperature``, or onto the one in the middle. A shift law may be prescribed: ``wlf``, the constants (C₁, C₂ [K])
+    of Williams, Landel and Ferry about the reference temperature, or ``arrhenius``, an activation energy [J/mol].
+    ``temperature`` is that of the returned material, by default the reference temperature. All temperatures are in the unit of
+    the table. ``vertical`` says how moduli change with temperature: "none", "entropic" (with the absolute temperature, as those
+    of rubber) or "free" (by a factor of each); without it as they show.
 
     Without ``branches`` the fewest are taken whose error is at most 1 + ``tolerance`` (0.02) times that of many;
     ``smoothing`` keeps ``branches`` equally spaced and smooths their moduli with this weight. A ``liquid`` has no equilibrium
@@ -162,15 +172,22 @@ def fit_material(
     Raises ValueError for wrong input and for moduli that no series fits.
     """
     options = {"liquid": liquid, "branches": count("branches", branches), "tolerance": tolerance, "smoothing": smoothing}
+    superposition = {
+        "reference_temperature": reference_temperature,
+        "temperature": temperature,
+        "wlf": wlf,
+        "arrhenius": arrhenius,
+        "vertical": vertical,
+    }
     if isinstance(frequency, str | os.PathLike):
         if storage is not None or loss is not None:
             raise ValueError("storage and loss: a file has its own")
         measured = _native.read_moduli(os.fspath(frequency), poisson_ratio, deformation)
-        return _fit_table(measured, (reference_temperature, vertical), options, poisson_ratio)
+        return _fit_table(measured, superposition, options, poisson_ratio)
     if storage is None or loss is None:
         raise ValueError("storage and loss are needed beside frequency")
-    if deformation is not None or reference_temperature is not None or vertical is not None:
-        raise ValueError("deformation, reference_temperature and vertical are for files")
+    if given := [name for name, value in ({"deformation": deformation} | superposition).items() if value is not None]:
+        raise ValueError(f"{' and '.join(given)}: only for files, whose tables have temperatures and kinds of deformation")
     hertz, shear, viscous = columns(frequency=frequency, storage=storage, loss=loss)
     order = np.argsort(hertz, kind="stable")
     found = _native.fit_oscillation(2 * np.pi * hertz[order], shear[order], viscous[order], options)
@@ -179,15 +196,13 @@ def fit_material(
 
 def _fit_table(
     measured: tuple[list[tuple[float | None, list[Numbers]]], bool | None],
-    wanted: tuple[float | None, str | None],
+    superposition: dict[str, Any],
     options: dict[str, Any],
     poisson_ratio: float,
 ) -> Fit:
     parts, celsius = measured
-    if celsius is None and wanted != (None, None):
-        raise ValueError(
-            "reference_temperature and vertical: the table has no temperatures, from which it could be shifted to another one"
-        )
+    if celsius is None and (given := [name for name, value in superposition.items() if value is not None]):
+        raise ValueError(f"{' and '.join(given)}: the table has no temperatures, from which it could be shifted to another one")
     isotherms = [(temperature, columns) for temperature, columns in parts if temperature is not None]
     if not isotherms:
         time, modulus = parts[0][1]
@@ -195,7 +210,7 @@ def _fit_table(
     if celsius is None:
         omega, storage, loss = isotherms[0][1]
         return _fit(_native.fit_oscillation(omega, storage, loss, options), poisson_ratio)
-    found = _native.fit_isotherms(isotherms, celsius, wanted, options)
+    found = _native.fit_isotherms(isotherms, celsius, superposition, options)
     fit = replace(
         _fit(found, poisson_ratio),
         temperature=found["temperature"],

@@ -38,7 +38,7 @@ def read_moduli(
 def fit_isotherms(
     isotherms: list[tuple[float, list[NDArray[np.float64]]]],
     celsius: bool,
-    wanted: tuple[float | None, str | None],
+    superposition: dict[str, Any],
     options: dict[str, Any],
 ) -> dict[str, Any]: ...
 def shift_factors(shift: str, temperature: float) -> tuple[float, float]: ...

@@ -16,6 +16,10 @@ pub struct Shifting {
     pub reference_temperature: Option<f64>,
     /// Shift law about the reference temperature; `None` shifts the isotherms onto one another.
     pub law: Option<ShiftLaw>,
+    /// Temperature of the master curve in the unit of the table; `None` for the reference temperature.
+    ///
+    /// The two differ only for a given law, whose constants are those about the reference temperature.
+    pub temperature: Option<f64>,
     /// Vertical shift of the moduli; `None` lets the isotherms decide.
     pub vertical: Option<VerticalShift>,
 }
@@ -58,14 +62,19 @@ pub fn master_curve(
         needed: 1,
         given: 0,
     })?;
-    let wanted = shifting.reference_temperature.unwrap_or(*middle);
-    finite("reference_temperature", wanted)?;
+    let reference = shifting.reference_temperature.unwrap_or(*middle);
+    finite("reference_temperature", reference)?;
+    let wanted = shifting.temperature.unwrap_or(reference);
+    finite("temperature", wanted)?;
     let options = SuperpositionOptions {
         vertical: shifting.vertical,
         kelvin_at_zero: table.to_celsius + KELVIN_AT_ZERO_CELSIUS,
     };
     match shifting.law {
-        Some(law) => table.by_law(wanted, law, &options),
+        Some(law) => {
+            let law = table.law_about(wanted, law, reference)?;
+            table.by_law(wanted, law, &options)
+        }
         None => table.automatic(wanted, &options),
     }
 }
@@ -87,6 +96,35 @@ impl Table<'_> {
         temperatures
     }
 
+    /// A law with its constants about the `reference` temperature, for all isotherms and the `wanted` temperature.
+    fn shift_about(&self, reference: f64, law: ShiftLaw, wanted: f64) -> Shift {
+        let celsius = |temperature: f64| temperature + self.to_celsius;
+        let all = self.temperatures().into_iter().chain([reference, wanted]);
+        let start = [f64::INFINITY, f64::NEG_INFINITY];
+        Shift {
+            temperature: celsius(reference),
+            temperature_range: all
+                .map(celsius)
+                .fold(start, |[low, high], one| [low.min(one), high.max(one)]),
+            law,
+            vertical: None,
+        }
+    }
+
+    /// A law about the `reference` temperature, with its constants about the `wanted` temperature.
+    fn law_about(
+        &self,
+        wanted: f64,
+        law: ShiftLaw,
+        reference: f64,
+    ) -> Result<ShiftLaw, RheologyError> {
+        if wanted.total_cmp(&reference).is_eq() {
+            return Ok(law);
+        }
+        let shift = self.shift_about(reference, law, wanted);
+        Ok(shift.with_reference(wanted + self.to_celsius)?.law)
+    }
+
     /// Master curve at the temperature `wanted`, in the unit of the table, shifted by a given law about it.
     fn by_law(
         &self,
@@ -95,14 +133,7 @@ impl Table<'_> {
         options: &SuperpositionOptions,
     ) -> Result<Shifted, RheologyError> {
         let celsius = |temperature: f64| temperature + self.to_celsius;
-        let all = self.temperatures().into_iter().chain([wanted]).map(celsius);
-        let start = [f64::INFINITY, f64::NEG_INFINITY];
-        let mut shift = Shift {
-            temperature: celsius(wanted),
-            temperature_range: all.fold(start, |[low, high], one| [low.min(one), high.max(one)]),
-            law,
-            vertical: None,
-        };
+        let mut shift = self.shift_about(wanted, law, wanted);
         let log10_factor = |temperature| shift.log10_factor(celsius(temperature));
         let master = shifted_master_curve(self.isotherms, wanted, log10_factor, options)?;
         shift.vertical = self.vertical_law(&master);

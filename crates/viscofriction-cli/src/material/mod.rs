@@ -62,6 +62,10 @@ pub(crate) struct FitMaterial {
     /// Temperature of the master curve, in the unit of the table [default: that of the isotherm in the middle].
     #[arg(long, value_name = "T")]
     reference_temperature: Option<f64>,
+    /// Temperature of the material, in the unit of the table, where the constants of --wlf are those about another one
+    /// [default: the reference temperature].
+    #[arg(long, value_name = "T")]
+    temperature: Option<f64>,
     /// Shift by the WLF law with these constants about the reference temperature, instead of automatically.
     #[arg(long, value_names = ["C1", "C2"], num_args = 2, conflicts_with = "arrhenius")]
     wlf: Option<Vec<f64>>,
@@ -217,6 +221,7 @@ impl FitMaterial {
         Shifting {
             reference_temperature: self.reference_temperature,
             law: wlf.or(self.arrhenius.map(ShiftLaw::Arrhenius)),
+            temperature: self.temperature,
             vertical: self.vertical,
         }
     }

@@ -62,7 +62,12 @@ fn a_scene_has_the_moduli_of_its_temperature() {
     let folder = Folder::new("entropic");
     folder.write("isotherms.csv", isotherms(entropic));
     let law = "--wlf 8.86 101.6 --reference-temperature 20";
-    for (fit, options) in [("found", "--reference-temperature 20"), ("given", law)] {
+    let elsewhere = format!("{law} --temperature 5");
+    for (fit, options) in [
+        ("found", "--reference-temperature 20"),
+        ("given", law),
+        ("elsewhere", &elsewhere),
+    ] {
         let said = folder.done(format!("fit-material isotherms.csv {options} --out {fit}"));
         assert!(
             said.stdout

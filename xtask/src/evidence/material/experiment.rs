@@ -290,8 +290,7 @@ impl Experiments {
 fn fit(isotherms: &[Isotherm]) -> Result<(Identification, [f64; 2])> {
     let shifting = Shifting {
         reference_temperature: Some(REFERENCE_TEMPERATURE),
-        law: None,
-        vertical: None,
+        ..Shifting::default()
     };
     let curve = master_curve(isotherms, true, shifting)?.master.curve;
     let found = identify(&curve, &IdentifyOptions::default())?;
