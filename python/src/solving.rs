@@ -379,6 +379,10 @@ pub(crate) struct Sweep<'py> {
     folder: PathBuf,
     /// Varied keys with their values.
     vary: Vec<(String, Values<'py>)>,
+    /// True to compute the uncertainties from the covariance of the material and from the scene.
+    sensitivity: bool,
+    /// Number of samples of what is uncertain in the scene; `None` for no samples.
+    samples: Option<i64>,
 }
 
 /// Values of a varied key.
@@ -408,11 +412,19 @@ impl Sweep<'_> {
     fn plan(&self) -> PyResult<Plan> {
         let text = table(&self.scene, "")?.to_string();
         let source = Source::new(&self.folder.join("scene"), text.into_bytes()).map_err(wrong)?;
-        let vary = self.vary.iter().map(|(key, values)| Vary {
-            key: key.clone(),
-            values: values.varied(),
+        let vary = self.vary.iter().map(|(key, values)| {
+            Ok(Vary {
+                key: key.clone(),
+                values: values.varied(),
+            })
         });
-        Plan::new(source, &vary.collect::<Vec<_>>(), read_file).map_err(wrong)
+        let samples = self.samples.map(|count| Vary::samples(&count.to_string()));
+        let samples =
+            samples.map(|samples| samples.map_err(|why| wrong(why.replacen("N ", "samples ", 1))));
+        let vary = vary.chain(samples).collect::<PyResult<Vec<_>>>()?;
+        let mut plan = Plan::new(source, &vary, read_file).map_err(wrong)?;
+        plan.sensitivity = self.sensitivity || self.samples.is_some();
+        Ok(plan)
     }
 }
 

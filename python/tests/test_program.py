@@ -6,6 +6,7 @@ import json
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -33,6 +34,30 @@ def test_a_sweep_has_the_rows_of_the_program(program: Callable[..., str], tmp_pa
     theirs, ours = ((tmp_path / name).read_text().splitlines() for name in ("sweep.csv", "ours.csv"))
     # The first column is the fingerprint of the text of the scene.
     assert [row.split(",")[1:] for row in ours] == [row.split(",")[1:] for row in theirs]
+
+
+@pytest.mark.parametrize(("option", "named"), [("--sensitivity", {"sensitivity": True}), ("--samples 3", {"samples": 3})])
+def test_a_sweep_of_uncertain_numbers_has_the_rows_of_the_program(
+    option: str, named: dict[str, Any], program: Callable[..., str], tmp_path: Path
+) -> None:
+    scene = tmp_path / "scene.toml"
+    load = "load = { normal_force = 1.0, velocity = 0.1 }"
+    cone = "indenter.cone = { slope = 0.1 }\nmaterial.viscous = { viscosity = 1e4 }"
+    scene.write_text(f'{cone}\n{load}\nuncertainty = {{ "load.normal_force" = 0.05 }}\n')
+    program("sweep", scene, "--vary", "load.velocity=0.1,0.2", *option.split(), "--out", tmp_path / "theirs.csv")
+    table = vf.sweep(scene, {"load.velocity": [0.1, 0.2]}, **named)
+    table.to_csv(tmp_path / "ours.csv")
+    theirs, ours = ((tmp_path / name).read_text().splitlines() for name in ("theirs.csv", "ours.csv"))
+    assert [row.split(",")[1:] for row in ours] == [row.split(",")[1:] for row in theirs]
+    assert np.isclose(table["indentation_depth_uncertainty"][0], 0.05 / 2 * table["indentation_depth"][0], rtol=1e-3)
+    assert table.keys == ["load.velocity", *(["sample"] if "samples" in named else [])]
+
+
+def test_samples_are_counted_and_need_uncertain_numbers() -> None:
+    scene = {"indenter": vf.Cone(0.1), "material": vf.Viscous(1e4), "load": {"normal_force": 1.0, "velocity": 0.1}}
+    for samples, message in ((0, "samples must be a whole number from 1 to 999999, but is 0"), (1.5, "samples must be a whole number"), (3, "samples need a number")):
+        with pytest.raises(ValueError, match=message):
+            vf.sweep(scene, samples=samples)  # type: ignore[arg-type]
 
 
 def test_arrays_have_the_answers_of_single_loads() -> None:

@@ -139,6 +139,14 @@ def test_a_table_goes_on_where_it_ended(tmp_path: Path) -> None:
         vf.sweep(SCENE, {"load.velocity": SPEEDS}, out=part, resume=True)
 
 
+def test_a_finished_table_that_is_resumed_says_so(tmp_path: Path) -> None:
+    file = tmp_path / "rows.csv"
+    whole = vf.sweep(SCENE, {"load.velocity": SPEEDS[:2]}, out=file)
+    with pytest.warns(UserWarning, match=r"no point was computed: .*rows\.csv has all 2 already"):
+        again = vf.sweep(SCENE, {"load.velocity": SPEEDS[:2]}, out=file, resume=True)
+    assert again == whole
+
+
 SWEEPING = """
 import signal
 import sys

@@ -6,6 +6,7 @@ import csv
 import io
 import os
 import shutil
+import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -15,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arrays import Compared, numbers, text_of
+from ._arrays import Compared, count, numbers, text_of
 from ._results import QUANTITIES, html_table, noted, with_bars, with_unit
 from ._solving import Progress, Scene, read, shown
 
@@ -106,8 +107,10 @@ class Sweep(Compared):
 
 def sweep(
     scene: Scene,
-    vary: Mapping[str, ArrayLike],
+    vary: Mapping[str, ArrayLike] | None = None,
     *,
+    sensitivity: bool = False,
+    samples: int | None = None,
     client: Any = None,
     out: str | os.PathLike[str] | None = None,
     resume: bool = False,
@@ -118,25 +121,39 @@ def sweep(
     Values are numbers, or texts: files, ``{"material.file.path": ["a.toml", "b.toml"]}``, and words of a scene,
     ``{"solve.model": ["line", "half-space"]}``.
 
+    With ``sensitivity`` there are columns of what the covariance of the material (``friction_coefficient_material_error``) and all
+    uncertainties of the scene (``friction_coefficient_uncertainty``) make of every point. ``samples`` draws what is uncertain so
+    many times, from 1 to 999999: the key ``sample`` then varies too, and its value 0 is the scene itself with these columns.
+
     With a ``client`` of dask.distributed each point is a task of that cluster, done again where a worker dies; rows are the
     same to the last bit. ``out`` is a CSV file, to which each point is added, and ``progress`` called, as soon as it is finished,
     in any order; at the end the file is sorted. With ``resume`` the points that it holds are not computed again, as after
-    an interruption.
+    an interruption; where it holds all of them a warning says so.
 
     What a method could not reach is part of its row. Raises ValueError for wrong input, before anything is computed.
     """
     table, folder, heights = read(scene)
     if heights is not None:
         raise ValueError("indenter: a sweep needs the heights in a file, {'height-map': {'file': …, 'spacing': …}}")
+    if vary is None and samples is not None:
+        vary = {}
     if not isinstance(vary, Mapping):
         raise ValueError(f"vary must be a dictionary of keys and their values, such as {{'load.velocity': v}}, but is {text_of(vary)}")
     values = {key: _values(key, wanted) for key, wanted in vary.items()}
-    request = {"scene": table, "folder": os.path.abspath(folder), "vary": list(values.items())}
+    request: dict[str, Any] = {
+        "scene": table,
+        "folder": os.path.abspath(folder),
+        "vary": list(values.items()),
+        "sensitivity": sensitivity,
+        "samples": count("samples", samples),
+    }
     header, n_points = _native.sweep_plan(request)
     rows: list[Row | None] = [None] * n_points
     with shown(progress) as show, _opened(out, header, request, rows, resume) as file:
         missing = [point for point, row in enumerate(rows) if row is None]
         done = len(rows) - len(missing)
+        if not missing:
+            warnings.warn(f"no point was computed: {out} has all {len(rows)} already", stacklevel=2)
 
         def take(finished: Finished) -> None:
             nonlocal done
@@ -153,6 +170,8 @@ def sweep(
         complete = [row for row in rows if row is not None]
         if out is not None:
             _sort(Path(out).resolve(), _text(header, *complete))
+    if samples is not None:
+        values["sample"] = np.arange(samples + 1.0)
     return Sweep(header, complete, values)
 
 

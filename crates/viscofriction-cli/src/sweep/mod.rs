@@ -275,7 +275,11 @@ fn compute_into_file(
     pictures.draw(&table, measured, Some(plan.scene_text()))?;
     let n_rows = table.rows.len();
     let (n_computed, path) = (points.len(), path.display());
-    eprint_line(&format!("{n_computed} points computed, {n_rows} in {path}"));
+    eprint_line(&if n_computed == 0 && n_rows > 0 {
+        format!("no point was computed: {path} has all {n_rows} already")
+    } else {
+        format!("{n_computed} points computed, {n_rows} in {path}")
+    });
     Ok(Computed {
         rows: table.rows,
         n_failed_before: there.values().filter(|has_answer| !**has_answer).count(),

@@ -179,6 +179,18 @@ fn rows_are_printed_in_the_order_of_their_points() {
     }
 }
 
+#[test]
+fn a_finished_sweep_that_is_resumed_says_so() {
+    let folder = quick("finished");
+    let expected = swept(&folder, "rows.csv", "");
+    let line = format!("sweep scene.toml {VARY} --out rows.csv --resume");
+    let said = folder.done(line).stderr;
+    let n_rows = expected.lines().count() - 1;
+    let sentence = format!("no point was computed: rows.csv has all {n_rows} already");
+    assert!(said.contains(&sentence), "{said}");
+    assert_eq!(folder.text("rows.csv"), expected, "the rows");
+}
+
 /// The allowed memory is not of the sweep: a point that failed for it may be computed where there is more.
 #[test]
 fn points_that_failed_are_computed_again_when_asked_for() {
