@@ -10,8 +10,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // A tip that is twice as long as wide, on a grid of 20 µm.
     let (n, spacing) = (161, 2e-5);
     let place = |index: usize| (index as f64 - 80.0) * spacing;
-    let height = |k: usize| 100.0 * place(k / n).powi(2) + 400.0 * place(k % n).powi(2);
-    let map = HeightMap::new([n, n], [spacing; 2], (0..n * n).map(height).collect())?;
+    // Heights point out of the body, and x runs along a row.
+    let height = |k: usize| -100.0 * place(k % n).powi(2) - 400.0 * place(k / n).powi(2);
+    let heights: Vec<f64> = (0..n * n).map(height).collect();
+    let map = HeightMap::from_heights([n, n], [spacing; 2], &heights)?;
     let rubber = StandardSolid::new(StandardSolidParameters {
         equilibrium_modulus: 1e6,
         maxwell_modulus: 1e7,

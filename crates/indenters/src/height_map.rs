@@ -15,8 +15,15 @@ const EDGE_TOLERANCE: f64 = 1e-12;
 
 /// A surface with bilinear interpolation between heights on a grid; it ends at the edge of the grid.
 ///
-/// Heights are counted from the lowest point away from the elastomer, as for all bodies. Heights of instruments and arrays,
-/// which point out of the body, are a [`Topography`](crate::topography::Topography).
+/// Two constructors differ in the direction of the heights and in the order of the values:
+///
+/// | constructor | heights | order | `shape` |
+/// |---|---|---|---|
+/// | [`from_heights`](Self::from_heights) | out of the body, so that summits touch first | rows along x, x fastest | \[n_y, n_x] |
+/// | [`from_gaps`](Self::from_gaps) | into the body, so that minima touch first | rows along y, y fastest | \[n_x, n_y] |
+///
+/// `from_heights` is the convention of scene files, of arrays in Python and of [`Topography`](crate::topography::Topography);
+/// `from_gaps` is that of [`Surface::height`] and of the methods of this type. x is the direction of sliding.
 ///
 /// The origin is the lowest node; among several, the one nearest to the middle. Every grid line is an edge: details of
 /// the size of a cell belong to the grid, not to the measured surface.
@@ -34,13 +41,44 @@ pub struct HeightMap {
 }
 
 impl HeightMap {
-    /// The surface through `heights` \[m], row-major with y fastest.
+    /// The surface through `heights` \[m] that point out of the body, row by row: a row runs along x, the direction of sliding.
     ///
-    /// `shape` is the number of rows along x and of columns along y, `spacing` \[m] their distance along x and y.
+    /// `shape` is the number of rows, one for each y, and of columns, one for each x; `spacing` \[m] is the distance of
+    /// neighbouring heights along x and along y. The height at x = j dx and y = i dy has the index i n_x + j.
     ///
     /// # Errors
-    /// [`IndenterError`] `TooFew` (two rows and two columns are needed), `LengthMismatch` or `InvalidParameter`.
-    pub fn new(
+    /// [`IndenterError`] `TooFew` (two heights along x and along y are needed), `LengthMismatch` or `InvalidParameter`.
+    ///
+    /// ```
+    /// use indenters::{HeightMap, Surface};
+    ///
+    /// // One summit at the second of three x and the second of two y; it touches first.
+    /// let map = HeightMap::from_heights([2, 3], [0.5, 1.0], &[1.0, 2.0, 0.0, 1.0, 4.0, 3.0])?;
+    /// assert_eq!(map.extent(), [[-0.5, 0.5], [-1.0, 0.0]]);
+    /// assert_eq!(map.height([0.5, 0.0]), 1.0);
+    /// # Ok::<(), indenters::IndenterError>(())
+    /// ```
+    pub fn from_heights(
+        shape: [usize; 2],
+        spacing: [f64; 2],
+        heights: &[f64],
+    ) -> Result<Self, IndenterError> {
+        let [rows, columns] = shape;
+        check_heights("grid", rows.saturating_mul(columns), heights)?;
+        let gap = |index: usize| -heights[index % rows * columns + index / rows];
+        let gaps = (0..heights.len()).map(gap).collect();
+        Self::from_gaps([columns, rows], spacing, gaps)
+    }
+
+    /// The surface through heights \[m] that point into the body, the gaps between body and elastomer at first touch, row-major
+    /// with y fastest.
+    ///
+    /// `shape` is the number of gaps along x and along y, `spacing` \[m] the distance of neighbouring gaps along x and along y.
+    /// The gap at x = i dx and y = j dy has the index i n_y + j.
+    ///
+    /// # Errors
+    /// [`IndenterError`] `TooFew` (two heights along x and along y are needed), `LengthMismatch` or `InvalidParameter`.
+    pub fn from_gaps(
         shape: [usize; 2],
         spacing: [f64; 2],
         mut heights: Vec<f64>,

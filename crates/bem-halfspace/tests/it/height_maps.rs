@@ -64,7 +64,7 @@ fn bars_hold_under_ridges_with_a_top_inside_one_cell() {
             cell * if x < 0.0 { -rear * x } else { front * x }
         };
         let heights = (0..n).flat_map(|row| vec![height(row); n]);
-        let map = HeightMap::new([n; 2], [cell; 2], heights.collect()).expect("a map");
+        let map = HeightMap::from_gaps([n; 2], [cell; 2], heights.collect()).expect("a map");
         let friction = |accuracy: Accuracy| {
             let state = steady(&map, &rubber(), &under_force(0.3, 1.0), accuracy);
             state.expect("a state").friction_coefficient
@@ -89,7 +89,7 @@ fn bars_contain_the_friction_of_cells_shorter_than_an_element() {
         0.004 * cell * (row * row + column * column)
     };
     let heights = (0..n * n).map(height).collect();
-    let map = HeightMap::new([n, n], [cell; 2], heights).expect("a map");
+    let map = HeightMap::from_gaps([n, n], [cell; 2], heights).expect("a map");
     let fast = standard_solid([1e6, 1e7, 1e2]).expect("a material");
     let friction = |elements| {
         let accuracy = Accuracy::Elements(elements);

@@ -167,6 +167,6 @@ fn a_moving_indenter_needs_one_half_and_a_resting_one_a_quarter() {
         let [x, y] = [node / 33, node % 33].map(|index| (index as f64 - 16.0) * 0.125);
         0.4 * x * x + 0.7 * y * y + 0.05 * (3.0 * x).cos() * y.abs()
     };
-    let map = HeightMap::new([33, 33], [0.125; 2], (0..33 * 33).map(height).collect());
+    let map = HeightMap::from_gaps([33, 33], [0.125; 2], (0..33 * 33).map(height).collect());
     compare(&map.expect("a map"), &material, (&moving, SQUARE), 2);
 }

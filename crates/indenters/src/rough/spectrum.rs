@@ -89,7 +89,7 @@ fn apply_hann_window(map: &HeightMap) -> Result<HeightMap, IndenterError> {
     let heights = nodes.map(|(at, height)| {
         window(at / columns, rows) * window(at % columns, columns) * (height - mean)
     });
-    HeightMap::new(map.shape(), map.spacing(), heights.collect())
+    HeightMap::from_gaps(map.shape(), map.spacing(), heights.collect())
 }
 
 /// Radial average over rings as wide as the larger Δq; wave vectors without a wave count with the density 0. `shape` is that of

@@ -302,18 +302,18 @@ impl Topography {
     /// The rigid body with this surface, whose highest points touch first.
     ///
     /// # Errors
-    /// [`TopographyError::Missing`] if heights are missing; the errors of [`HeightMap::new`].
+    /// [`TopographyError::Missing`] if heights are missing; the errors of [`HeightMap::from_heights`].
     pub fn body(&self) -> Result<HeightMap, TopographyError> {
         let points = self.heights.len();
         let missing = self.missing();
         if missing > 0 {
             return Err(TopographyError::Missing { missing, points });
         }
-        let [rows, columns] = self.shape;
-        // Heights of the map point into the body, with y fastest.
-        let height = |index: usize| -self.heights[index % rows * columns + index / rows];
-        let heights = (0..points).map(height).collect();
-        Ok(HeightMap::new([columns, rows], self.spacing, heights)?)
+        Ok(HeightMap::from_heights(
+            self.shape,
+            self.spacing,
+            &self.heights,
+        )?)
     }
 }
 

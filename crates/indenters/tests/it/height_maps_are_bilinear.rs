@@ -12,7 +12,7 @@ fn bilinear([x, y]: [f64; 2]) -> f64 {
 fn map(unit: f64) -> HeightMap {
     let place = |node: i32| [f64::from(node / 5) - 1.0, 0.5 * (f64::from(node % 5) - 2.0)];
     let heights = (0..20).map(|node| unit * (7.0 + bilinear(place(node))));
-    HeightMap::new([4, 5], [unit, 0.5 * unit], heights.collect()).expect("a map")
+    HeightMap::from_gaps([4, 5], [unit, 0.5 * unit], heights.collect()).expect("a map")
 }
 
 #[test]
@@ -73,14 +73,31 @@ fn what_lies_below_a_height_is_inside_its_rectangle() {
 #[test]
 fn of_equal_lowest_heights_the_nearest_to_the_middle_is_the_origin() {
     let heights = vec![0.0, 1.0, 1.0, 1.0, 0.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.0];
-    let map = HeightMap::new([4, 3], [1.0, 1.0], heights).expect("a map");
+    let map = HeightMap::from_gaps([4, 3], [1.0, 1.0], heights).expect("a map");
     let seen = [[-1.0, 2.0], [-1.0, 1.0]];
     assert_eq!(map.extent(), seen, "from row 1, column 1");
 }
 
+/// Heights out of the body, whose rows run along x, are the gaps with the other sign and the other order.
+#[test]
+fn heights_and_gaps_give_one_surface() {
+    let gaps = vec![0.5, 3.0, 2.0, 0.0, 1.5, 4.0];
+    let heights = [-0.5, -2.0, -1.5, -3.0, -0.0, -4.0].map(|height: f64| 7.0 + height);
+    let map = HeightMap::from_gaps([3, 2], [1.0, 0.5], gaps).expect("a map");
+    let same = HeightMap::from_heights([2, 3], [1.0, 0.5], &heights).expect("a map");
+    assert_eq!(same, map, "heights {heights:?}");
+    for (shape, needed) in [([3, 3], 9), ([0, 6], 0)] {
+        let other = HeightMap::from_heights(shape, [1.0; 2], &heights);
+        assert_matches!(other, Err(IndenterError::LengthMismatch { first_length, .. }) if first_length == needed);
+    }
+    let few = HeightMap::from_heights([1, 6], [1.0; 2], &heights);
+    assert_matches!(few, Err(IndenterError::TooFew { length: 1, .. }));
+}
+
 #[test]
 fn grids_that_do_not_fit_are_refused() {
-    let new = |shape, spacing, heights: &[f64]| HeightMap::new(shape, spacing, heights.to_vec());
+    let new =
+        |shape, spacing, heights: &[f64]| HeightMap::from_gaps(shape, spacing, heights.to_vec());
     let square = [0.0, 1.0, 2.0, 3.0];
     for shape in [[1, 4], [4, 1]] {
         let few = new(shape, [1.0; 2], &square);
@@ -109,7 +126,7 @@ fn a_map_has_the_mirrors_of_its_nodes() {
         // The lowest node is not in the middle, through which the nodes are mirrored.
         ([2.0, 0.0, 2.0, 1.0, 4.0, 1.0, 2.0, 0.0, 2.0], [false, true]),
     ] {
-        let map = HeightMap::new([3, 3], [1.0, 0.5], heights.to_vec()).expect("a map");
+        let map = HeightMap::from_gaps([3, 3], [1.0, 0.5], heights.to_vec()).expect("a map");
         assert_eq!(map.mirrors(), expected, "mirrors of {heights:?}");
     }
 }

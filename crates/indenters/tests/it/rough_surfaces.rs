@@ -178,7 +178,7 @@ fn a_periodic_map_is_a_sum_of_waves() {
     for [rows, columns] in [[128, 64], [101, 75]] {
         let heights = surface.heights([rows, columns]).expect("heights");
         let spacing = [2.0 / rows as f64, 1.0 / columns as f64];
-        let map = HeightMap::new([rows, columns], spacing, heights).expect("a map");
+        let map = HeightMap::from_gaps([rows, columns], spacing, heights).expect("a map");
         let found = PeriodicSurface::from_map(&map, 0.0).expect("waves");
         assert_eq!(found.waves().len(), surface.waves().len(), "as many waves");
         for wave in found.waves() {
@@ -205,7 +205,7 @@ fn a_periodic_map_is_a_sum_of_waves() {
         assert!((0.1..0.11).contains(&shortest), "shortest wave {shortest}");
         PeriodicSurface::from_map(&map, 3.0).expect_err("no wave is so long");
     }
-    let flat = HeightMap::new([4, 4], [1.0; 2], vec![1.0; 16]).expect("a map");
+    let flat = HeightMap::from_gaps([4, 4], [1.0; 2], vec![1.0; 16]).expect("a map");
     let refused = PeriodicSurface::from_map(&flat, 0.0).expect_err("a plane");
     let said = refused.to_string();
     assert!(
@@ -214,7 +214,7 @@ fn a_periodic_map_is_a_sum_of_waves() {
     );
     // Waves of two elements alone are none that heights tell.
     let heights = [1.0, 0.0, 1.0, 0.0].repeat(4);
-    let board = HeightMap::new([4, 4], [1.0; 2], heights).expect("a map");
+    let board = HeightMap::from_gaps([4, 4], [1.0; 2], heights).expect("a map");
     PeriodicSurface::from_map(&board, 0.0).expect_err("two elements per wave");
 }
 

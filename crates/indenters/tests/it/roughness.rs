@@ -13,7 +13,7 @@ fn wave(shape: [usize; 2], cycles: f64) -> HeightMap {
     let height = |index: usize| 2e-6 * (TAU * cycles * place(index) + 0.3).cos();
     let heights = (0..rows * columns).map(height).collect();
     let spacing = [3e-3 / rows as f64, 1e-3 / columns as f64];
-    HeightMap::new(shape, spacing, heights).expect("a map")
+    HeightMap::from_gaps(shape, spacing, heights).expect("a map")
 }
 
 #[test]
@@ -49,7 +49,7 @@ fn a_wave_has_the_numbers_of_its_formula() {
 fn spikes_on_a_plain_have_a_positive_skewness() {
     let mut heights = vec![1.0; 100];
     heights[44] = 0.0;
-    let map = HeightMap::new([10, 10], [1.0; 2], heights).expect("a map");
+    let map = HeightMap::from_gaps([10, 10], [1.0; 2], heights).expect("a map");
     let spike = Roughness::of(&map, false).expect("numbers");
     assert_close!(spike.skewness => 0.98 / 0.0099_f64.sqrt(), within 1e-12; "Ssk");
     assert_close!(spike.peak => 0.99, within 1e-12; "Sp");
@@ -69,7 +69,7 @@ fn spectra_hold_the_variance_of_the_heights() {
     let surface = surface.surface().expect("a surface");
     let (shape, spacing) = ([150, 90], [2.0 / 150.0, 1.0 / 90.0]);
     let heights = surface.heights(shape).expect("heights");
-    let map = HeightMap::new(shape, spacing, heights).expect("a map");
+    let map = HeightMap::from_gaps(shape, spacing, heights).expect("a map");
     let numbers = Roughness::of(&map, true).expect("numbers");
     assert_close!(numbers.rms_gradient() => 0.2, within 1e-12; "Sdq");
     let spectrum = PowerSpectrum::of(&map, true).expect("a spectrum");
@@ -119,7 +119,7 @@ fn the_window_hides_the_edges() {
 fn lengths_whose_powers_are_no_numbers_are_refused() {
     let map = |scale: f64, spacing: f64| {
         let heights = (0..16).map(|index| scale * f64::from(index * index % 7));
-        HeightMap::new([4, 4], [1.0, spacing], heights.collect()).expect("a map")
+        HeightMap::from_gaps([4, 4], [1.0, spacing], heights.collect()).expect("a map")
     };
     for (scale, spacing, named) in [
         (1e200, 1.0, "largest height"),
@@ -141,6 +141,6 @@ fn lengths_whose_powers_are_no_numbers_are_refused() {
     let board = (0..16)
         .map(|index| f64::from((index / 4 + index) % 2))
         .collect();
-    let board = HeightMap::new([4, 4], [1.0; 2], board).expect("a map");
+    let board = HeightMap::from_gaps([4, 4], [1.0; 2], board).expect("a map");
     Roughness::of(&board, true).expect_err("no slopes");
 }

@@ -106,7 +106,7 @@ fn a_body_of_revolution_knows_its_extent() {
 #[test]
 fn only_mirrors_are_hidden_by_unmirrored() {
     let heights = vec![2.0, 1.0, 2.0, 1.0, 0.0, 1.0, 2.0, 1.0, 2.0];
-    let map = HeightMap::new([3, 3], [1.0; 2], heights).unwrap();
+    let map = HeightMap::from_gaps([3, 3], [1.0; 2], heights).unwrap();
     let hidden = Unmirrored(&map);
     assert_eq!((map.mirrors(), hidden.mirrors()), ([true; 2], [false; 2]));
     assert_eq!(hidden.extent_below(0.5), map.extent_below(0.5));

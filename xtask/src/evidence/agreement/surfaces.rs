@@ -67,7 +67,7 @@ pub(super) fn resampled(case: &mut Case) -> Option<()> {
     let lengths = case.lengths.as_mut()?;
     let spacing = map.spacing.as_mut()?;
     let shape = [lengths.values.len() / lengths.columns, lengths.columns];
-    let given = HeightMap::new(shape, [1.0; 2], lengths.values.clone()).ok()?;
+    let given = HeightMap::from_gaps(shape, [1.0; 2], lengths.values.clone()).ok()?;
     let waves = PeriodicSurface::from_map(&given, 0.0).ok()?;
     let is_periodic = map.edges == Edges::Periodic;
     lengths.values = waves.heights(shape.map(|count| 2 * count)).ok()?;
