@@ -44,6 +44,51 @@ impl PressureField {
         })
     }
 
+    /// The field on another `grid` whose first element has its centre at `origin` relative to the lowest point, \[m].
+    ///
+    /// Each new element has the mean pressure over its area, so that the force is the same if the grid covers the contact; the
+    /// force of elements outside of the grid is lost.
+    #[must_use]
+    pub fn resampled(&self, grid: &Grid, origin: [f64; 2]) -> Self {
+        let [along, across] = [0, 1].map(|axis| self.overlaps(axis, grid, origin[axis]));
+        let [_, old_columns] = self.grid.shape();
+        let [_, columns] = grid.shape();
+        let mut pressure = vec![0.0; grid.n_elements()];
+        for (new_row, old_row, part_of_row) in along {
+            let old = &self.pressure[old_row * old_columns..][..old_columns];
+            let new = &mut pressure[new_row * columns..][..columns];
+            for &(new_column, old_column, part) in &across {
+                new[new_column] += part_of_row * part * old[old_column];
+            }
+        }
+        Self {
+            grid: *grid,
+            origin,
+            pressure,
+        }
+    }
+
+    /// Along an axis the indices of new and old elements that overlap, and the part of the new element that the old one covers,
+    /// for a new grid with the centre of its first element at `origin` \[m].
+    fn overlaps(&self, axis: usize, grid: &Grid, origin: f64) -> Vec<(usize, usize, f64)> {
+        let [old, new] = [&self.grid, grid].map(|grid| grid.spacing()[axis]);
+        let n_old = self.grid.shape()[axis];
+        // Ends of element `index`, in edges of old elements behind the rear end of the first one.
+        let start = (origin - self.origin[axis] - 0.5 * new) / old + 0.5;
+        let ratio = new / old;
+        let pairs = (0..grid.shape()[axis]).flat_map(|index| {
+            let rear = start + index as f64 * ratio;
+            let front = start + (index + 1) as f64 * ratio;
+            let first = whole_part(rear.max(0.0));
+            let last = whole_part(front.max(0.0)).min(n_old.saturating_sub(1));
+            (first..=last).filter_map(move |covered| {
+                let overlap = front.min((covered + 1) as f64) - rear.max(covered as f64);
+                (overlap > 0.0).then_some((index, covered, overlap / ratio))
+            })
+        });
+        pairs.collect()
+    }
+
     /// Contact area, \[m²]: that of the elements with pressure, with the perimeter correction of Yastrebov, Anciaux & Molinari
     /// (2017).
     pub fn contact_area(&self) -> f64 {
@@ -123,5 +168,67 @@ impl PressureField {
             return 0.0;
         }
         self.pressure[whole_part(row) * columns + whole_part(column)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A field of 5 × 4 elements with an edge that has no pressure.
+    fn field() -> PressureField {
+        let grid = Grid::new([5, 4], [0.5, 0.25]).expect("a grid");
+        let pressure = (0..20).map(|index| f64::from(index * index % 7));
+        PressureField {
+            grid,
+            origin: [-0.75, -0.5],
+            pressure: pressure.collect(),
+        }
+    }
+
+    /// Normal force of a field, \[N].
+    fn force(field: &PressureField) -> f64 {
+        field.pressure.iter().sum::<f64>() * field.grid.element_area()
+    }
+
+    #[test]
+    fn resampling_keeps_the_force() {
+        let field = field();
+        assert_eq!(field.resampled(&field.grid, field.origin), field, "itself");
+        // Grids that are finer, coarser and neither, all of which cover the field.
+        for (shape, spacing, origin) in [
+            ([23, 41], [0.13, 0.031], [-1.2, -0.66]),
+            ([3, 2], [1.1, 0.9], [-0.6, -0.3]),
+            ([1, 9], [3.0, 0.17], [0.3, -0.7]),
+        ] {
+            let grid = Grid::new(shape, spacing).expect("a grid");
+            let (found, expected) = (force(&field.resampled(&grid, origin)), force(&field));
+            let off = (found / expected - 1.0).abs();
+            assert!(
+                off < 1e-14,
+                "{shape:?} of {spacing:?}: {found} N instead of {expected} N"
+            );
+        }
+    }
+
+    #[test]
+    fn elements_have_the_mean_pressure_over_their_area() {
+        let field = field();
+        let halves = Grid::new([10, 8], [0.25, 0.125]).expect("a grid");
+        let fine = field.resampled(&halves, [-0.875, -0.5625]);
+        for (index, pressure) in fine.pressure.iter().enumerate() {
+            let parent = index / 8 / 2 * 4 + index % 8 / 2;
+            let expected = field.pressure[parent];
+            let off = (pressure - expected).abs();
+            assert!(
+                off <= 1e-14 * expected,
+                "half {index}: {pressure} Pa instead of {expected} Pa"
+            );
+        }
+        let outside = field.resampled(&halves, [5.0, 5.0]);
+        assert!(
+            force(&outside).abs() < f64::MIN_POSITIVE,
+            "of a grid elsewhere"
+        );
     }
 }
