@@ -5,25 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._arrays import Compared, numbers
-from ._kinds import Cone
+from ._kinds import Cone, Edges, HeightsAre, LengthUnit
 from ._tables import Body
 
 __all__ = ["Body", "HeightMap", "Pyramid", "Roughness"]
-
-
-#: What is beyond the edge of a height map: nothing, the same map, or its mirror images.
-Edges = Literal["wall", "periodic", "mirrored"]
-#: Whether heights point out of the body, or are gaps.
-HeightsAre = Literal["surface", "gap"]
-#: A unit of heights.
-Unit = Literal["m", "mm", "um", "nm"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,7 +95,7 @@ class HeightMap(Compared, Body):
         heights: ArrayLike,
         spacing: float | tuple[float, float],
         *,
-        unit: Unit = "m",
+        unit: LengthUnit = "m",
         heights_are: HeightsAre = "surface",
         direction: float = 0,
         fill_missing: bool = False,
@@ -119,7 +111,7 @@ class HeightMap(Compared, Body):
         if steps.shape != (2,) or not (steps > 0).all():
             raise ValueError(f"spacing must be one or two numbers greater than 0, but is {spacing}")
         self.spacing: tuple[float, float] = (float(steps[0]), float(steps[1]))
-        self.unit: Unit = unit
+        self.unit: LengthUnit = unit
         self.heights_are: HeightsAre = heights_are
         self.direction = direction
         self.fill_missing = fill_missing

@@ -6,7 +6,7 @@ import json
 import os
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -45,7 +45,7 @@ class FrictionFit(Compared):
     #: Largest relative error of the computed friction.
     solver_error: float
     #: What was taken to be known of the moduli before the fit: "covariance", "none" or {"relative": spread}.
-    prior: str | Mapping[str, float]
+    prior: Literal["covariance", "none"] | Mapping[str, float]
     #: How a table was read where that is not plain: signs, means of runs.
     notes: tuple[str, ...]
     #: What is doubtful about it.
@@ -84,9 +84,9 @@ def fit_friction(
     standard_error: ArrayLike | None = None,
     temperature: ArrayLike | None = None,
     normal_force: ArrayLike | None = None,
-    free: str = "moduli",
-    noise: str = "relative",
-    prior: float | str = "covariance",
+    free: Literal["moduli", "shift", "both"] = "moduli",
+    noise: Literal["relative", "absolute"] = "relative",
+    prior: float | Literal["covariance", "none"] = "covariance",
     track_radius: float | None = None,
     run_in: float | None = None,
 ) -> FrictionFit:

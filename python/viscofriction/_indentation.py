@@ -6,7 +6,7 @@ import json
 import os
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -241,10 +241,10 @@ def fit_indentation(
     force: ArrayLike | None = None,
     *,
     body: Body,
-    material: str = "standard-solid",
+    material: Literal["elastic", "standard-solid", "prony", "power-law"] = "standard-solid",
     branches: int | None = None,
     poisson_ratio: float = 0.5,
-    thickness: float | str | None = None,
+    thickness: float | Literal["fit"] | None = None,
     tilt: bool = True,
     before_retraction: bool = False,
     profile: bool = True,

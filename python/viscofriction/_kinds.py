@@ -36,6 +36,14 @@ __all__ = [
     "MaterialFile",
 ]
 
+# Words of a scene.
+Edges = Literal["wall", "periodic", "mirrored"]
+HeightsAre = Literal["surface", "gap"]
+LengthUnit = Literal["m", "mm", "um", "nm"]
+Method = Literal["analytic", "mdr-steady", "mdr-transient", "bem-steady", "bem-transient"]
+Model = Literal["line", "half-space"]
+StrokeShape = Literal["sinusoidal", "triangular"]
+
 
 @dataclass(frozen=True)
 class Power(Body):

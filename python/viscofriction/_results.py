@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from . import _native
 from ._arrays import Compared
+from ._kinds import Method, Model
 
 __all__ = ["Answer", "NotReached"]
 
@@ -54,8 +55,32 @@ class Answer(Compared):
     if TYPE_CHECKING:
         normal_force: Values
         normal_force_error: Values
-
-        def __getattr__(self, name: str) -> Values | None: ...
+        friction_coefficient: Values | None
+        friction_coefficient_error: Values | None
+        mu: Values | None
+        mu_error: Values | None
+        tangential_force: Values | None
+        tangential_force_error: Values | None
+        indentation_depth: Values | None
+        indentation_depth_error: Values | None
+        contact_area: Values | None
+        contact_area_error: Values | None
+        area: Values | None
+        area_error: Values | None
+        peak_pressure: Values | None
+        peak_pressure_error: Values | None
+        mean_contact_pressure: Values | None
+        mean_contact_pressure_error: Values | None
+        mean_pressure: Values | None
+        mean_pressure_error: Values | None
+        area_fraction: Values | None
+        area_fraction_error: Values | None
+        friction_from_dissipation: Values | None
+        friction_from_dissipation_error: Values | None
+        peak_friction: Values | None
+        peak_friction_error: Values | None
+        dissipated_energy: Values | None
+        dissipated_energy_error: Values | None
 
     def __init__(self, found: dict[str, Any], loads: dict[str, NDArray[np.float64]], shape: tuple[int, ...]) -> None:
         self._columns: dict[str, NDArray[np.float64]] = found["columns"]
@@ -114,15 +139,15 @@ class Answer(Compared):
         return {name: values for name, values in known.items() if values is not None}
 
     @property
-    def method(self) -> str | list[str | None]:
+    def method(self) -> Method | list[Method | None]:
         """The method that answered; of an array of loads a flat list."""
-        method: str | list[str | None] = self._one_or_all("method")
+        method: Method | list[Method | None] = self._one_or_all("method")
         return method
 
     @property
-    def model(self) -> str | list[str | None]:
+    def model(self) -> Model | list[Model | None]:
         """What the elastomer was taken to be; of an array of loads a flat list."""
-        model: str | list[str | None] = self._one_or_all("model")
+        model: Model | list[Model | None] = self._one_or_all("model")
         return model
 
     @property
@@ -320,6 +345,12 @@ if TYPE_CHECKING:
         friction_coefficient_error: Values
         tangential_force: Values
         tangential_force_error: Values
+
+    class MovingAnswer(SlidingAnswer):
+        """Answers along a motion, whose largest friction is known too."""
+
+        peak_friction: Values
+        peak_friction_error: Values
 
 
 def noted(warnings: list[str]) -> list[str]:

@@ -15,12 +15,12 @@ from . import _native
 from ._arrays import columns as checked_columns
 from ._arrays import numbers, text_of, together
 from ._bodies import HeightMap
-from ._kinds import Elastic
+from ._kinds import Elastic, Method, Model, StrokeShape
 from ._results import Answer, not_reached
 from ._tables import Body, Material
 
 if TYPE_CHECKING:
-    from ._results import SlidingAnswer
+    from ._results import MovingAnswer, SlidingAnswer
 
 __all__ = ["move", "press", "slide", "solve"]
 
@@ -42,8 +42,8 @@ def slide(
     sliding_distance: ArrayLike | None = None,
     track: ArrayLike | None = None,
     thickness: ArrayLike | None = None,
-    model: str | None = None,
-    method: str | None = None,
+    model: Model | None = None,
+    method: Method | None = None,
     relative_error: float | None = None,
     elements: int | None = None,
     threads: int | None = None,
@@ -86,19 +86,19 @@ def move(
     *,
     stroke: ArrayLike | None = None,
     frequency: ArrayLike | None = None,
-    shape: str | None = None,
+    shape: StrokeShape | None = None,
     time: ArrayLike | None = None,
     position: ArrayLike | None = None,
     normal_force: ArrayLike | None = None,
     indentation_depth: ArrayLike | None = None,
     mean_pressure: ArrayLike | None = None,
-    model: str | None = None,
-    method: str | None = None,
+    model: Model | None = None,
+    method: Method | None = None,
     relative_error: float | None = None,
     elements: int | None = None,
     threads: int | None = None,
     progress: Progress = None,
-) -> SlidingAnswer:
+) -> MovingAnswer:
     """Friction of a body that moves to and fro, or through positions [m] at times [s] that increase.
 
     Either a ``stroke`` [m] from end to end and a ``frequency`` [1/s], numbers or arrays that fit together, with ``shape`` "sinusoidal"
@@ -115,7 +115,7 @@ def move(
         load["motion"] = [{"time": t, "position": x} for t, x in zip(times.tolist(), places.tolist(), strict=True)]
     options = given(model=model, method=method, relative_error=relative_error, elements=elements, threads=threads)
     scene = {"indenter": body, "material": material, "load": load, "solve": options}
-    return cast("SlidingAnswer", ask(scene, *together(loads), progress))
+    return cast("MovingAnswer", ask(scene, *together(loads), progress))
 
 
 def press(
@@ -127,8 +127,8 @@ def press(
     mean_pressure: ArrayLike | None = None,
     duration: ArrayLike | None = None,
     thickness: ArrayLike | None = None,
-    model: str | None = None,
-    method: str | None = None,
+    model: Model | None = None,
+    method: Method | None = None,
     relative_error: float | None = None,
     elements: int | None = None,
     threads: int | None = None,

@@ -17,7 +17,16 @@ const CLASS_NAMES: [(&str, &str); 3] = [
 ];
 /// The material whose class is not generated but written by hand, in `_materials.py`: its constructor takes branches.
 const BY_HAND: &str = "prony";
-/// Begin of `_kinds.py`; `NAMES` is replaced by the quoted names of all classes.
+/// Sets of words in a scene that are also types of arguments of Python functions.
+const CHOICES: [&str; 6] = [
+    "Edges",
+    "HeightsAre",
+    "LengthUnit",
+    "Method",
+    "Model",
+    "StrokeShape",
+];
+/// Begin of `_kinds.py`; `NAMES` is replaced by the quoted names of all classes, `CHOICES` by definitions of types.
 const HEAD: &str = "\
 \"\"\"Bodies and materials with the keys of a scene, in SI. `cargo xtask kinds` writes this file.\"\"\"
 
@@ -33,6 +42,9 @@ from ._tables import Body, Material
 __all__ = [
     NAMES,
 ]
+
+# Words of a scene.
+CHOICES
 ";
 
 /// Pages with tables. The table of a definition of the schema stands between comments with its name: of a body or material all kinds,
@@ -64,9 +76,16 @@ fn files() -> Result<Vec<(&'static str, String)>> {
             names.push(format!("\"{}\"", class_name(kind)));
         }
     }
+    let schema = json_schema()?;
+    let definitions: Json = serde_json::from_str(&schema)?;
+    let choices = CHOICES.map(|name| {
+        let words = literal(&definitions["$defs"][name]);
+        format!("{name} = {words}")
+    });
     let classes = classes.replace("NAMES", &names.join(",\n    "));
+    let classes = classes.replace("CHOICES", &choices.join("\n"));
     let mut files = vec![
-        ("docs/scene.schema.json", json_schema()?),
+        ("docs/scene.schema.json", schema),
         ("python/viscofriction/_kinds.py", classes),
     ];
     for path in PAGES {
@@ -261,13 +280,16 @@ fn type_of(key: &Key) -> String {
         Some("string") if words["oneOf"].is_null() => "str | os.PathLike[str]",
         Some("array") if list_of(key).is_some() => "Sequence[tuple[float, float]]",
         Some("array") => "tuple[float, float]",
-        _ => {
-            let choices = words["oneOf"].as_array().into_iter().flatten();
-            let choices: Vec<String> = choices.map(|choice| choice["const"].to_string()).collect();
-            return format!("Literal[{}]", choices.join(", "));
-        }
+        _ => return literal(words),
     };
     name.to_owned()
+}
+
+/// The Python type of a definition that lists words.
+fn literal(words: &Json) -> String {
+    let choices = words["oneOf"].as_array().into_iter().flatten();
+    let choices: Vec<String> = choices.map(|choice| choice["const"].to_string()).collect();
+    format!("Literal[{}]", choices.join(", "))
 }
 
 #[cfg(test)]
