@@ -1,10 +1,16 @@
 //! Conversion of Python dictionaries to tables of a scene.
 
+use std::path::Path;
+
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyList, PyString, PyTuple};
 use toml::{Table, Value};
-use viscofriction::scene::{Indenter, MaterialTable};
+use viscofriction::Files;
+use viscofriction::scene::{Indenter, MaterialTable, SceneError};
+use viscofriction::solve::{body, half_space};
+
+use crate::reading::read_file;
 
 /// A `ValueError` with a message.
 pub(crate) fn wrong(problem: impl std::fmt::Display) -> PyErr {
@@ -31,16 +37,49 @@ pub(crate) fn table(dictionary: &Bound<'_, PyDict>, path: &str) -> PyResult<Tabl
     Ok(table)
 }
 
-/// Checks a table `indenter` or `material`: its keys, the types of their values, and the ranges of its numbers.
+/// Checks a table `indenter` or `material`: its keys, the types of their values, and the ranges of its numbers. Bodies and
+/// materials that need no file and no random surface are also built, which checks their numbers against one another.
 #[pyfunction]
 pub(crate) fn check_table(dictionary: &Bound<'_, PyDict>) -> PyResult<()> {
     let table = table(dictionary, "")?;
     if table.contains_key("indenter") {
-        Indenter::try_from(table).and_then(|body| body.check())
+        Indenter::try_from(table).and_then(|body| check_body(&body))
     } else {
-        MaterialTable::try_from(table).and_then(|material| material.check())
+        MaterialTable::try_from(table).and_then(|material| check_material(&material))
     }
     .map_err(wrong)
+}
+
+/// Files of the current folder, for objects that are built without any.
+fn no_files() -> Files<'static> {
+    Files {
+        folder: Path::new(""),
+        read: read_file,
+        memory: None,
+    }
+}
+
+/// Checks a body; files and random surfaces are built with their first answer.
+fn check_body(indenter: &Indenter) -> Result<(), SceneError> {
+    match indenter {
+        Indenter::Table { .. }
+        | Indenter::HeightMap(_)
+        | Indenter::SelfAffine(_)
+        | Indenter::Spectrum(_) => {
+            indenter.check()?;
+            indenter.realisations().map(drop)
+        }
+        _ => body(indenter, &no_files()).map(drop),
+    }
+}
+
+/// Checks a material; a file is read with its first answer.
+fn check_material(material: &MaterialTable) -> Result<(), SceneError> {
+    material.check()?;
+    match material {
+        MaterialTable::File { .. } => Ok(()),
+        _ => half_space(material, &no_files()).map(drop),
+    }
 }
 
 /// Converts an object to a value of a scene.

@@ -64,6 +64,12 @@ MAKERS: list[tuple[str, Callable[[], Any]]] = [
     ("material.elastic.poisson_ratio must be greater than -1 and at most 0.5", lambda: vf.Elastic(1e6, poisson_ratio=0.6)),
     ("material.prony.branches[0].relaxation_time must be finite", lambda: vf.Prony(1e6, [(1e6, 0.0)])),
     ("material.file.poisson_ratio must be greater than -1", lambda: vf.MaterialFile("rubber.toml", poisson_ratio=1.0)),
+    (
+        "indenter.self-affine.shortest_wavelength: it must not be longer than longest_wavelength, 0.1 m, but is 1 m",
+        lambda: vf.SelfAffine((1.0, 1.0), 0.5, 0.1, 0.1, 1.0, 1),
+    ),
+    ("indenter.superposition", lambda: vf.Superposition([(1.0, 2.0), (-1.0, 1.0)])),
+    ("material.springpot.time_range", lambda: vf.Springpot(1e6, 0.5, (1.0, 0.1))),
     ("material.elastic.valid_frequencies[0] must be finite", lambda: vf.Elastic(1e6, valid_frequencies=(-1.0, 1.0))),
 ]
 

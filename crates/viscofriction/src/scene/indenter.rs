@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::path::PathBuf;
 
-use numerics::in_range;
+use numerics::{MessageNumber, in_range};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use strum::{EnumDiscriminants, EnumIter, IntoStaticStr};
@@ -223,12 +223,16 @@ impl Indenter {
         format!("indenter.{name}")
     }
 
-    /// Checks every number against its range.
+    /// Checks every number against its range, and the wavelengths of a self-affine surface against one another.
     ///
     /// # Errors
     /// [`SceneError`] for the first number out of range.
     pub fn check(&self) -> Result<(), SceneError> {
-        check_ranges("indenter", self)
+        check_ranges("indenter", self)?;
+        match self {
+            Self::SelfAffine(surface) => check_wavelengths(surface),
+            _ => Ok(()),
+        }
     }
 
     /// Largest number of random surfaces, and the relative standard error of the mean at which sampling stops; 1 and `None` for a
@@ -282,6 +286,22 @@ impl Indenter {
         let seed = *seed;
         Some((one, seed))
     }
+}
+
+/// Rejects a shortest wavelength above the longest.
+fn check_wavelengths(surface: &SelfAffineSurface) -> Result<(), SceneError> {
+    let [shortest, longest] = [surface.shortest_wavelength, surface.longest_wavelength];
+    if shortest > longest {
+        let [shortest, longest] = [shortest, longest].map(MessageNumber);
+        let problem = format!(
+            "it must not be longer than longest_wavelength, {longest} m, but is {shortest} m"
+        );
+        return Err(SceneError::at(
+            "indenter.self-affine.shortest_wavelength",
+            problem,
+        ));
+    }
+    Ok(())
 }
 
 /// Reads a body from keys and values, with one table `[indenter.…]`.

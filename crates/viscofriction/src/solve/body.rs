@@ -9,7 +9,6 @@ use indenters::{
     PowerProfile, PowerTerm, RoundTippedCone, Sphere, Spheroid, Superposition, Surface,
     TruncatedParaboloid,
 };
-use numerics::MessageNumber;
 
 use super::heights::{MAX_RMS_SLOPE, body_of_heights};
 use super::memory::check_waves_to_draw;
@@ -159,7 +158,6 @@ pub fn body(indenter: &Indenter, files: &Files<'_>) -> Result<BodyOfScene, Scene
             return body_of_heights(table, surface);
         }
         Indenter::SelfAffine(surface) => {
-            check_wavelengths(surface)?;
             check_waves_to_draw(surface.period, surface.shortest_wavelength, files.memory)?;
             self_affine(surface).surface().map(Body::Periodic)
         }
@@ -170,22 +168,6 @@ pub fn body(indenter: &Indenter, files: &Files<'_>) -> Result<BodyOfScene, Scene
         body,
         warnings: Vec::new(),
     })
-}
-
-/// Rejects a shortest wavelength above the longest.
-fn check_wavelengths(surface: &SelfAffineSurface) -> Result<(), SceneError> {
-    let [shortest, longest] = [surface.shortest_wavelength, surface.longest_wavelength];
-    if shortest > longest {
-        let [shortest, longest] = [shortest, longest].map(MessageNumber);
-        let problem = format!(
-            "it must not be longer than longest_wavelength, {longest} m, but is {shortest} m"
-        );
-        return Err(SceneError::at(
-            "indenter.self-affine.shortest_wavelength",
-            problem,
-        ));
-    }
-    Ok(())
 }
 
 /// The parameters of a self-affine surface; the roll-off defaults to the longest wavelength.
