@@ -141,11 +141,19 @@ impl NewFiles<'_> {
         Ok(())
     }
 
-    /// Writes a picture as SVG and PNG.
-    pub(crate) fn draw(&self, name: &str, figure: &Figure) -> Result<()> {
-        let (svg, png) = picture(figure).with_context(|| format!("drawing {name}"))?;
+    /// Writes a picture as SVG and PNG. One that cannot be drawn is left out, with a line on standard error, because the numbers are worth
+    /// more than the picture; then the result is false.
+    pub(crate) fn draw(&self, name: &str, figure: &Figure) -> Result<bool> {
+        let (svg, png) = match picture(figure) {
+            Ok(drawn) => drawn,
+            Err(problem) => {
+                eprint_line(&format!("no picture {name}: {problem:#}"));
+                return Ok(false);
+            }
+        };
         self.write(&format!("{name}.svg"), svg.as_bytes())?;
-        self.write(&format!("{name}.png"), &png)
+        self.write(&format!("{name}.png"), &png)?;
+        Ok(true)
     }
 
     /// Moves the files into the folder. If that fails they remain where they are, and the error names the place.

@@ -58,10 +58,13 @@ pub(super) fn write(
     write_pressure(answer, shown(source, answer)?, (&out, &mut pictures))?;
     write_line(answer, (&out, &mut pictures))?;
     write_history(answer, (&out, &mut pictures))?;
-    for (name, figure) in &pictures {
-        out.draw(name, figure)?;
+    let mut drawn = Pictures::new();
+    for (name, figure) in pictures {
+        if out.draw(name, &figure)? {
+            drawn.push((name, figure));
+        }
     }
-    let page = report::page((source, problem), timed, &pictures)?;
+    let page = report::page((source, problem), timed, &drawn)?;
     out.write("report.html", page.as_bytes())?;
     let result = format!("{}\n", serde_json::to_string_pretty(timed)?);
     out.write("result.json", result.as_bytes())?;

@@ -24,6 +24,9 @@ const TALL: f64 = 0.85;
 /// Largest height over width of a map above which a long title fits, and a short one (chosen).
 const WIDE: [f64; 2] = [1.4, 4.0];
 
+/// Largest ratio of the sides of a map with true proportions (chosen). A narrower one has no room for labels, and axes of its own scales.
+const MAX_SIDE_RATIO: f64 = 6.0;
+
 /// Map of the pressure, on a logarithmic scale if the peak is unbounded.
 pub(super) fn pressure(answer: &Answer, field: &PressureField, shown: Shown) -> Result<Figure> {
     let slides = answer.friction_coefficient.is_some();
@@ -43,7 +46,8 @@ pub(super) fn pressure(answer: &Answer, field: &PressureField, shown: Shown) -> 
     };
     let [x, y] = [0, 1].map(|axis| window.range(field, axis));
     let ratio = (y[1] - y[0]) / (x[1] - x[0]);
-    let label = if loaded[0] < lowest && ratio > TALL {
+    let is_true = ratio.max(ratio.recip()) <= MAX_SIDE_RATIO;
+    let label = if loaded[0] < lowest && (ratio > TALL || !is_true) {
         "pressure P, darkest: 1 % of load [Pa]"
     } else {
         "pressure P [Pa]"
@@ -57,7 +61,13 @@ pub(super) fn pressure(answer: &Answer, field: &PressureField, shown: Shown) -> 
         let pressure = field.pressure[x * rows + y];
         (pressure > 0.0).then(|| pressure.max(lowest))
     });
+    let pressures = if is_true {
+        pressures
+    } else {
+        pressures.stretched()
+    };
     let title = match (shown, slides) {
+        _ if !is_true => Some("x and y to different scales"),
         (Shown::Body, _) | (Shown::Period, false) => None,
         (Shown::Period, true) => Some("motion →"),
         (Shown::Quarter, true) if ratio < WIDE[0] => Some("motion →; one of four mirror images"),
@@ -72,12 +82,14 @@ pub(super) fn pressure(answer: &Answer, field: &PressureField, shown: Shown) -> 
             series.push(Series::markers(vec![[0.0, 0.0]], cross, Colour::Red));
         }
         if slides {
-            series.push(arrow(x, y, true));
+            series.push(arrow(x, y, is_true));
         }
     }
     let [x, y] = [Axis::linear("x [m]", x), Axis::linear("y [m]", y)];
     Ok(Figure::single(Chart {
-        title: title.filter(|_| ratio < WIDE[1]).map(str::to_owned),
+        title: title
+            .filter(|_| ratio < WIDE[1] || !is_true)
+            .map(str::to_owned),
         series,
         ..Chart::map(x, y, pressures)
     }))

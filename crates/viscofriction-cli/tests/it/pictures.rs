@@ -76,6 +76,24 @@ fn a_map_of_the_pressure_has_the_lowest_point_of_the_body_and_its_motion() {
     assert!(!svg.contains(">6<"), "more than the map in {svg}");
 }
 
+/// A ridge touches with a contact that is much longer than wide: true proportions have no room for labels.
+#[test]
+fn a_narrow_contact_is_drawn_to_different_scales() {
+    let folder = Folder::new("picture-of-ridge");
+    let row = |column: i32| format!("{:e}", -6e-6 * f64::from((column - 31).abs()));
+    let line = (0..64).map(row).collect::<Vec<String>>().join(",");
+    folder.write("ridge.csv", format!("{line}\n").repeat(64));
+    folder.write(
+        "scene.toml",
+        "[indenter.height-map]\nfile = \"ridge.csv\"\nspacing = [6e-5, 6e-5]\n\
+         [material.standard-solid]\nequilibrium_modulus = 1e6\nmaxwell_modulus = 1e7\nviscosity = 1e4\n\
+         [load]\nnormal_force = 0.3\nvelocity = 1.0\n[solve]\nelements = 24\n",
+    );
+    folder.done("run scene.toml --out out");
+    let svg = folder.text("out/pressure.svg");
+    assert!(svg.contains("x and y to different scales"), "{svg}");
+}
+
 #[test]
 fn cut_offs_and_spectra_show_their_limits() {
     let folder = Folder::new("picture-of-limits");
