@@ -19,10 +19,11 @@ pub struct Files<'a> {
     pub memory: Option<u64>,
 }
 
-/// Bound of the memory per table row while it is read, \[bytes]. A parsed row with its line number has at most 56 bytes. It
-/// counts three times, because a list that grows holds its old and its doubled storage at once.
+/// Bound of the memory per table row while it is read, \[bytes]. Derived: a parsed row with its line number has at most 56 bytes.
+/// It counts three times, because a list that grows holds its old and its doubled storage at once.
 const BYTES_PER_ROW: u64 = 200;
-/// Largest size of a material file, \[bytes] (chosen: a fit writes the covariance of up to 200 branches).
+/// Size of a material file, \[bytes], above which it is refused. Chosen: the covariance that a fit of up to 200 branches writes
+/// has room in it.
 const MAX_MATERIAL_FILE: u64 = 1 << 21;
 
 impl<'a> Files<'a> {

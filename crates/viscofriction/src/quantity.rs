@@ -50,21 +50,21 @@ pub struct Unit {
 impl Unit {
     /// No unit: a dimensionless number.
     pub(crate) const NUMBER: Self = Self::of_any("");
-    /// Depths, and edges of a contact.
+    /// Unit of depths, and of the edges of a contact.
     const LENGTH: Self = Self::of_any("m");
-    /// Pressures and moduli.
+    /// Unit of pressures and moduli.
     const PRESSURE: Self = Self::of_any("Pa");
-    /// Contact areas.
+    /// Unit of contact areas.
     const AREA: Self = Self {
         of_body: "m²",
         of_cylinder: "m²/m",
     };
-    /// Normal and tangential forces.
+    /// Unit of normal and tangential forces.
     const FORCE: Self = Self {
         of_body: "N",
         of_cylinder: "N/m",
     };
-    /// Works and dissipated energies.
+    /// Unit of works and dissipated energies.
     const ENERGY: Self = Self {
         of_body: "J",
         of_cylinder: "J/m",

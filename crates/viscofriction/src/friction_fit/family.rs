@@ -23,14 +23,14 @@ const STRESSES: [&str; 6] = [
     "viscosity",
     "coefficient",
 ];
-/// Key of the exponent of a power law.
+/// Key in the scene of the exponent of a power-law material.
 const EXPONENT: &str = "exponent";
-/// Key of the relaxation time of a power law.
+/// Key in the scene of the relaxation time of a power-law material.
 const TIME: &str = "relaxation_time";
-/// Lower and upper bound of a modulus or viscosity, over the sum of the start values of all free parameters of its unit
-/// (chosen). A parameter that the points do not determine runs into a bound, and its interval is left open there.
+/// Lower and upper bound of the ratio of a modulus or viscosity to the sum of the start values of all free parameters of the same
+/// unit. Chosen. A parameter that the points do not determine runs into a bound, and its interval is left open there.
 const MODULUS_BOUNDS: [f64; 2] = [1e-5, 1e3];
-/// Lower and upper bound of the relaxation time of a power law, over its start value (chosen, four decades either way).
+/// Lower and upper bound of the ratio of the relaxation time of a power law to its start value. Chosen: four decades either way.
 const TIME_BOUNDS: [f64; 2] = [1e-4, 1e4];
 /// Lower and upper bound of the WLF constant C₁ (chosen; about 17 for most polymers at the glass transition).
 const C1_BOUNDS: [f64; 2] = [0.1, 1e3];
@@ -43,10 +43,12 @@ const EXPONENT_BOUNDS: [f64; 2] = [0.01, 0.99];
 /// Lower bound of C₂ over the distance \[K] of the coldest point below the reference temperature (chosen). The WLF law has its
 /// pole C₂ below the reference; it thus stays 1 % of the distance below that point.
 const MIN_C2_OVER_DISTANCE: f64 = 1.01;
-/// Relative standard deviation whose square is added to each variance of the covariance of the moduli (chosen, below the
-/// accuracy of measured friction). Without it a combination of moduli of zero variance would have infinite weight in the prior.
+/// Relative standard deviation of a modulus whose square is added to each variance of the covariance of the moduli. Chosen, below
+/// the accuracy of measured friction. Without it a combination of moduli of zero variance would have infinite weight in the
+/// prior.
 const MIN_RELATIVE_DEVIATION: f64 = 1e-3;
-/// Largest change of the logarithm of a parameter in one step of the least squares (chosen): a factor of 7.4.
+/// Largest change of the natural logarithm of a parameter in one step of the least squares: the parameter changes by a factor of
+/// at most 7.4. Chosen.
 const MAX_LOG_STEP: f64 = 2.0;
 
 /// A scene whose material has free parameters, and the map from these to the material.
@@ -189,7 +191,7 @@ impl<'a> Family<'a> {
         let known = self.covariance.as_ref()?;
         let moduli = self.moduli.iter().enumerate();
         let moduli = moduli.filter_map(|(place, number)| match number.ends() {
-            // The equilibrium modulus is the first of the covariance.
+            // In the covariance matrix the equilibrium modulus has the first row, and the moduli of the branches follow.
             [_, "equilibrium_modulus"] => Some((place, 0)),
             [_, "modulus"] => Some((place, branch_of(number)? + 1)),
             _ => None,
@@ -356,7 +358,8 @@ impl<'a> Family<'a> {
     /// temperature.
     pub(super) fn modulus_factor_of(&self, point: &FrictionPoint) -> Result<f64, RheologyError> {
         match (&self.shift, self.temperature_of(point)) {
-            // A free law is valid in the range of the points.
+            // A shift law that is fitted is valid at the temperatures of the measured points too, so the range is extended to
+            // them.
             (Some(shift), Some(temperature)) if self.shift_is_free => {
                 let [low, high] = shift.temperature_range;
                 let temperature_range = [low.min(temperature), high.max(temperature)];

@@ -68,17 +68,20 @@ pub struct FittedFriction {
     pub prior: FrictionPrior,
 }
 
-/// Largest number of points in the first search, which takes every n-th of the points (chosen).
+/// Largest number of measured points in the first search; of more points every n-th is taken. Chosen: the search finds start
+/// values only.
 const FIRST_SEARCH_POINTS: usize = 8;
-/// Common factors on all moduli at the starts of the first search, as powers of ten; on the constants of the shift law if no
-/// modulus is free (chosen).
+/// Powers of ten by which all moduli are multiplied at the starts of the first search. If no modulus is free, they multiply the
+/// constants of the shift law. Chosen.
 const START_DECADES: [f64; 7] = [0.0, -0.5, 0.5, -1.0, 1.0, -1.5, 1.5];
-/// Largest number of starts from which the first search follows the sum of squares to a minimum (chosen).
+/// Largest number of starts from which the first search follows the sum of squares to a minimum. Chosen. They are the start of
+/// the scene and those with the smallest sums.
 const MAX_STARTS: usize = 4;
-/// Largest number of times that the ratio of fine to coarse solution is computed for all points (chosen). After the last one
-/// the fit ends even if the parameters have moved by more than [`CORRECTION_REACH`].
+/// Largest number of times that the ratio of fine to coarse solution is computed for all points. Chosen. After the last one the
+/// fit ends even if the parameters have moved by more than [`CORRECTION_REACH`].
 const MAX_CORRECTIONS: usize = 4;
-/// Change of the logarithm of every parameter up to which the ratio of fine to coarse solution still counts as known (chosen).
+/// Largest change of the natural logarithm of any parameter up to which the ratio of fine to coarse solution still counts as
+/// known. After a larger change the ratio is computed again. Chosen.
 const CORRECTION_REACH: f64 = 0.2;
 
 /// Fits the free parameters of the material of a scene to measured friction of its body. Velocities, and forces and temperatures
@@ -93,7 +96,7 @@ pub fn fit_friction(
     options: &FrictionFitOptions,
     watch: &(dyn Fn(&FitProgress) + Sync),
 ) -> Result<FittedFriction, FrictionFitError> {
-    // Validate options, points and scene.
+    // Refuse a prior, points or a scene that cannot be used, before anything is computed.
     if let FrictionPrior::Relative(prior) = options.prior {
         positive("prior", prior).map_err(MeasurementError::from)?;
     }
@@ -103,15 +106,16 @@ pub fn fit_friction(
     family.check_temperatures(points)?;
     let problem = Problem::new(&family.scene, folder, read)?;
     let mut model = Model::new(&family, &problem, points)?;
-    // Set up the least squares with its prior.
+    // Set up the least squares: the free parameters with their start values, and what is known of them before the fit as a prior.
     let (parameters, start) = family.parameters(points);
     let known = family.known(options.prior);
     let prior = family.prior(known, &start);
     let fitting = FrictionFitting::new(points, &parameters, prior.as_ref(), options.noise)?;
-    // Fit some points on coarse grids, then all on corrected grids.
+    // Fit a part of the points on coarse grids for the start values, then all points on grids corrected by fine solutions.
     let start = first_search(&model, &family, (&fitting, &parameters), &start, watch)?;
     let (found, solver_error) = corrected(&mut model, &fitting, start, watch)?;
-    // Evaluate the minimum: reduced velocities, statistics and intervals.
+    // Evaluate the minimum: the velocities reduced to the reference temperature by the shift law, the statistics and the
+    // intervals.
     let logs = &found.minimum.parameters;
     let shifted = points.iter().map(|point| {
         let (log, _) = family.shift_of(point, logs)?;
@@ -180,7 +184,7 @@ fn check_scene(scene: &Scene) -> Result<(), SceneError> {
 const ENDLESS_SURFACE: &str = "moduli are not fitted to the friction of a rough surface without end, of which every point is a computation \
      of minutes; take the moduli from fit-material, or fit them to the friction of a ball or a cylinder on the same material, and \
      compare the friction of this scene with the measured one by `viscofriction sweep` over load.velocity";
-/// Message for a motion or a history.
+/// Message if the scene has a motion or a history instead of sliding at constant speed.
 const STEADY_SLIDING: &str = "friction is fitted at constant speeds, which are those of the table; leave this out, and give normal_force \
      without a motion";
 
@@ -208,15 +212,15 @@ fn first_search(
         });
         moved.collect()
     };
-    // Rank the scaled starts by their sum of squares.
+    // Compute the sum of squares at each scaled start, so that the search begins only from the best ones.
     let mut tried = START_DECADES.map(|decades| {
         let start = scaled(decades);
         let sum = of_few.sum(&few, &start);
         (sum.unwrap_or(f64::INFINITY), start)
     });
-    // The start of the scene stays first.
+    // Sort the starts by their sums. The start of the scene itself stays first, whatever its sum is.
     tried[1..].sort_by(|one, other| one.0.total_cmp(&other.0));
-    // Search from the best starts.
+    // Follow the sum of squares from the best starts to a minimum, and keep the lowest one. End early if noise explains its sum.
     let sum = |found: &FrictionMinimum| found.minimum.model.sum;
     let mut best: Option<FrictionMinimum> = None;
     for (done, (_, start)) in tried.iter().take(MAX_STARTS).enumerate() {
@@ -249,13 +253,13 @@ fn corrected(
     loop {
         let stage = FitStage::LeastSquares { done: corrected };
         watch(&FitProgress { stage, residual });
-        // Correct the grids at the current parameters, then minimise.
+        // Compute the ratio of fine to coarse solutions at the current parameters, then minimise with these ratios held constant.
         let solver_error = model.correct(&start)?;
         corrected += 1;
         let found = fitting.minimum(model, &start);
         let found = found.ok_or_else(|| not_converged(model))?;
         residual = fitting.mean_residual(&found);
-        // Stop if the minimum is close to the parameters of the correction.
+        // Stop if the minimum is so close to the parameters of the correction that the ratios still hold there.
         let moved = found.minimum.parameters.iter().zip(&start);
         let moved = moved
             .map(|(new, old)| (new - old).abs())
@@ -276,9 +280,9 @@ fn not_converged(model: &Model) -> FrictionFitError {
     }
 }
 
-/// Points of a computed curve (chosen; output only).
+/// Number of speeds at which a fitted curve is computed for the output. Chosen; it does not change the fit.
 const N_CURVE: usize = 40;
-/// Relative error of the friction along a computed curve (chosen; output only).
+/// Relative error requested of the friction along a fitted curve. Chosen; it does not change the fit.
 const CURVE_ERROR: f64 = 5e-3;
 
 impl FittedFriction {

@@ -27,18 +27,19 @@ use crate::solve::{Motion, Problem, Result, SolveError};
 /// Elements along the contact of the coarse solutions. Their friction is off by about 1 %, which the correction removes, and
 /// its logarithmic derivatives by up to 5 % (measured, docs/fit-friction.md).
 const COARSE_ELEMENTS: usize = 8;
-/// Elements along the contact in the first search (chosen): it only has to find the right one of several minima.
+/// Number of elements along the contact in the first search. Chosen: the search only has to find the right one of several minima.
 const FIRST_SEARCH_ELEMENTS: usize = 5;
-/// Relative error of friction requested of the fine solutions that correct the coarse ones (chosen, below the scatter of
-/// measured friction).
+/// Relative error of friction requested of the fine solutions that correct the coarse ones. Chosen, below the scatter of measured
+/// friction.
 const CORRECTION_ERROR: f64 = 5e-3;
-/// Relative error of friction requested of the one-dimensional model (chosen, so small that differences give derivatives).
+/// Relative error of friction requested of the one-dimensional model. Chosen, so small that differences of friction give
+/// derivatives.
 const LINE_ERROR: f64 = 1e-9;
-/// Change of the logarithm of a parameter between the materials whose compliances the adjoint method takes the difference of
-/// (chosen).
+/// Change of the natural logarithm of a parameter between the two materials whose difference of compliances enters the adjoint
+/// method. Chosen.
 const ADJOINT_STEP: f64 = 1e-5;
-/// Change of the logarithm of a parameter for central differences of the friction of the one-dimensional model (chosen): their
-/// error is about [`LINE_ERROR`] over this step.
+/// Change of the natural logarithm of a parameter for central differences of the friction of the one-dimensional model. Chosen:
+/// the error of a derivative is about the ratio of [`LINE_ERROR`] to this step.
 const DIFFERENCE_STEP: f64 = 1e-4;
 
 /// The body on its model, which decide how the friction of a point is solved.
@@ -61,7 +62,8 @@ pub(super) struct Model<'a> {
     track: Option<f64>,
     /// Force or depth of the scene, for points without a force of their own.
     control: Control,
-    /// Elements along the contact of the coarse solutions.
+    /// Number of elements along the contact in the coarse solutions. With it their friction is off by about 1 %, which the
+    /// correction removes, and its logarithmic derivatives by up to 5 % (measured, docs/fit-friction.md).
     elements: usize,
     pub(super) points: Vec<FrictionPoint>,
     /// Friction of the fine over that of the coarse solution, for each point; 1 before the first correction.
@@ -171,7 +173,7 @@ impl<'a> Model<'a> {
         let found: Vec<_> = self.points.par_iter().enumerate().map(numbered).collect();
         #[cfg(not(feature = "rayon"))]
         let found: Vec<_> = self.points.iter().enumerate().map(numbered).collect();
-        // Of several errors the one of the first point is returned, independent of the order of computation.
+        // If several points fail, the error of the first point is returned, independent of the order of computation.
         found.into_iter().collect()
     }
 

@@ -34,7 +34,7 @@ const DISTANCE: &str = "; give solve.sliding_distance";
 const DISTANCE_OR_STEADY: &str = "; give solve.method = \"bem-steady\", or solve.sliding_distance";
 /// Advice if the material has no equilibrium state.
 const DURATION: &str = "; give solve.duration";
-/// Advice if a number leaves the range of f64 or of a parameter.
+/// Advice if a number computed from indenter, material and load leaves the range of f64 or of a parameter.
 const UNITS: &str = "; check the units of indenter, material and load, from which it follows";
 
 /// Advice for an error of the half-space methods; empty if there is none.

@@ -18,14 +18,15 @@ use super::error::{Result, SolveError};
 use super::half_space::{Simple, simple};
 use crate::scene::{Method, Model};
 
-/// Intervals of the sampled line load along the contact (chosen; output only).
+/// Number of intervals at whose ends the line load along the contact is sampled for the output. Chosen; it changes no other
+/// number.
 const N_LOAD_INTERVALS: usize = 200;
-/// Relative error stated for force, depth and radius of a body pressed into the half space (chosen, above the error of the
-/// quadrature and of the search for the radius).
+/// Relative error stated for force, depth and radius of a body pressed into the half space. Chosen, above the error of the
+/// quadrature and of the search for the radius.
 const QUADRATURE_ERROR: f64 = 1e-10;
-/// Relative error stated for closed forms whose contact front is found by root search (chosen, far above rounding).
+/// Relative error stated for closed forms whose contact front is found by root search. Chosen, far above rounding.
 const FRONT_ERROR: f64 = 1e-12;
-/// Relative error stated for the closed form of the pressed cylinder (chosen, about 50 units of rounding).
+/// Relative error stated for the closed form of the pressed cylinder. Chosen: about 50 times the rounding error of one operation.
 const ROUNDING_ERROR: f64 = 1e-14;
 
 /// The answer of frictionless sliding on an elastic material: the pressed contact with μ = 0.
@@ -141,7 +142,8 @@ pub(crate) fn slow_half_space(
     let ends = [slow.rear.value, front];
     let mut friction = slow.friction_coefficient;
     if let Control::IndentationDepth(_) = load.control() {
-        // The coefficient belongs to the force of the elastic contact. It falls with the force less than in proportion.
+        // The friction coefficient was computed with the normal force of the elastic contact. Its error is widened by that of the
+        // force, because it falls with the force less than in proportion.
         friction = friction.widened(slow.elastic_error * friction.value.abs());
     }
     (friction.value > 0.0 && friction.is_within(asked)).then(|| Answer {

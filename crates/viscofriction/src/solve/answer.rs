@@ -248,7 +248,8 @@ impl Answer {
     pub fn mean_contact_pressure(&self) -> Option<Estimate> {
         let (force, area) = (self.normal_force, self.contact_area?);
         let smallest_area = area.value - area.error;
-        // The largest pressure within both errors is farther from the mean than the smallest one.
+        // Within the errors of force and area the largest mean pressure is farther from the stated one than the smallest, so it
+        // gives the error.
         (smallest_area > 0.0).then(|| {
             let mean = force.value / area.value;
             Estimate::new(mean, (force.value + force.error) / smallest_area - mean)

@@ -18,7 +18,7 @@ use crate::scene::{
 };
 use crate::text::WrongInput;
 
-/// Largest relative deviation of the rms slope of a sampled surface from that of its spectrum without a warning (chosen).
+/// Relative deviation of the rms slope of a sampled surface from that of its spectrum, above which a warning is given. Chosen.
 const MAX_SLOPE_DEVIATION: f64 = 0.1;
 
 /// The rigid body, by the kinds that methods distinguish.
@@ -200,7 +200,8 @@ fn drawn_from_spectrum(
     check_waves_to_draw(surface.period, kept, files.memory)?;
     let drawn = spectrum.surface(surface.period, kept, surface.seed);
     let drawn = drawn.map_err(|error| refused("indenter.spectrum", error))?;
-    // A slope that linear theory does not allow suggests another unit; one that differs from the spectrum, a period too short.
+    // Warn of an rms slope that linear theory does not allow, which suggests another unit. Warn of one that differs from that of
+    // the spectrum, which suggests a period that is too short.
     let slope = drawn.rms_slope();
     let whole = spectrum.rms_slope();
     let strange = [

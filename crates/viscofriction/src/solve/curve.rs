@@ -23,7 +23,7 @@ pub struct CurveColumn {
     pub values: Vec<Estimate>,
 }
 
-/// Name and unit of the column of the normal force; likewise the following.
+/// Name and unit of the column of the normal force. The constants below are likewise name and unit of a column.
 pub(crate) const FORCE: [&str; 2] = ["normal_force", "n"];
 /// Column of the indentation depth.
 pub(crate) const DEPTH: [&str; 2] = ["indentation_depth", "m"];

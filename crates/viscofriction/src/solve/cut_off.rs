@@ -9,9 +9,10 @@ use serde::ser::{SerializeMap as _, Serializer};
 use super::answer::Answer;
 use super::warning::Warning;
 
-/// Relative change of friction or area by the shortest octave above which a warning is given (chosen).
+/// Relative change of friction or area by the shortest octave of the waves, above which a warning is given. Chosen.
 const MAX_CHANGE: f64 = 0.1;
-/// Smallest relative error requested of the answer without the octave (chosen): well below the change [`MAX_CHANGE`] to detect.
+/// Smallest relative error requested of the answer without the shortest octave of the waves. Chosen: well below the change
+/// [`MAX_CHANGE`] to detect.
 const MIN_RELATIVE_ERROR: f64 = 0.03;
 
 /// The answer without the shortest octave, the waves shorter than twice the shortest wavelength.
@@ -74,7 +75,8 @@ impl WithoutShortestOctave {
     /// A warning if friction or area without the octave differs by more than [`MAX_CHANGE`], and by more than both error
     /// estimates. `slope` is the rms slope of the whole surface.
     pub(super) fn warning(&self, answer: &Answer, slope: f64) -> Option<Warning> {
-        // Friction coefficient and area fraction with and without the octave.
+        // Pair the friction coefficient, and the area fraction, of the whole surface with that of the surface without its
+        // shortest octave.
         let changes = [
             answer.friction_coefficient.zip(self.friction_coefficient),
             answer.area_fraction.map(|area| (area, self.area_fraction)),
@@ -89,7 +91,8 @@ impl WithoutShortestOctave {
         }
         let factor = |(with, without): (Estimate, Estimate)| without.value / with.value;
         let [friction_factor, area_factor] = changes.map(|change| change.map(factor));
-        // Rms slope of the octave itself, because mean square slopes add up over waves.
+        // Compute the rms slope of the octave itself: mean square slopes add up over waves, so it is the root of a difference of
+        // squares.
         let octave = ((slope + self.rms_slope) * (slope - self.rms_slope))
             .max(0.0)
             .sqrt();

@@ -23,7 +23,7 @@ pub struct Dissipation {
     pub shortest_octave: Option<f64>,
 }
 
-/// Fraction of the friction from outside the measured frequencies above which a warning is given (chosen).
+/// Fraction of the friction that comes from outside the measured frequencies, above which a warning is given. Chosen.
 const MAX_EXTRAPOLATED_FRACTION: f64 = 0.1;
 
 impl Dissipation {
@@ -72,7 +72,7 @@ fn outside_window(problem: &Problem, answer: &Answer) -> Option<OutsideWindow> {
     let (Some(window), Motion::Sliding(load)) = (problem.window(), problem.motion()) else {
         return None;
     };
-    // On a track the waves are harmonics of its length, which this spectrum does not represent.
+    // On a track the waves of the pressure are harmonics of its length, which this spectrum does not represent.
     if problem.track().is_some() {
         return None;
     }

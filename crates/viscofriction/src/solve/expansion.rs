@@ -10,7 +10,8 @@ use rheology::{Prony, PronyExpansion, RelaxationSpectrum, RheologyError};
 
 use crate::scene::Approximation;
 
-/// Relative error δ of the complex modulus requested of an expansion (chosen, far below the errors of the methods).
+/// Relative error of the complex modulus that is requested when a Prony series approximates the material. Chosen, far below the
+/// errors of the methods.
 const MODULUS_ERROR: f64 = 1e-7;
 
 /// Accuracy of a Prony series that approximates another law.
@@ -52,7 +53,8 @@ pub(crate) fn expanded(
         series.spectrum.viscosity(),
         series.spectrum.branches().to_vec(),
     )?;
-    // The spring of the series represents branches slower than its last one.
+    // The creep of the series ends with its slowest branch, because the equilibrium modulus of the series represents all slower
+    // ones.
     let creeps_until = match series.spectrum.branches().last() {
         Some(slowest) if modulus < series.spectrum.equilibrium_modulus() => slowest.relaxation_time,
         _ => f64::INFINITY,

@@ -8,16 +8,16 @@ use numerics::whole_part;
 use super::body::{Body, BodyOfScene};
 use crate::scene::{Edges, HeightMapTable, SceneError};
 
-/// Rms slope above which the unit of the heights is reported as probably wrong (chosen: linear theory needs small slopes).
+/// Rms slope above which a warning says that the unit of the heights is probably wrong. Chosen: linear theory needs small slopes.
 pub(super) const MAX_RMS_SLOPE: f64 = 1.0;
-/// Rms slope below which the unit of heights or distances is reported as probably wrong (chosen: optical flats have 1e-5).
+/// Rms slope below which a warning says that the unit of heights or distances is probably wrong. Chosen: optical flats have 1e-5.
 const MIN_RMS_SLOPE: f64 = 1e-5;
-/// Length of a map, \[m], above which the unit of its distances is reported as probably wrong (chosen).
+/// Length of a map, \[m], above which a warning says that the unit of its distances is probably wrong. Chosen.
 const MAX_PERIOD: f64 = 1.0;
-/// Fraction of filled heights above which a warning is given (chosen).
+/// Fraction of the heights that were missing and have been filled in, above which a warning is given. Chosen.
 const MAX_FILLED_FRACTION: f64 = 0.01;
-/// Fraction of the mean square slope that the step at the edge of a periodic map may contribute without a warning (chosen:
-/// half).
+/// Largest fraction of the mean square slope that the step at the edge of a periodic map may contribute without a warning.
+/// Chosen: half.
 const MAX_STEP_FRACTION: f64 = 0.5;
 
 /// Builds the rigid body from measured heights, given by a scene or an array.

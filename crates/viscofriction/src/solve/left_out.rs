@@ -106,7 +106,7 @@ fn candidates(problem: &Problem, answer: &Answer) -> Vec<Omission> {
         (Analytic, Sliding(_)) => {
             vec![Some(Omission::NumericalSolution), Some(Omission::TimeSteps)]
         }
-        // A history or a motion leaves nothing out.
+        // For a history or a motion the method leaves no part of the computation out.
         (_, Motion::History { .. } | Motion::Moving(_)) => Vec::new(),
         (MdrSteady, _) => vec![Some(Omission::TimeSteps)],
         (Analytic | MdrTransient, Pressing(_)) => vec![Some(Omission::HalfSpace)],

@@ -20,7 +20,7 @@ use crate::scene::{Accuracy, SceneError};
 pub(super) fn check_memory(problem: &Problem, method: Method) -> Result<(), SceneError> {
     match check_first_grid(problem, method) {
         Err(SolveError::TooMuchMemory(refused)) => Err(refused),
-        // Any other error is reported when the problem is solved.
+        // Memory cannot be estimated after another error, which is reported when the problem is solved.
         _ => Ok(()),
     }
 }
@@ -60,7 +60,8 @@ fn check_waves(problem: &Problem, surface: &PeriodicSurface) -> Result<(), Scene
         return Ok(());
     }
     problem.set_short_of_memory();
-    // Propose the waves resolved on the largest of successively halved grids that fits.
+    // The message proposes a smaller set of waves: those resolved on the largest of successively halved grids that fits into the
+    // memory.
     let largest = surface.largest_numbers();
     let shapes = (1..usize::BITS).map(|power| largest.map(|number| ((2 * number) >> power).max(1)));
     let resolved_on = |shape| surface.resolved_on(shape);
@@ -80,7 +81,7 @@ pub(super) fn check_waves_to_draw(
     let numbers = period.map(|period| period / shortest_wavelength);
     let is_drawn = |number: &f64| *number > 0.0 && *number < f64::from(u32::MAX);
     if !numbers.iter().all(is_drawn) {
-        // The constructor of the surface rejects these by parameter name.
+        // Numbers out of range need no estimate, because the constructor of the surface rejects them by parameter name.
         return Ok(());
     }
     let numbers = numbers.map(whole_part);

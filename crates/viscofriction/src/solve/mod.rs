@@ -125,7 +125,7 @@ struct Found {
 impl Found {
     /// Completes the answer with modulus error, omissions, dissipation and warnings; an error if it does not meet the request.
     fn complete(self, problem: &Problem, method: Method) -> Result<Answer> {
-        // Add the error of the moduli, and test the request with it.
+        // Add the error that the approximation of the moduli causes, and compare the sum with the requested error.
         let answer = problem.with_modulus_error(self.answer)?;
         let missed = self.missed.or_else(|| problem.missed(&answer));
         // Closed forms of indentation belong to both models.
@@ -138,7 +138,7 @@ impl Found {
             ..answer
         };
         answer.warnings = warnings(problem, &answer);
-        // Reject unphysical numbers, and report a missed request with the answer.
+        // Reject numbers that are not finite or not physical. If the requested error was missed, say so in the answer.
         let answer = answer.finite().and_then(|answer| answer.physical(problem));
         match (answer, missed) {
             (answer, None) => answer,

@@ -12,12 +12,12 @@ use super::validity::mean_slope;
 use crate::quantity::{QUANTITIES, Quantity, Unit};
 use crate::scene::{Accuracy, Method, Model};
 
-/// Fraction of the requested relative error that is requested of the method, if a Prony series approximates the material
-/// (chosen); the rest is left for the error of the series.
+/// Fraction of the requested relative error that is requested of the method if a Prony series approximates the material. Chosen;
+/// the rest is left for the error of the series.
 const SOLVER_ERROR_SHARE: f64 = 0.95;
-/// Bound of the relative change of a quantity over the relative change of the moduli (chosen). A force at a given depth is
-/// proportional to them. Under a given force depth and radius change less, area and peak pressure at most twice as much; the
-/// bound doubles this.
+/// Bound of the ratio of the relative change of a quantity to the relative change of the moduli. Chosen. A force at a given depth
+/// is proportional to the moduli. Under a given force depth and radius change less, area and peak pressure at most twice as much;
+/// the bound doubles this.
 pub(super) const MODULUS_ERROR_AMPLIFICATION: f64 = 4.0;
 
 impl Problem {
@@ -261,7 +261,7 @@ mod tests {
                 "{}: {known:?} for {expected}",
                 quantity.key
             );
-            // Products and quotients have the errors of two quantities.
+            // Products and quotients of quantities have the errors of both, hence up to twice the expected error.
             assert!(
                 known.error < 2.1 * expected,
                 "{}: {known:?} for {expected}",

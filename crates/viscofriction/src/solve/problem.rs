@@ -124,7 +124,8 @@ impl Problem {
     ) -> Result<Self, SceneError> {
         let files = Files::of(scene, folder, read)?;
         let body = &parts.body.body;
-        // Validate load and motion.
+        // Read the load, and classify the problem by what it contains: a history of indentation, a motion along the surface, or
+        // one load.
         let points = scene.load.checked_history(&files)?.unwrap_or_default();
         let moving = scene.load.checked_motion(body.period_area(), &files)?;
         let motion = match (points.last().map(|last| last.control), moving) {
@@ -160,7 +161,7 @@ impl Problem {
             realisations,
             shortest_wavelength: None,
         };
-        // Reject combinations that no method answers.
+        // Reject combinations of body, material and load that no method answers, and uncertainties that are out of range.
         problem.check_control()?;
         problem.check_track()?;
         problem.check_layer()?;

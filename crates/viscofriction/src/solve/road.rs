@@ -38,7 +38,7 @@ impl CutOff {
         let theory = |one: &Self| one.persson().map(|one| one.friction_coefficient_2006);
         let (all, left) = (theory(all)?, theory(self)?);
         let solved = self.known()?.friction_coefficient?.value;
-        // Without friction of the remaining waves there is no ratio.
+        // If the remaining waves cause no friction, the ratio is not defined, and nothing is returned.
         (left > 0.0).then(|| (all - left) * solved / left)
     }
 }
@@ -60,7 +60,7 @@ pub fn cut_offs(
         _ => 0.0,
     };
     let mut shortest_wavelength = first;
-    // Removes no wave, but makes the body of the first row like those of the others, or refuses it.
+    // This call removes no wave; it brings the body of the first row into the same form as those of the others, or refuses it.
     problem = problem.without_waves_below(first)?;
     loop {
         let rms_slope = match problem.body() {

@@ -16,13 +16,13 @@ use super::problem::{Motion, Problem};
 use super::{layer, mdr};
 use crate::scene::{Control, Method};
 
-/// Number of sampled pressures on each side of the middle of the contact (chosen; output only).
+/// Number of sampled pressures on each side of the middle of the contact. Chosen; it changes only the resolution of the output.
 const N_PLACES: usize = 100;
-/// Error requested of the work along a history, over its largest value (chosen).
+/// Error requested of the work along a history, relative to the largest absolute work. Chosen.
 const WORK: f64 = 1e-4;
-/// Smallest number of steps along an indentation history (chosen; output only).
+/// Smallest number of steps along an indentation history. Chosen; it changes only the resolution of the output.
 const N_STEPS: u32 = 160;
-/// Number of intervals in time at which the contact since first touch is evaluated (chosen; output only).
+/// Number of intervals in time at whose ends the contact since first touch is evaluated. Chosen; output only.
 const N_TIMES: usize = 60;
 
 /// Adds pressure and history to a closed form of indentation, and the work to an indentation history of the one-dimensional

@@ -6,9 +6,11 @@ use crate::files::Files;
 use crate::scene::{Indenter, MaterialTable, Scene, SceneError};
 use crate::solve::{BodyOfScene, HalfSpace, Parts, body, half_space};
 
-/// Largest number of bodies, and of elastomers, that are kept (chosen; the search among so many takes microseconds).
+/// Largest number of bodies, and of elastomers, that are kept for other points. Chosen: the search among so many takes
+/// microseconds.
 const MAX_ENTRIES: usize = 64;
-/// Memory of the bodies that are kept, as a fraction of the memory limit (chosen; several maps fit, and most is left to the points).
+/// Largest fraction of the memory limit that the kept bodies may occupy. Chosen: several maps fit, and most is left to the
+/// points.
 const BODY_MEMORY_FRACTION: f64 = 0.25;
 
 /// The bodies and elastomers of the last points.

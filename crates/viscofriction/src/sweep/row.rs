@@ -125,7 +125,7 @@ pub(super) const BETWEEN_WARNINGS: &str = " | ";
 pub(super) fn canonical(cell: &str) -> String {
     let number = cell.trim().parse::<f64>().ok();
     match number.filter(|number| number.is_finite()) {
-        // Adding 0 removes the sign of -0.
+        // Adding 0 turns −0 into 0, so that equal numbers have equal texts.
         Some(number) => format!("{:?}", number + 0.0),
         None if ["true", "false"].contains(&&*cell.to_lowercase()) => cell.to_lowercase(),
         None => cell.to_owned(),

@@ -12,7 +12,7 @@ pub struct Vary {
     pub values: Vec<Varied>,
 }
 
-/// Key under which the sample number is varied.
+/// Key under which the number of a sample of the uncertain quantities is varied.
 pub const SAMPLE: &str = "sample";
 
 impl Vary {
@@ -21,7 +21,7 @@ impl Vary {
     /// # Errors
     /// A sentence that states the allowed numbers.
     pub fn samples(count: &str) -> Result<Self, String> {
-        // The scene itself takes one of the points.
+        // The scene itself takes one of the allowed points, so there is one sample less.
         let count = whole_number("N", count, MAX_POINTS - 1)?;
         let values = (0..=count).map(|sample| Varied::Number(sample as f64));
         Ok(Self {
@@ -68,7 +68,7 @@ enum Scale {
     Logarithmic,
 }
 
-/// Largest number of points of a sweep (chosen; more are probably a mistake).
+/// Number of points of a sweep above which it is refused. Chosen; more are probably a mistake.
 pub(super) const MAX_POINTS: usize = 1_000_000;
 
 impl FromStr for Vary {
@@ -135,7 +135,7 @@ fn spaced_values([start, stop, count]: [&str; 3], scale: Scale) -> Result<Vec<Va
 /// digits; else the value.
 fn or_power_of_ten(value: f64) -> f64 {
     let power = format!("1e{:.0}", value.log10()).parse().unwrap_or(value);
-    // Bound of the rounding of quotient, power and product.
+    // The computed value counts as the power of ten if it differs by no more than the rounding of quotient, power and product.
     let is_power = (value / power - 1.0).abs() <= 8.0 * f64::EPSILON;
     if is_power { power } else { value }
 }

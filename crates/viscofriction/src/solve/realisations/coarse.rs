@@ -8,8 +8,8 @@ use crate::solve::elements;
 use crate::solve::problem::{Motion, Problem};
 use crate::solve::work::rough;
 
-/// Numbers of elements of the coarse grids that are tried, over those of the first grid of an answer, along each axis (chosen:
-/// the spacing halves).
+/// Ratios of the number of elements along each axis of the coarse grids that are tried, to that of the first grid of an answer.
+/// Chosen: the spacing halves from one to the next.
 pub(super) const REFINEMENT_FACTORS: [usize; 4] = [1, 2, 4, 8];
 
 /// Quantities of one surface on a coarse grid.

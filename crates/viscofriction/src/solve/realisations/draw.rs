@@ -27,8 +27,8 @@ pub(super) struct Drawn<'a> {
     pub(super) missed: Option<SolveError>,
 }
 
-/// Number of elements of a coarse grid, over that of the finest grid of an answer, above which it is not tried (chosen: the
-/// spacing is then less than twice that of the answer).
+/// Ratio of the number of elements of a coarse grid to that of the finest grid of an answer, above which the coarse grid is not
+/// tried. Chosen: the spacing is then less than twice that of the answer.
 const MAX_COARSE_WORK: f64 = 0.25;
 
 /// A coarse grid with its solutions for the first surfaces.
@@ -147,7 +147,7 @@ impl<'a> Drawn<'a> {
         let part = self.coarse_work(&found);
         self.coarse = found;
         while self.relative_standard_error() > asked {
-            // Choose the numbers of answers and coarse solutions of this round.
+            // From the variances found so far, choose how many answers and coarse solutions this round shall reach.
             let now = Counts {
                 fine: self.answers.len(),
                 coarse: self.coarse.len(),
@@ -164,7 +164,7 @@ impl<'a> Drawn<'a> {
             ];
             self.progress
                 .set_remaining_work(fine_left as f64 + part * coarse_left as f64);
-            // Solve the additional surfaces of both kinds.
+            // Solve the additional surfaces of this round, first with the accuracy of an answer, then on the coarse grid.
             self.solve(fine)?;
             // If a contact is not found on the coarse grid, continue with answers only.
             let Some(more) = self.on_coarse_grid(finer, now.coarse..coarse) else {
@@ -183,7 +183,7 @@ impl<'a> Drawn<'a> {
         if !has_coarse_grids(self.problem) {
             return None;
         }
-        // Start from the work without a coarse grid.
+        // Begin with the work needed without a coarse grid; a coarse grid is only used if the total work is less.
         let alone = self.counts(&[], asked, usize::MAX, 1.0).coarse as f64;
         let (mut best, mut least) = (None, alone);
         for finer in REFINEMENT_FACTORS {

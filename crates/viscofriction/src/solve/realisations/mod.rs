@@ -97,7 +97,7 @@ pub(super) fn mean(
     if problem.realisations() == 1 {
         return first(watch);
     }
-    // Sample and solve the surfaces.
+    // Draw surfaces with different seeds and solve them, until the standard error of the mean is as small as requested.
     let mut drawn = Drawn::new(problem, watch, first)?;
     if let Some(asked) = problem.standard_error() {
         drawn.draw_until(asked)?;

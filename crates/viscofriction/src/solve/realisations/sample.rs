@@ -116,7 +116,8 @@ impl Sample<'_> {
     /// part N, each from 10 to `most`. `part` is the work for a coarse solution over that for an answer; 1 without a coarse
     /// grid.
     pub(super) fn wanted(&self, asked: f64, most: usize, part: f64) -> Counts {
-        // Minimise n + part N for a given variance (Lagrange multiplier), then bound both by the smallest and largest sample.
+        // Choose the number n of answers and N of coarse solutions of least work n + part N for the allowed variance (Lagrange
+        // multiplier). Then bound both by the smallest and largest sample.
         let allowed = (asked * self.mean()).powi(2);
         let [difference, rest] = self.variances();
         let difference = difference * student_factor(self.fine.len());

@@ -17,8 +17,9 @@ use crate::solve::error::{Result, SolveError};
 use crate::solve::problem::{Motion, Problem};
 use crate::solve::work::rough;
 
-/// Relative change of a number of the scene, to either side, between whose bodies or materials the adjoint method takes the
-/// change (chosen; the truncation error, of the order of its square, is far below the error estimates).
+/// Relative change of a number of the scene, to either side. The adjoint method differentiates between the two bodies or
+/// materials with the changed numbers. Chosen: the truncation error, of the order of the square of the change, is far below the
+/// error estimates.
 const RELATIVE_STEP: f64 = 1e-5;
 /// Error if a body or an answer has no adjoint solution.
 const NO_DERIVATIVES: SolveError = SolveError::NoSensitivity {
@@ -172,8 +173,8 @@ fn change_between_ends(
         ["load", "track"] if let Contact::Single(near) = contact => {
             scaled(near.by_track(), (ends[1].1 / ends[0].1).ln())
         }
-        // The elastomer of a layer depends on both numbers: take the end that differs from the present value, and convert the
-        // change to the distance of both ends in logarithms.
+        // The elastomer of a layer depends on its thickness and on the Poisson ratio. Take the end of the step that differs from
+        // the present value, and convert the change to the distance of both ends in logarithms.
         ["layer", _] | ["material", "poisson_ratio"] if is_layer => match contact {
             Contact::Single(near) => {
                 let [low, high] = ends;

@@ -12,8 +12,8 @@ use crate::solve::plan::Plan;
 use crate::solve::problem::Problem;
 use crate::solve::work::work;
 
-/// Step of the logarithm of a number in the differences (chosen: the truncation error of sixth order is then below the effect
-/// of rounding, 1e-11 in closed forms).
+/// Step of the natural logarithm of a number in the finite differences. Chosen: the truncation error of sixth order is then below
+/// the effect of rounding, 1e-11 in closed forms.
 const LOG_STEP: f64 = 2e-3;
 /// A point of a finite difference: its offset in steps, and its weights in the first derivatives of sixth and of fourth order.
 type Point = (i32, [f64; 2]);
@@ -46,9 +46,9 @@ pub(super) enum Values {
     TruncatedSeries,
 }
 
-/// Bound of the logarithmic derivative of the omitted terms by a number of the scene (derived): they scale with (v τ/a)³ at
-/// most, v being the speed, τ a relaxation time and a the contact radius, and a with the third root of a load, a modulus or a
-/// length at most.
+/// Bound of the logarithmic derivative of the omitted terms by a number of the scene. Derived: they scale at most with (v τ/a)³,
+/// where v is the speed, τ a relaxation time and a the contact radius. The radius scales at most with the third root of a load, a
+/// modulus or a length.
 const LARGEST_OMITTED_POWER: f64 = 4.0;
 
 /// Derivatives by each number, from differences of answers.
@@ -84,7 +84,7 @@ fn sensitivity(
         };
         points.iter().rev().map(solved).collect()
     };
-    // Central points first; where some are outside the allowed range of the number, those on one side of it.
+    // Use central points; if some are outside the allowed range of the number, use those on one side of it.
     let points = at(&CENTRAL, 1.0)
         .or_else(|_| at(&FROM_BELOW, 1.0))
         .or_else(|_| at(&FROM_BELOW, -1.0))?;

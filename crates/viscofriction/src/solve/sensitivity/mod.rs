@@ -33,8 +33,8 @@ pub use spectral::{
     ByFrequency, SpectralSensitivity, check_spectral_sensitivity, spectral_sensitivity,
 };
 
-/// Relative error of an answer up to which finite differences differentiate it (chosen; closed forms and the stationary
-/// one-dimensional model reach it).
+/// Largest relative error of an answer that finite differences still differentiate. Chosen: closed forms and the stationary
+/// one-dimensional model reach it.
 pub(super) const MAX_DIFFERENCED_ERROR: f64 = 1e-9;
 
 /// Derivatives of the quantities of an answer by one number of its scene: d ln(quantity)/d ln(number).
@@ -63,7 +63,7 @@ pub fn with_sensitivity(
     answer: Answer,
     watch: &dyn Progress,
 ) -> Result<Answer> {
-    // Differentiate by all numbers; if the method cannot, solve again by boundary elements.
+    // Differentiate the answer by all numbers of the scene. If the method cannot, solve the problem again by boundary elements.
     let numbers = Numbers::new(scene, folder, read)?;
     let all = numbers.all().into_iter();
     let all: Vec<Number> = all.chain(numbers.uncertain_temperature()).collect();
@@ -76,7 +76,8 @@ pub fn with_sensitivity(
         }
         found => (answer, found?),
     };
-    // The derivatives of a Prony series equal those of its law up to the ripple, which its error bounds.
+    // The derivatives of a Prony series differ from those of the law it approximates by its ripple, so their errors are widened
+    // by its error.
     let series = MODULUS_ERROR_AMPLIFICATION * problem.modulus_error();
     sensitivity.iter_mut().for_each(|one| one.widen(series));
     let material = numbers.scene()?.material;
@@ -101,7 +102,8 @@ fn sensitivities(
     let method = answer.method;
     let asked = answer.requested_quantity();
     let is_exact = asked.error <= MAX_DIFFERENCED_ERROR * asked.value.abs();
-    // Slow sliding over a half space with an equilibrium modulus is the first term of a series.
+    // For slow sliding over a half space with an equilibrium modulus the closed form is the first term of a series; its omitted
+    // terms add an error.
     let is_series =
         answer.model == Model::HalfSpace && problem.material().creep().fluidity() <= 0.0;
     match (method, problem.motion()) {

@@ -13,11 +13,11 @@ use crate::solve::answer::Answer;
 use crate::solve::error::{Result, SolveError};
 use crate::solve::problem::{Motion, Problem};
 
-/// Frequency bands per decade (chosen: it is the resolution of the output, and changes no sum over bands).
+/// Number of frequency bands per decade. Chosen: it is the resolution of the output, and changes no sum over bands.
 const BANDS_PER_DECADE: f64 = 10.0;
-/// Bands computed between two reports of progress (chosen).
+/// Number of bands computed between two reports of progress. Chosen.
 const BANDS_AT_ONCE: usize = 8;
-/// Lower end of the resolved frequencies, over v/a for the velocity v and the contact length a (chosen). Friction comes from
+/// Ratio of the lowest resolved frequency to v/a, where v is the velocity and a the contact length. Chosen. Friction comes from
 /// far shorter waves; a depth depends on longer ones too, which form the first band.
 const MIN_FREQUENCY_RATIO: f64 = 0.01;
 
