@@ -16,25 +16,28 @@ use numerics::least_squares::{
 use super::{FreeParameter, FrictionModel, FrictionNoise, FrictionPoint, ModelledPoint, Prior};
 use crate::{Finding, MeasurementError};
 
-/// Two-sided 95 % quantile of the standard normal distribution.
+/// Two-sided 95 % quantile of the standard normal distribution: half the length of a 95 % interval in standard deviations.
 const NORMAL_QUANTILE: f64 = 1.959_963_984_540_054;
-/// Coverage probability of the intervals.
+/// Probability with which an interval of a parameter contains its true value.
 const COVERAGE: f64 = 0.95;
-/// Relative tolerance of the rise of the sum at an end of an interval, up to which the end is interpolated between two trials
-/// (chosen).
+/// Relative tolerance of the rise of the sum of squares at an end of an interval. Within it the end is interpolated between two
+/// trials. Chosen.
 const PROFILE_TOLERANCE: f64 = 0.1;
-/// Predicted decrease of the sum, in variances of a point, below which the least squares take their last step without computing
-/// the model again (chosen, far below the rise by t² = 3.8 that ends an interval).
+/// Predicted decrease of the sum of squares, in variances of a point, below which the least squares take their last step without
+/// computing the model again. Chosen, far below the rise by t² = 3.8 that ends an interval.
 const SUFFICIENT_DECREASE: f64 = 0.05;
-/// Relative noise of the friction that is assumed if it is not known, until a fit estimates it (chosen).
+/// Relative noise of the friction that is assumed until a fit estimates it, if the noise is not known. Chosen.
 const INITIAL_RELATIVE_NOISE: f64 = 0.05;
-/// Largest excess of the sum over its expectation for a good fit, in standard deviations of χ² (chosen).
+/// Largest excess of the sum of squares over its expectation with which a fit counts as good and the search for better starts
+/// ends. Its unit is the standard deviation of χ². Chosen.
 const GOOD_FIT_DEVIATIONS: f64 = 3.0;
-/// Number of rounds in which the noise is estimated together with the parameters if there is a prior (chosen).
+/// Number of rounds of fitting the parameters and estimating the noise anew from the residuals, if there is a prior. Chosen.
 const NOISE_ROUNDS: usize = 3;
-/// Bound on the number of evaluations of the model for one end of an interval (chosen); a determined parameter needs 2 to 10.
+/// Largest number of evaluations of the model for one end of an interval; after them the end is left open. Chosen: a parameter
+/// that the points determine needs 2 to 10.
 const MAX_COMPUTATIONS: usize = 60;
-/// Excess of χ², or of the correlation of neighbours, beyond which residuals are a misfit, in standard deviations (chosen).
+/// Excess of χ², or of the correlation of neighbouring residuals, over its expectation, above which a misfit is flagged. Its unit
+/// is the standard deviation of that number. Chosen.
 const MISFIT_DEVIATIONS: f64 = 4.0;
 
 /// A fitting problem: measured points, free parameters, prior and noise.
@@ -277,9 +280,8 @@ impl<'a> FrictionFitting<'a> {
             Some(_) => student_quantile(COVERAGE, self.degrees_of_freedom()),
         };
         let deviations = deviations.unwrap_or(f64::INFINITY);
-        // The ends of the interval are where the smallest sum of squares with this parameter fixed is larger by `rise`. Where
-        // the
-        // model is linear they are one standard `deviation` times the quantile away, from where the search starts.
+        // At the ends of the interval the smallest sum of squares with this parameter fixed is larger by `rise` than at the
+        // minimum. For a linear model each is one standard `deviation` times the quantile away; the search starts there.
         let rise = deviations * deviations * variance;
         let deviation = inverse(&best.model.matrix, n).map_or(f64::INFINITY, |inverse| {
             (inverse[k * (n + 1)] * rise).sqrt()
@@ -346,7 +348,8 @@ impl<'a> FrictionFitting<'a> {
                  or the errors are too small, and the intervals do not hold"
             ));
         }
-        // Of independent residuals the correlation of neighbours has the standard deviation 1/√n.
+        // Flag a misfit if residuals at neighbouring speeds are correlated. The correlation of n independent residuals has the
+        // standard deviation 1/√n.
         let mut order: Vec<usize> = (0..residuals.len()).collect();
         order.sort_by(|&one, &other| {
             let speed = |at: usize| self.points[at].velocity;

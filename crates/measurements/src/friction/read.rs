@@ -34,7 +34,7 @@ pub struct FrictionTable {
     pub notes: Vec<String>,
 }
 
-/// Names and columns of a table of friction.
+/// Names by which the columns of a table of friction are recognised, and the columns that it needs.
 static FRICTION: Vocabulary = Vocabulary {
     names: "v (or rpm) and mu (or friction force and normal force), and perhaps t, T, normal force, track radius and standard error",
     known: &KNOWN_NAMES,
@@ -191,7 +191,8 @@ struct Rows<'a> {
     has_forces: bool,
 }
 
-/// Fraction of rows with a negative force from which the sign is a convention of the instrument (chosen).
+/// Fraction of rows with a negative force from which the sign is a convention of the instrument, and the force is inverted.
+/// Chosen.
 const NEGATIVE_SIGN_FRACTION: f64 = 0.9;
 
 impl<'a> Rows<'a> {
@@ -360,7 +361,7 @@ impl<'a> Rows<'a> {
             points.push(run.point);
         }
         self.check_forces(&points)?;
-        // Runs without scatter do not determine their errors.
+        // If the error of one run is unknown, because its rows do not scatter, the errors of the others are dropped too.
         if points.iter().any(|point| point.standard_error.is_none()) {
             points
                 .iter_mut()
@@ -390,7 +391,8 @@ impl<'a> Rows<'a> {
     }
 }
 
-/// Variation of the normal force over that of the friction force, from which the columns count as exchanged (chosen).
+/// Smallest ratio of the variation of the normal force to that of the friction force from which the columns count as exchanged.
+/// Chosen.
 ///
 /// A variation is the ratio of the largest to the smallest value.
 const EXCHANGED_SPREAD: f64 = 1.2;
@@ -442,5 +444,5 @@ fn track_radius(table: &Table, options: &FrictionTableOptions) -> Result<TrackRa
     }
 }
 
-/// Units of rotational speeds, which are rad/s in SI.
+/// Units of rotational speeds; all are converted to rad/s.
 const ROTATIONAL_UNITS: [&str; 3] = ["rpm", "Hz", "rad/s"];

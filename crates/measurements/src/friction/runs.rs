@@ -6,16 +6,18 @@ use super::FrictionPoint;
 use super::read::{Row, rounded};
 use crate::indentation::correlated_points;
 
-/// Smallest number of rows of a run (chosen).
+/// Smallest number of rows from which the friction of a run is averaged. Chosen.
 pub(super) const MIN_ROWS: usize = 10;
-/// Largest relative deviation of the speed of a row from that of the first row of its run (chosen).
+/// Largest relative deviation of the speed of a row from that of the first row of its run. A row that deviates more begins
+/// another run. Chosen.
 const SPEED_TOLERANCE: f64 = 0.02;
-/// Largest fraction of rows whose friction has the opposite sign of the mean (chosen).
+/// Fraction of the rows of a run whose friction has the opposite sign of the mean, above which the run is refused. Chosen.
 const MAX_OPPOSITE_SIGN_FRACTION: f64 = 0.1;
-/// Difference of the means of the two halves of a run, in standard errors of the difference, above which it is reported
-/// (chosen).
+/// Difference of the mean friction in the two halves of a run above which a drift is reported, in standard errors of the
+/// difference. Chosen.
 const DRIFT_STANDARD_ERRORS: f64 = 4.0;
-/// Difference of the means of the two halves of a run, over the mean of the run, above which it is reported (chosen).
+/// Smallest ratio of the difference of the mean friction in the two halves of a run to the mean of the run, above which a drift
+/// is reported. Chosen.
 const MIN_RELATIVE_DRIFT: f64 = 0.05;
 
 /// Splits rows into runs of consecutive rows at one speed and increasing time; without times every row is a run.

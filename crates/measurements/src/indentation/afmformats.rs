@@ -1,6 +1,6 @@
 //! Reader of tables of the Python package afmformats (`.tab`): names in the last comment, quantities in SI.
 
-/// Names of columns of the format, which states no units, and their units.
+/// Names of the columns of a table of afmformats, and their units, which the format does not state.
 const UNITS: [(&str, &str); 5] = [
     ("time", "s"),
     ("force", "N"),

@@ -8,18 +8,20 @@ use super::flag::Flag;
 use super::means::Measured;
 use super::start::{MIN_POINTS, Start};
 
-/// Ratio of a time step to both steps around it, above which points are missing (chosen).
+/// Ratio of a time step to the longer one of its two neighbours, above which points are missing and the curve is refused. Chosen.
 const MIN_GAP_RATIO: f64 = 20.0;
 /// Number of successive points with exactly the largest force, from which the sensor counts as saturated if the body moves on
 /// (chosen).
 const SATURATED_POINTS: usize = 5;
-/// Speed of the body at the largest force over the speed before, above which it counts as moving on (chosen).
+/// Ratio of the speed of the body at the largest force to its speed before, above which the body counts as moving on. Chosen.
 const MIN_SPEED_RATIO: f64 = 0.3;
-/// Deviation that is significant, in standard deviations of the noise (chosen).
+/// Smallest deviation that counts as significant, in standard deviations of the noise. Chosen.
 pub(super) const NOISE_DEVIATIONS: f64 = 6.0;
-/// Largest plausible ratio of width and depth of a contact (chosen).
+/// Largest plausible ratio of width to depth of a contact, and of depth to width. Beyond it the units of the curve are taken for
+/// wrong. Chosen.
 const MAX_ASPECT_RATIO: f64 = 1e9;
-/// Reversal of the depth over its range, above which the body counts as pressed again (chosen, above the noise of a hold).
+/// Ratio of a decrease or increase of the depth to its range, above which it is a turn of the body and not noise. A curve that is
+/// pressed again after a turn is recognised by it. Chosen, above the noise of a hold.
 const REVERSAL_FRACTION: f64 = 0.05;
 
 /// The checked curve as means with a smooth depth, and without the retraction if that is asked for.
@@ -35,7 +37,7 @@ pub(super) fn prepare(curve: &IndentationCurve, before_retraction: bool) -> Resu
     if let Some(place) = time.windows(2).position(|pair| pair[1] <= pair[0]) {
         return Err(Flag::TimeGoesBack(place + 2));
     }
-    // A gap is a step much longer than both of its neighbours; a lower rate from some point on is none.
+    // A gap is a time step much longer than both of its neighbours. A lower sampling rate from some point on is no gap.
     let is_gap = |t: &[f64]| t[2] - t[1] > MIN_GAP_RATIO * (t[1] - t[0]).max(t[3] - t[2]);
     if let Some(place) = time.windows(4).position(is_gap) {
         return Err(Flag::Gap(time[place + 1]));

@@ -6,11 +6,12 @@
 //! 2. Knots move to minimise the sum of squares, as to a turning point.
 //! 3. Knots without a significant effect are removed.
 
-/// Smallest significant mean residual of a part of a piece, in standard errors (chosen).
+/// Smallest mean residual of a part of a piece that counts as structure, in standard errors of that mean. Chosen.
 pub(super) const STRUCTURE_STANDARD_ERRORS: f64 = 3.5;
-/// Noise over the range of depths up to which the path is not smoothed (chosen): it is the rounding of the file.
+/// Ratio of the noise to the range of depths up to which the path is not smoothed, because the noise is the rounding of the file.
+/// Chosen.
 const MIN_RELATIVE_NOISE: f64 = 1e-7;
-/// Bound on the number of rounds of moving and removing knots (chosen).
+/// Largest number of rounds in which the knots of the smoothed path are moved and removed. Chosen.
 const MAX_KNOT_ROUNDS: usize = 4;
 
 /// A smoothed path with the covariance of its depths.
@@ -97,7 +98,8 @@ pub(super) fn smooth(time: &[f64], depth: &mut [f64], counts: &[f64]) -> Option<
         depth,
         counts,
     };
-    // Divide pieces until the residuals have no structure.
+    // Divide the pieces of the smoothed path at new knots until the means of residuals over parts of each piece are within their
+    // noise.
     let mut knots = vec![0, depth.len() - 1];
     loop {
         let path = points.path(&knots);
@@ -208,7 +210,8 @@ impl Points<'_> {
     /// and the noise σ \[m]. That is the penalty of two parameters, time and depth of the knot, in Schwarz's criterion.
     fn optimise_knots(&self, knots: &mut Vec<usize>, noise: f64) {
         let chance = 2.0 * (self.time.len() as f64).ln() * noise * noise;
-        // The effect of a knot is limited to about three neighbours on each side.
+        // When a knot is moved, the path is fitted again on three neighbours at each side only, because the effect reaches no
+        // farther.
         let near = |knots: &[usize], k: usize| k.saturating_sub(3)..(k + 4).min(knots.len());
         for _ in 0..MAX_KNOT_ROUNDS {
             let before = knots.clone();

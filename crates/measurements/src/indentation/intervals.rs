@@ -17,18 +17,19 @@ use super::noise::{DIAGONAL_FACTOR, Linear, Noise, correlated_points, normal_mat
 use super::search::Found;
 use crate::{Finding, MeasurementError};
 
-/// Two-sided 95 % quantile of the standard normal distribution.
+/// Two-sided 95 % quantile of the standard normal distribution: half the length of a 95 % interval in standard deviations.
 const NORMAL_QUANTILE: f64 = 1.959_963_984_540_054;
-/// Standard error of a logarithm up to which its interval follows from the covariance (chosen); wider intervals are asymmetric,
-/// and follow from the profile of the sum.
+/// Largest standard error of a logarithm with which its interval follows from the covariance. Chosen. Wider intervals are
+/// asymmetric, and follow from the profile of the sum of squares.
 const MAX_COVARIANCE_DEVIATION: f64 = 0.4;
-/// Largest ratio of the ends of an interval for a determined modulus, time or thickness (chosen).
+/// Largest ratio of the upper to the lower end of an interval with which a modulus, time or thickness counts as determined.
+/// Chosen.
 ///
 /// Beyond it the standard error of the logarithm exceeds 0.6.
 const MAX_INTERVAL_RATIO: f64 = 10.0;
-/// Relative tolerance of the rise of the sum at an end of a profile (chosen).
+/// Relative tolerance of the rise of the sum of squares at an end of an interval from its profile. Chosen.
 const PROFILE_TOLERANCE: f64 = 0.01;
-/// Shift of the depth at a knot for a difference quotient of the forces, over the range of depths (chosen).
+/// Ratio of the shift of the depth at a knot, in a difference quotient of the forces, to the range of depths. Chosen.
 const KNOT_SHIFT: f64 = 1e-4;
 
 /// Covariance of the parameters and statistics of the residuals.
@@ -75,7 +76,7 @@ impl Statistics {
         let rise = |k: usize| {
             let diagonal = k * (n + 1);
             let ratio = covariance[diagonal] / inverse[diagonal];
-            // For indistinguishable parameters the sign is decided by rounding.
+            // If parameters cannot be told apart, rounding decides the sign of this ratio; then the variance without it is used.
             let is_known = ratio.is_finite() && ratio > 0.0;
             let ratio = if is_known { ratio } else { variance };
             NORMAL_QUANTILE * NORMAL_QUANTILE * ratio
@@ -131,7 +132,8 @@ impl Statistics {
         let shown = |value: f64| if is_logarithm { value.exp() } else { value };
         let slope = if is_logarithm { value.exp() } else { 1.0 };
         let bounds = ends.map(|end| end.map(shown));
-        // The error follows from the interval if that is not the one of the covariance.
+        // State half the interval divided by the normal quantile as the error, if the interval follows from the profile and not
+        // from the covariance.
         let error = match bounds {
             [Some(lower), Some(upper)] if profile || wide => {
                 (upper - lower) / (2.0 * NORMAL_QUANTILE)
@@ -247,7 +249,8 @@ fn path_covariance(
     let Some(path) = &found.measured.path else {
         return Ok((0.0, vec![0.0; n * n]));
     };
-    // Differences: the residuals, and linearly the parameters, if the smoothed depth is raised around one knot after the other.
+    // Raise the smoothed depth around one knot after the other. Differences give the changes of the residuals, and linear least
+    // squares those of the parameters.
     let [low, high] = super::depth::min_max(&curve.depth);
     let shift = KNOT_SHIFT * (high - low);
     let mut effects = vec![Vec::new(); n];

@@ -16,27 +16,29 @@ use super::noise::{Likelihood, Noise};
 use super::search::Found;
 use super::start::{MIN_POINTS, Start, free_points};
 
-/// Force of adhesion over the peak force, above which a fit is refused (chosen).
+/// Ratio of the force of adhesion to the peak force, above which a fit is refused. Chosen.
 pub(super) const MAX_FORCE_DEFECT: f64 = 0.05;
-/// Force of adhesion or drift over the peak force, above which a fit is flagged (chosen).
+/// Ratio of the force of adhesion, or of the drift of the force, to the peak force, above which a fit is flagged. Chosen.
 pub(super) const MIN_FORCE_DEFECT: f64 = 0.01;
 /// Smallest number of points without contact that determine the noise (chosen).
 const MIN_BASELINE_POINTS: usize = 10;
-/// Largest rise of the deviance if the points before the contact and all others share one noise (chosen).
+/// Rise of the deviance, if the points before the contact and all others share one noise, above which a misfit is reported.
+/// Chosen.
 ///
 /// Fewer than one in 100 curves exceed it by chance.
 const MAX_DEVIANCE_RISE: f64 = 12.0;
-/// Largest number of correlated points per independent one for residuals without structure (chosen).
+/// Number of correlated residuals that carry the information of an independent one, above which a misfit is reported. Chosen.
 const MAX_CORRELATED_POINTS: f64 = 4.0;
-/// Rms residual over the peak force, up to which there is no misfit (derived: 3 times the error of a power law as a Prony
-/// series).
+/// Ratio of the rms residual to the peak force up to which there is no misfit. Derived: 3 times the error of a power law as a
+/// Prony series.
 const MIN_MISFIT_OF_PEAK: f64 = 3e-4;
-/// Rms residual over the force error of a smoothed depth, up to which there is no misfit (chosen).
+/// Ratio of the rms residual to the force error of a smoothed depth up to which there is no misfit. Chosen.
 const MIN_MISFIT_OF_PATH: f64 = 5.0;
 
-/// Largest plausible ratio of width to depth of a contact (chosen): for a sphere it means R/d = 10⁵.
+/// Ratio of width to depth of a contact above which a fit is flagged. Chosen: for a sphere it means R/d = 10⁵, with the radius R
+/// and the depth d.
 const MAX_WIDTH_RATIO: f64 = 300.0;
-/// Largest plausible ratio of depth to width of a contact with a round tip (chosen).
+/// Ratio of depth to width of a contact with a round tip, above which a fit is flagged. Chosen.
 const MAX_DEPTH_RATIO: f64 = 3.0;
 
 /// Assessment of a fit by the points without contact.
@@ -112,7 +114,8 @@ impl<'a> Judgement<'a> {
         let [alone, without, all] = [0, 1, 2].map(best);
         let variance = all.1.variance();
         let white = Noise::WHITE.likelihood(&before).deviance();
-        // White noise may explain the points before the contact better than the noise of all points.
+        // Compare the deviances with common and with separate noises. White noise may explain the points before the contact
+        // better than the noise of all points.
         let shown = white - all.0.likelihood(&before).deviance_at(variance);
         let rise = all.1.deviance() - alone.1.deviance() - without.1.deviance();
         self.is_misfit = rise > MAX_DEVIANCE_RISE || self.is_misfit && shown < 0.0;
@@ -132,7 +135,7 @@ impl<'a> Judgement<'a> {
         let noise = self
             .noise_model
             .map_or(self.found.squares.scale, |(_, variance)| variance.sqrt());
-        // A dip is the difference of two forces.
+        // The dip is significant above √2 times the limit of a single force, because it is the difference of two forces.
         let least = (SQRT_2 * NOISE_DEVIATIONS * noise).max(MIN_FORCE_DEFECT * self.begin.peak);
         let dip = dip_on_the_way_back(self.found.model.curve, self.begin);
         if dip > MAX_FORCE_DEFECT * self.begin.peak && dip > least {
@@ -159,7 +162,8 @@ impl<'a> Judgement<'a> {
         let residuals = &self.statistics.forces.residuals;
         let squares = residuals.iter().map(|one| one * one);
         let square = squares.sum::<f64>() / residuals.len() as f64;
-        // The noise of a mean is that of a point over the root of their number.
+        // Average the inverse numbers of points per mean, because the variance of a mean is that of a point divided by their
+        // number.
         let counts = self.found.measured.counts.iter();
         let part = counts.map(|count| count.recip()).sum::<f64>() / residuals.len() as f64;
         let noise = self.noise.unwrap_or_default();

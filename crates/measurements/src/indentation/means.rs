@@ -16,9 +16,10 @@ pub(super) struct Measured {
     pub(super) path: Option<SmoothedPath>,
 }
 
-/// Largest number of points that are fitted without averaging (chosen); longer curves have about as many means.
+/// Largest number of points of a curve that is fitted without averaging. Chosen; longer curves are averaged to about as many
+/// means.
 const MAX_UNAVERAGED_POINTS: usize = 4000;
-/// Second difference of the depth over its range, up to which it counts as linear even without noise (chosen).
+/// Ratio of the second difference of the depth to its range up to which the depth counts as linear even without noise. Chosen.
 const BEND_TOLERANCE: f64 = 1e-6;
 
 impl Measured {

@@ -166,14 +166,15 @@ pub fn fit_indentation(
     curve: &IndentationCurve,
     options: &FitOptions,
 ) -> Result<IndentationFit, MeasurementError> {
-    // Check and prepare the curve.
+    // Refuse a curve that is damaged, remove the retraction if that is requested, and average points of long curves.
     check(curve, options)?;
     let measured =
         checks::prepare(curve, options.before_retraction).map_err(MeasurementError::Damaged)?;
     let curve = &measured.curve;
     checks::check_scale(body, curve).map_err(MeasurementError::Damaged)?;
     let jump = pull_in::flag(&measured).map_err(MeasurementError::Damaged)?;
-    // Fit: elastic initial values, then the search, then intervals and tests of the residuals.
+    // Fit the curve: the elastic fit gives initial values, the search the parameters, and their intervals and the tests of the
+    // residuals follow.
     let sample = sample::Sample::new(body, curve, options)?;
     let begin = start::start(&sample, curve, options)?;
     checks::check_contact(&measured, &begin).map_err(MeasurementError::Damaged)?;

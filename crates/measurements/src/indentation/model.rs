@@ -38,13 +38,15 @@ impl Kind {
     }
 }
 
-/// Relative error of a power law as a Prony series (chosen: far below the noise of a curve).
+/// Relative error requested of a Prony series that approximates a power law. Chosen, far below the noise of a curve.
 const EXPANSION_ERROR: f64 = 1e-4;
-/// Relative difference up to which two relaxation times are those of one branch (chosen, above the rounding of exp and ln).
+/// Largest relative difference of two relaxation times that count as those of one branch. Chosen, above the rounding of exp and
+/// ln.
 const TIME_TOLERANCE: f64 = 1e-7;
-/// Step of the logarithm of the thickness for a difference quotient (chosen).
+/// Step of the natural logarithm of the thickness for the derivative of the forces by a difference quotient. Chosen.
 const THICKNESS_STEP: f64 = 1e-4;
-/// Step of β for a difference quotient (chosen: the nodes of the Prony series rarely change over it).
+/// Step of the exponent β of a power law for the derivative of the forces by a difference quotient. Chosen: the nodes of the
+/// Prony series rarely change over it.
 const BETA_STEP: f64 = 1e-6;
 
 /// Model of a body that follows the depth of a curve.
@@ -161,7 +163,8 @@ impl<'a> Model<'a> {
         let values = pairs.map(|(force, relative_depth)| force + baseline + tilt * relative_depth);
         let measured = self.curve.force.iter().zip(values);
         let residuals = measured.map(|(force, value)| force - value).collect();
-        // One row of derivatives per parameter, in the order of the parameters.
+        // Collect the derivatives of the forces, one row for each parameter: material, contact point, baseline, tilt and
+        // thickness in this order.
         let rows = self.material_rows(parameters, &spectrum, &found);
         let mut rows = rows.map_err(MdrError::from)?;
         rows.push(found.depth.iter().map(|slope| -slope).collect());

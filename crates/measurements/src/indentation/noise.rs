@@ -64,15 +64,15 @@ impl Likelihood {
     }
 }
 
-/// Ratio of neighbouring candidates of T (chosen).
+/// Ratio of neighbouring candidates of the correlation time T of the noise. Chosen.
 const TIME_RATIO: f64 = 2.5;
-/// Candidates of the fraction λ of the variance that is correlated (chosen).
+/// Candidates of the fraction λ of the variance of the noise that is correlated; the rest is white. Chosen.
 const CORRELATED_FRACTIONS: [f64; 7] = [0.01, 0.05, 0.2, 0.5, 0.8, 0.95, 1.0];
 /// Prior probability of white noise (chosen); all other candidates share the rest equally.
 const WHITE: f64 = 0.5;
-/// Smallest posterior probability relative to the largest one for a noise to be kept (chosen).
+/// Smallest ratio of the posterior probability of a noise to the largest one, with which the noise is kept. Chosen.
 const MIN_RELATIVE_PROBABILITY: f64 = 1e-3;
-/// Factor on the diagonal of a normal matrix, which keeps undetermined parameters finite (chosen).
+/// Factor on the diagonal of a normal matrix. Chosen: it keeps parameters finite that the points do not determine.
 pub(super) const DIAGONAL_FACTOR: f64 = 1.0 + 1e-12;
 
 impl Noise {
@@ -168,7 +168,7 @@ impl Noise {
             [kept, gain, total.sqrt().recip()]
         });
         let steps: Vec<[f64; 3]> = steps.collect();
-        // Row by row: in a column every number depends on the previous one.
+        // Filter all columns row by row, because in a column every number depends on the previous one.
         let mut states = vec![0.0; columns.len()];
         for (i, [kept, gain, scale]) in steps.into_iter().enumerate() {
             for (column, state) in columns.iter_mut().zip(&mut states) {
@@ -213,7 +213,8 @@ impl Noise {
         let n = columns.len();
         let mut matrix = normal_matrix(&columns);
         let mut determinant = 0.0;
-        // Cholesky elimination of the parameters; the last pivot is the residual sum of squares.
+        // Eliminate the parameters by Cholesky steps. The pivots give the determinant, and the last one is the residual sum of
+        // squares.
         for k in 0..n - 1 {
             let pivot = matrix[k * (n + 1)] * DIAGONAL_FACTOR;
             if pivot <= 0.0 {

@@ -17,17 +17,18 @@ use super::means::Measured;
 use super::noise::{DIAGONAL_FACTOR, Linear, Noise, normal_matrix};
 use super::start::approach_end;
 
-/// Smallest number of points of a baseline (chosen).
+/// Smallest number of points of a baseline, the line through the points before a fall of the force. Chosen.
 const MIN_BASELINE_POINTS: usize = 10;
-/// Inverse of the relative increase of the number of points from one baseline to the next (chosen).
+/// Inverse of the relative growth of the baselines that are tried: each has a fifth more points than the one before. Chosen.
 const BASELINE_GROWTH: usize = 5;
-/// Smallest number of points of a fall (chosen); fewer are outliers.
+/// Smallest number of points of a fall of the force by attraction; fewer count as outliers. Chosen.
 const MIN_FALL_POINTS: usize = 3;
-/// Probability of the largest deviation that is noise: five standard errors of a normal distribution (chosen).
+/// Probability that noise stays below a deviation that counts as a fall: that of five standard errors of a normal distribution.
+/// Chosen.
 ///
 /// About a thousand means of a curve are compared.
 const COVERAGE: f64 = 1.0 - 5.7e-7;
-/// Distance of an outlier from the median of five points, in standard deviations (chosen).
+/// Smallest distance of an outlier from the median of five points, in standard deviations of the noise. Chosen.
 const OUTLIER_DEVIATIONS: f64 = 5.0;
 
 /// Adhesion on the approach.
@@ -85,7 +86,7 @@ fn find(measured: &Measured) -> Option<PullIn> {
     let sizes = clearest.values().map(|fall| fall.size);
     let fall = sizes.max_by(f64::total_cmp)?;
     let peak = min_max(&force)[1] - median(force[..=n / 20].to_vec());
-    // A force that only decreases has the wrong sign.
+    // A fall as large as the peak belongs to a force that only decreases, hence has the wrong sign, and is no attraction.
     (fall < peak).then_some(PullIn { fall, peak })
 }
 
@@ -250,7 +251,7 @@ impl Line {
     fn through(&[weight, by_depth, square, value, product]: &[f64; 5]) -> Self {
         let [depth, value] = [by_depth, value].map(|sum| sum / weight);
         let square = (square - weight * depth * depth).max(0.0);
-        // For a constant depth the line is level.
+        // If all depths are equal, the slope is not determined, and the line is taken to be level.
         let has_slope = square > f64::EPSILON * weight;
         let slope = if has_slope {
             (product - weight * depth * value) / square

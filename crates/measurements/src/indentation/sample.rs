@@ -14,17 +14,18 @@ use super::search::Found;
 use super::{FitOptions, Flag, IndentationCurve, Thickness};
 use crate::MeasurementError;
 
-/// Step of the logarithm of a fitted thickness (chosen: the interpolation error is 1e-5 of a radius).
+/// Step of the natural logarithm of the thickness in a table of profiles. Chosen: the interpolation error is 1e-5 of a radius.
 const LOG_THICKNESS_STEP: f64 = 0.1;
-/// Smallest fitted thickness over the contact radius on a half space at the whole range of depths (chosen).
+/// Ratio of the smallest fitted thickness to the contact radius on a half space at the whole range of depths. Chosen.
 const MIN_THICKNESS_RATIO: f64 = 0.1;
-/// Largest fitted thickness over the contact radius on a half space at the whole range of depths (chosen: the sample is then a
-/// half space).
+/// Ratio of the largest fitted thickness to the contact radius on a half space at the whole range of depths. Chosen: the sample
+/// is then a half space.
 const MAX_THICKNESS_RATIO: f64 = 1000.0;
-/// Largest depth of a profile over the range of depths of the curve (chosen): the contact point may precede the curve by half
-/// the range.
+/// Ratio of the largest tabulated depth of a profile to the range of depths of the curve. Chosen: the contact point may precede
+/// the curve by half the range.
 const DEPTH_MARGIN: f64 = 1.5;
-/// Ratio of depth to thickness above which strains are not small (chosen, as for scenes).
+/// Ratio of the indentation depth to the thickness above which strains are not small, and a fit is flagged. Chosen, as for
+/// scenes.
 const LARGE_STRAIN_RATIO: f64 = 1.0 / 3.0;
 
 /// A body on a sample.

@@ -11,16 +11,17 @@ use super::start::Start;
 use super::{FitOptions, IndentationCurve, Rheology};
 use crate::MeasurementError;
 
-/// Largest number of branches (chosen: one curve never determines more).
+/// Largest number of branches that a fit may have. Chosen: one curve never determines more.
 pub(super) const MAX_BRANCHES: usize = 6;
 /// Approximate number of points of the first search, in which all initial values are followed (chosen).
 const COARSE_POINTS: usize = 200;
 /// Difference of two criteria from which on there is strong evidence for the lower one (Kass and Raftery 1995,
 /// DOI 10.1080/01621459.1995.10476572).
 const STRONG_EVIDENCE: f64 = 6.0;
-/// Smallest relaxation time over the shortest time step of the curve (chosen: faster branches act like a dashpot).
+/// Ratio of the smallest fitted relaxation time to the shortest time step of the curve. Chosen: faster branches act like a
+/// dashpot.
 const MIN_TIME_FACTOR: f64 = 1.0 / 3.0;
-/// Largest relaxation time over the duration of the curve (chosen: slower branches act like a spring).
+/// Ratio of the largest fitted relaxation time to the duration of the curve. Chosen: slower branches act like a spring.
 const MAX_TIME_FACTOR: f64 = 30.0;
 
 /// A minimum of the sum of squares.
@@ -72,7 +73,8 @@ pub(super) fn search<'a>(
         };
     }
     found.ok_or_else(|| {
-        // The most frequent reason is a depth that is too large for the body.
+        // All fits have failed. Compute the forces of an elastic sample to find the reason, most often a depth that is too large
+        // for the body.
         let elastic = Model::new(sample, curve, Kind::Branches(0), options);
         let mut parameters = vec![0.0, curve.depth[0], 0.0, 0.0];
         parameters.extend(begin.thickness);
@@ -135,7 +137,7 @@ fn fit<'a>(
     let found = starts.filter_map(|start| descend(&coarse, &coarse_squares, start, 1e-3));
     let best = found.min_by(|one, other| one.model.sum.total_cmp(&other.model.sum))?;
     let found = descend(&model, &squares, best.parameters, 1e-4)?;
-    // Outliers depend on the fit, and the fit on them: find them twice.
+    // Alternate twice between finding the outliers and fitting the parameters, because each depends on the other.
     let mut parameters = sort_branches(model.kind, found.parameters);
     for sufficient in [1e-3, 1e-6] {
         squares.find_outliers(&model, &parameters, 1e-12 * peak)?;
@@ -211,7 +213,7 @@ fn ranges(model: &Model, begin: &Start) -> Vec<ParameterRange> {
         ],
         2.0,
     );
-    // The order of the parameters: material, contact point, baseline, tilt, thickness.
+    // Collect the ranges of all parameters in their order: material, contact point, baseline, tilt, thickness.
     let mut ranges = match model.kind {
         Kind::Branches(n) => [vec![moduli], [moduli, times].repeat(n)].concat(),
         Kind::PowerLaw => vec![moduli, range([0.011, 0.98], 0.1)],
@@ -270,11 +272,11 @@ fn sort_branches(kind: Kind, parameters: Vec<f64>) -> Vec<f64> {
     [&parameters[..1], &branches, &parameters[2 * n + 1..]].concat()
 }
 
-/// Distance of the residual of an outlier from the median of its neighbours, in their standard deviations (chosen).
+/// Smallest distance of the residual of an outlier from the median of its neighbours, in their standard deviations. Chosen.
 ///
 /// Outliers are replaced by that median (Hampel 1974, DOI 10.1080/01621459.1974.10482962).
 const OUTLIER_DEVIATIONS: f64 = 4.0;
-/// Number of neighbours on each side of a point in this median (chosen).
+/// Number of neighbours on each side of a point whose residuals form the median for outliers. Chosen.
 const OUTLIER_NEIGHBOURS: usize = 12;
 
 /// Scaled residuals, with outliers replaced by the median of their neighbours.

@@ -27,22 +27,23 @@ pub(super) struct Start {
     pub(super) thickness: Option<f64>,
 }
 
-/// Smallest number of points of a curve that is fitted (chosen).
+/// Number of points of a curve below which it is not fitted. Chosen.
 pub(super) const MIN_POINTS: usize = 30;
 /// Approximate number of points of the approach in the elastic fit (chosen).
 const APPROACH_POINTS: usize = 100;
 /// Number of equally spaced candidates of the contact point in the first search (chosen).
 const CONTACT_POINT_CANDIDATES: usize = 24;
-/// Number of bisections around the best candidate (chosen).
+/// Number of halvings of the distance between candidates of the contact point around the best one. Chosen.
 const CONTACT_POINT_REFINEMENTS: i32 = 6;
-/// Fraction of the rise of the force up to which the beginning of the contact is searched (chosen).
+/// Fraction of the rise of the force below which the beginning of the contact is searched. Chosen.
 const INITIAL_RISE_FRACTION: f64 = 0.3;
-/// Exponents of the force as a power of the depth (chosen: flat punch to blunt and sharp bodies).
+/// Exponents that are tried for the force as a power of the depth. Chosen: they extend from a flat punch over blunt to sharp
+/// bodies.
 const FORCE_EXPONENTS: [f64; 4] = [1.0, 1.5, 2.0, 3.0];
-/// Rise of the sum of squares above its minimum, in variances of independent points, up to which a contact point is admissible
-/// (chosen).
+/// Largest rise of the sum of squares above its minimum with which a contact point is admissible, in variances of independent
+/// points. Chosen.
 const CONTACT_UNCERTAINTY: f64 = 5.0;
-/// Fraction of the way from the first to the largest depth at which the approach ends (chosen).
+/// Fraction of the way from the first to the largest depth at which the approach ends. Chosen.
 const APPROACH_END_FRACTION: f64 = 0.98;
 
 /// The elastic fit with the smallest residual over all initial thicknesses; an error if none succeeds.

@@ -34,7 +34,8 @@ pub(super) struct Group {
     pub(super) rows: BTreeMap<u64, IsothermRow>,
 }
 
-/// Largest drift of the temperature within an isotherm, \[K] (chosen).
+/// Largest difference between the temperature of a row and that of the first row of its isotherm, \[K]. A row that differs more
+/// belongs to another isotherm. Chosen.
 const MAX_TEMPERATURE_DRIFT: f64 = 1.0;
 
 /// Inserts a row into the isotherm of the nearest temperature without this frequency, or into a new one.

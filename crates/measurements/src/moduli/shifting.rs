@@ -191,7 +191,7 @@ impl Table<'_> {
             VerticalShift::Free => {
                 let mut table: Vec<[f64; 2]> = master.shifts.iter().map(of_isotherm).collect();
                 table.sort_by(|one, other| one[0].total_cmp(&other[0]));
-                // Keep the first of several isotherms of one temperature.
+                // If several isotherms have the same temperature, the table of vertical shifts keeps the first.
                 table.dedup_by(|next, kept| next[0] <= kept[0]);
                 Some(VerticalLaw::Table(table))
             }
@@ -199,7 +199,8 @@ impl Table<'_> {
     }
 }
 
-/// Largest deviation of shifts from a law that describes them, in decades (chosen).
+/// Largest deviation, in decades, with which a law still describes measured shifts; isotherms beyond it are outside its range.
+/// Chosen.
 const LAW_TOLERANCE: f64 = 0.1;
 
 /// Fits a law about the `nearest` isotherm, and extends its range from the `wanted` temperature outwards while it holds.

@@ -185,9 +185,9 @@ pub(crate) enum Half {
     Retract,
 }
 
-/// Marks of NanoScope for the halves of a ramp, as in `Defl_pN_Ex` and `Calc_Ramp_Rt_nm`.
+/// Suffixes by which NanoScope marks the halves of a ramp, as in `Defl_pN_Ex` and `Calc_Ramp_Rt_nm`.
 const SUFFIXES: [(&str, Half); 2] = [("_Ex", Half::Approach), ("_Rt", Half::Retract)];
-/// Marks of other instruments, as AFM Workshop in `Extend Z-Sense(nm)`.
+/// Prefixes by which other instruments mark the halves of a ramp, as AFM Workshop in `Extend Z-Sense(nm)`.
 const PREFIXES: [(&str, Half); 8] = [
     ("Extend ", Half::Approach),
     ("Approach ", Half::Approach),
@@ -235,7 +235,7 @@ impl Quantity {
             Friction => ("mu", "-  1 %"),
             FrictionError => ("standard error of mu", "-  1 %"),
             FrictionForce => ("friction force", "N mN uN nN pN kN"),
-            // As a force, as a length, and what a detector says.
+            // A deflection may be stated as a force, as a length, or as the voltage of the detector.
             Deflection => ("deflection", "N mN uN nN pN m um nm pm V mV"),
             Other => ("", "-  1"),
         }
@@ -291,7 +291,7 @@ impl Quantity {
     }
 }
 
-/// Other spellings of units, and the canonical ones.
+/// Other spellings of units, each with its usual one.
 const SAME_UNITS: [(&str, &str); 24] = [
     ("1/min", "rpm"),
     ("min-1", "rpm"),

@@ -140,7 +140,7 @@ pub(crate) fn tagged(line: &str) -> Option<(&str, &str)> {
     is_known.then(|| (tag.trim(), rest))
 }
 
-/// First characters of a comment.
+/// Characters that begin a comment line, which is not read as data.
 const COMMENT_MARKS: [char; 2] = ['#', '%'];
 
 /// True for a line that begins with `#`, `%` or `//`.

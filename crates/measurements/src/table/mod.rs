@@ -215,7 +215,7 @@ impl<'a> Source<'a> {
         let is_number = |cell: &&&str| self.layout.number(cell).is_some();
         let is_row = |line: &Line| line.cells.iter().filter(is_number).count() > 1;
         let above = self.lines.iter().take_while(|line| !is_row(line));
-        // Show the line with the most known names, then with the most cells, then the first.
+        // The message shows the line with the most known names; among equals that with the most filled cells, then the first one.
         let rank = |line: &&Line| {
             let filled = line.cells.iter().filter(|cell| !cell.is_empty());
             Reverse([self.columns(line).len(), filled.count()])
@@ -369,7 +369,7 @@ impl<'a> Table<'a> {
         self.n_heads += usize::from(below.is_some());
         let mut units = below.map_or(Vec::new(), |line| layout.names(line.text));
         if layout.is_blank() {
-            // The first columns may have no unit.
+            // If there are fewer units than names, the first columns are taken to have none.
             let n_names = layout.names(block[0].text).len();
             let missing = n_names.saturating_sub(units.len());
             units.splice(0..0, vec![""; missing]);
