@@ -10,11 +10,12 @@ use numerics::transforms::Real;
 use crate::parallel::reductions::{add_scaled, sum};
 use crate::parallel::row_blocks::{RowBlocks, copies};
 
-/// Relative drop of ‖r‖² below which a step stagnates: the next direction is then built from the last A p instead of r (Young & Jea
-/// 1980). Values up to 0.05 hardly matter.
+/// Relative drop of the squared norm ‖r‖² of the residual r below which a step stagnates. The next direction is then built from
+/// the last image A p instead of r (Young & Jea 1980). Chosen; values up to 0.05 hardly matter.
 const STAGNATION_REDUCTION: f64 = 0.01;
-/// Breakdown: ratio of ‖A p‖ after to ‖A p‖ before orthogonalisation below which the result is rounding error. Chosen near the rounding
-/// 6e-8 of single precision, in which the operators of periodic contacts are applied.
+/// Ratio of the norm of an image A p after its orthogonalisation to that before, below which only rounding error is left and the
+/// iteration ends (breakdown). Chosen near the rounding 6e-8 of single precision, in which the operators of periodic contacts are
+/// applied.
 const BREAKDOWN_TOLERANCE: f64 = 1e-7;
 
 /// Size of the Krylov basis and length of the iteration.
@@ -55,7 +56,8 @@ pub(crate) fn gcr<T: Real>(
     let mut stagnant_image: Option<Vec<T>> = None;
     let mut residual_square = inner_product(residual, residual);
     for _ in 0..limits.max_steps {
-        // Ask for a direction and its image.
+        // Ask the caller for the next direction and its image. They replace the vector that the basis dropped last, if there is
+        // one.
         let mut new = recycled
             .take()
             .unwrap_or_else(|| BasisVector::new(solution.len(), residual.len()));
@@ -68,7 +70,7 @@ pub(crate) fn gcr<T: Real>(
             return;
         }
 
-        // Orthogonalise the image against the basis; test for breakdown.
+        // Orthogonalise the image against those of the basis. If nothing but rounding error is left, the iteration ends.
         let (factors, products) = orthogonalise(&mut new.image, residual, &basis);
         new.image_square = products.square;
         let square_before = products.square + products.removed_square;
@@ -78,11 +80,13 @@ pub(crate) fn gcr<T: Real>(
             return;
         }
 
-        // Find the step that minimises the residual; keep the image if it hardly reduces it.
+        // Find the step along the direction that minimises the residual. If it hardly reduces the residual, keep the image as the
+        // source of the next direction.
         let step = -products.with_residual / products.square;
         let stagnates = step * step * products.square < STAGNATION_REDUCTION * residual_square;
         stagnant_image = stagnates.then(|| {
-            // Scaled, because a preconditioner that amplifies it in every step would overflow.
+            // The image is scaled to the norm of the residual, because a preconditioner that amplifies it in every step would
+            // overflow.
             let scale = T::rounded((residual_square / products.square).sqrt());
             new.image.iter().map(|value| scale * *value).collect()
         });
@@ -99,7 +103,7 @@ pub(crate) fn gcr<T: Real>(
             },
         );
 
-        // Move the residual.
+        // Add the step times the image to the residual, and sum the squares of the result in the same pass.
         residual_square = residual_blocks.fold(
             [(&mut *residual, residual_blocks.starts_of_coarse_blocks(1))],
             |row_block, [part]| {
@@ -110,7 +114,8 @@ pub(crate) fn gcr<T: Real>(
             |left, right| left + right,
         );
 
-        // Extend the basis; beyond its depth the oldest vector makes room.
+        // Add the new vector to the basis. Beyond the truncation depth the oldest vector is dropped, and its memory is used
+        // again.
         basis.push_back(new);
         if basis.len() > limits.truncation_depth {
             recycled = basis.pop_front();
@@ -160,7 +165,8 @@ fn orthogonalise<T: Real>(
     let mut factors = Vec::with_capacity(basis.len());
     let mut removed_square = 0.0;
     let row_blocks = blocks_of(image);
-    // One pass over memory per vector: remove the component along the vector before, and project onto this one.
+    // Each vector of the basis takes one pass over memory, which removes the component along the vector before and projects onto
+    // this one.
     for (index, vector) in basis.iter().enumerate() {
         let before = index
             .checked_sub(1)
@@ -180,7 +186,7 @@ fn orthogonalise<T: Real>(
         removed_square += component * projection;
         factors.push(T::rounded(-component));
     }
-    // Remove the last component, and form the products of the result.
+    // Remove the component along the last vector, and compute the inner products of the result with itself and with the residual.
     let last = factors.last().zip(basis.back());
     let [square, with_residual] = row_blocks.fold(
         [(image, row_blocks.starts_of_coarse_blocks(1))],

@@ -23,24 +23,27 @@ use crate::BemError;
 use crate::contact::exchange_rule::{ExchangeRule, Violation};
 use crate::parallel::reductions::larger;
 
-/// Penetration next to the active set, in RMS residuals on the set, below which it counts as solver error: three
-/// standard deviations. With 2 or 5 there are as many operator applications.
+/// Ratio of a penetration next to the active set to the root mean square (RMS) of the residual on the set, below which the
+/// penetration counts as solver error. Chosen as three standard deviations; with 2 or 5 there are as many operator applications.
 const PENETRATION_THRESHOLD_RMS: f64 = 3.0;
 /// Penetration far from the active set, as a fraction of the largest residual on the set, below which it counts as
 /// solver error. Chosen; from 0 to 1 no answer changes by more than 5 % of its bar.
 const FAR_PENETRATION_THRESHOLD: f64 = 0.3;
-/// Tensile fraction of the force above which an update only removes elements, because the gaps outside then say little. On dashpots of
-/// 128² elements whose moduli grow up to a million times with the frequency, one light contact in seven is not found in 3000 operator
-/// applications without it. Others take three times as many. With 0.25 there are as many applications.
+/// Ratio of the total tension to the force above which an update only removes elements, because the gaps outside then say little.
+/// Chosen.
+///
+/// On dashpots of 128² elements whose moduli grow up to a million times with the frequency, one light contact in seven is not
+/// found in 3000 operator applications without this rule. Others then take three times as many. With 0.25 there are as many
+/// applications as with this value.
 const MAX_TENSILE_FRACTION: f64 = 0.2;
 /// Largest residual of the inner solution, as a fraction of the largest gap that counts as closed: below 1, so that
 /// room is left for the projection. Chosen (case of `evidence tuning`).
 const INNER_SHARE_OF_TOLERANCE: f64 = 0.5;
-/// Residual that is always allowed, in units of the last place of the depth d: the rounding of a few operations. The depth of a
-/// line on a material of long memory may exceed the heights in contact a million times.
+/// Largest residual that always counts as closed, in units of the last place of the depth d: the rounding of a few operations.
+/// The depth of a long cylinder (plane strain) on a material of long memory may exceed the heights in contact a million times.
 const DEPTH_ROUNDING_ULPS: f64 = 16.0;
-/// Number of times that the residual of an unchanged active set may grow before the search ends with an error, because such growth is
-/// rounding error: a limit of the time.
+/// Number of times that the residual of an unchanged active set may grow, which only rounding error causes. Chosen to limit the
+/// time: beyond it the search fails with [`BemError::ContactNotConverged`].
 const MAX_STAGNATIONS: usize = 5;
 
 /// Forcing terms of the inexact Newton method: inner residual over the residual that the last exchange left.
@@ -153,7 +156,7 @@ impl<'a, P: FixedSetSolver> Search<'a, P> {
         let mut previous_residual = f64::INFINITY;
         let (mut set_is_unchanged, mut stagnations) = (false, 0);
         loop {
-            // Solve on the active set.
+            // Solve the equations g = 0 on the active set, to a fraction of the residual that the last exchange of elements left.
             self.problem
                 .set_active_set(&self.active, &self.pressure, &self.gap);
             let residual = self.problem.residual_rms();
@@ -161,7 +164,7 @@ impl<'a, P: FixedSetSolver> Search<'a, P> {
             stagnations += usize::from(residual_grows && set_is_unchanged);
             previous_residual = residual;
             let forcing = match residual_grows {
-                // A cycle of inexact solutions may end with accurate ones.
+                // Inexact solutions may lead through the same active sets in a cycle, which accurate ones can end.
                 _ if rule.exchanges_single_elements() => 0.0,
                 true => P::FORCING.after_growth,
                 false => P::FORCING.usual,
@@ -173,7 +176,8 @@ impl<'a, P: FixedSetSolver> Search<'a, P> {
             let solver_residual = self.problem.residual_rms();
             self.problem.copy_pressure_to(&mut self.pressure);
 
-            // Collect the KKT violations, under the pressure with its tension.
+            // Collect the elements that violate the KKT conditions (head of this file), under the pressure before its tension is
+            // removed.
             let [mut tension, mut total] = [0.0; 2];
             for pressure in &self.pressure {
                 tension -= pressure.min(0.0);
@@ -206,7 +210,8 @@ impl<'a, P: FixedSetSolver> Search<'a, P> {
                 self.active[element] ^= true;
             }
 
-            // Project onto p ≥ 0. More tension than the tolerance requires another solution.
+            // Remove the tension by the projection onto p ≥ 0. If its share of the force exceeds the tolerance, another solution
+            // is needed.
             if tension > 0.0 {
                 self.project_nonnegative();
                 self.update_gaps();
@@ -268,7 +273,9 @@ impl<'a, P: FixedSetSolver> Search<'a, P> {
         let self_influence = self.problem.self_influence();
         let next_to_set = thresholds.next_to_set.max(self.allowed_gap());
         let far = thresholds.far.max(self.allowed_gap());
-        // Size of the violation of an element, and its threshold. Far from the set, gaps have the error of the whole solution.
+        // The violation of an active element is its tension times the self-influence, and that of any other element its
+        // penetration.
+        // Far from the set another threshold holds, because gaps there have the error of the whole solution.
         let violation = |element: usize| {
             let [pressure, gap] = [self.pressure[element], self.gap[element]];
             let (size, threshold) = if self.active[element] {

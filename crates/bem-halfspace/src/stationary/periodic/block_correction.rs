@@ -10,8 +10,8 @@
 //! ```
 //!
 //! and S is replaced by M. Pressures and displacements are in units in which an element is displaced by 1 under its own unit pressure.
-//! The blocks are eight elements long along x and one across. Modes with q_x = 0 are
-//! relaxed at every speed, so that they are the most compliant by far, and short ones among them matter.
+//! The blocks are eight elements long along x and one across. Waves that do not vary along x, the direction of motion, are
+//! relaxed at every speed. They are therefore the most compliant by far, and short ones among them matter.
 //!
 //! Theory: docs/theory/stationary-half-space.md, "Periodic surfaces", and docs/theory/contact.md, "Other patches".
 
@@ -26,26 +26,27 @@ use crate::stationary::conjugate_residuals::{GcrLimits, GcrState, gcr, norm};
 use crate::stationary::periodic::kernel::{PeriodicKernel, Sliding};
 use crate::{BemError, Grid};
 
-/// Length of a block along x, in elements: the largest that row blocks do not divide.
+/// Length of a block along x, in elements: the largest for which no block is divided between two row blocks, the shares of the
+/// threads.
 const BLOCK_LENGTH: usize = RowBlocks::MAX_COARSE_BLOCK;
 /// Weight of an element in the mean over a block, 1/[`BLOCK_LENGTH`].
 const INVERSE_BLOCK_LENGTH: f32 = 1.0 / BLOCK_LENGTH as f32;
-/// Initial tolerance of the block equation, relative to its right side. Measured on rough contacts:
+/// Initial tolerance of the residual of the block equation, relative to its right side. Chosen by measurements on rough contacts.
 ///
-/// On 1024² elements a contact takes an eighth to a third more operator applications with 1e-2, and as much less with 1e-3, of
-/// which each takes longer.
+/// On 1024² elements a contact takes an eighth to a third more operator applications with 1e-2. With 1e-3 it takes as many fewer,
+/// each of which takes longer.
 const INITIAL_TOLERANCE: f64 = 3e-3;
-/// Factor on the tolerance of the block equation when GCR stagnates. Chosen; from 0.03 to 0.9 no digit of an answer
-/// changes.
+/// Factor by which the tolerance of the block equation is multiplied when GCR on the elements stagnates. Chosen; from 0.03 to 0.9
+/// no digit of an answer changes.
 ///
-/// A dense contact on a solid of many branches takes four times as many operator applications at the initial
-/// tolerance.
+/// If the tolerance stays at its initial value, a dense contact on a solid of many branches takes four times as many operator
+/// applications.
 const TOLERANCE_REDUCTION: f64 = 0.3;
 /// Lower bound of the tolerance of the block equation, relative to its right side. Chosen above the rounding of
 /// single precision, 6e-8; from 1e-7 to 1e-4 no digit of an answer changes.
 const MIN_TOLERANCE: f64 = 1e-5;
-/// Constant weight that replaces W in the preconditioner of the block equation, as a fraction of the mean of W. Measured: with 1 a
-/// contact takes a tenth longer, with 0.1 as long.
+/// Ratio of the constant weight in the preconditioner of the block equation to the mean of the weights W that it replaces.
+/// Chosen: with 1 a contact takes a tenth longer, with 0.1 as long.
 const MEAN_WEIGHT_FRACTION: f64 = 0.4;
 /// Limits of GCR for the block equation. Measured: up to 2048² elements 40 and 80 steps lead to about as many operator applications,
 /// and so do truncation depths of one, two and eight.
@@ -154,7 +155,8 @@ impl BlockCorrection {
             .for_each_part(list, |row_block, [pressures]| {
                 let weights = &weights[active.packed_range(row_block)];
                 for run in active.runs(row_block) {
-                    // Find the blocks of the run, and subtract their share.
+                    // A run is a row of successive elements. Find the blocks to which they belong, and subtract w d of each
+                    // element that takes part.
                     let first = run.elements().start;
                     let block = first / columns / BLOCK_LENGTH * columns + first % columns;
                     let blocks = displacement[block..].iter().zip(&self.weights[block..]);
@@ -184,7 +186,7 @@ impl BlockCorrection {
                 let first_row = active.row_blocks.rows(row_block).start;
                 let list = &list[active.packed_range(row_block)];
                 for run in active.runs(row_block) {
-                    // Add each run to the blocks of its columns.
+                    // Add each element of the run, over the length of a block, to the mean of the block to which it belongs.
                     let first = run.elements().start;
                     let block =
                         (first / columns - first_row) / BLOCK_LENGTH * columns + first % columns;
@@ -215,7 +217,8 @@ impl BlockCorrection {
         let [mut residual, mut load] = [(); 2].map(|()| copies(0.0, means.len()));
         kernel.apply_single_precision(preconditioner, means, &mut residual);
         let target = *tolerance * norm(&residual);
-        // Change of the residual by a change of the displacement.
+        // This is the change of the residual by a change `from` of the displacement: minus the preconditioned operator of the
+        // block equation.
         let mut find_image = |from: &[f32], image: &mut [f32]| {
             row_blocks.for_each([&mut load], |row_block, [load]| {
                 let elements = row_blocks.elements(row_block);
@@ -229,13 +232,13 @@ impl BlockCorrection {
                 add_scaled(image, -1.0, &from[row_blocks.elements(row_block)]);
             });
         };
-        // Add the image of the guess to the residual.
+        // So far the residual is that of d = 0. A guess changes it by the image of the guess.
         if norm(displacement) > 0.0 {
             let mut image = copies(0.0, means.len());
             find_image(displacement, &mut image);
             add_scaled(&mut residual, 1.0, &image);
         }
-        // Solve to the target: the preconditioned residual is the next direction.
+        // Iterate to the target. The equation is already preconditioned, so that its residual is the next direction.
         let find_direction = |state: GcrState<f32>, direction: &mut [f32], image: &mut [f32]| {
             let goes_on = state.residual_square.sqrt() > target;
             if goes_on {

@@ -11,7 +11,7 @@ use crate::stationary::periodic::{PeriodicControl, PeriodicOptions};
 use crate::stationary::search::{FixedSetSolver, ForcingTerms, Search};
 use crate::{BemError, Grid};
 
-/// Loosest tolerance of the equations on every active set: root mean square of the residual as a fraction of that of the heights.
+/// Largest allowed ratio of the root mean square of the residual, on any active set, to that of the heights about their mean.
 /// Chosen.
 ///
 /// Without it the contact of a solid whose moduli differ by 1000 takes up to twice as many operator applications on 1024²
@@ -35,7 +35,7 @@ pub(super) struct PeriodicContact<'a> {
 
 /// A solved contact; the pressure is a field of its own.
 pub(super) struct PeriodicSolution {
-    /// Value of h + u in the contact, \[m].
+    /// Sum of height h and displacement u of the elements in contact, \[m].
     pub(super) depth: f64,
     /// Operator applications on this grid.
     pub(super) products: usize,
@@ -56,17 +56,18 @@ pub(super) fn solve(
     equations: &mut Equations,
     pressure: &mut Vec<f64>,
 ) -> Result<PeriodicSolution, BemError> {
-    // Heights at the points where gaps are evaluated, and their variance.
+    // Interpolate the heights at the points where gaps are evaluated. Their variance is the scale of the inner tolerance.
     let mut heights = vec![0.0; problem.grid.n_elements()];
     equations.kernel.shifted(problem.heights, &mut heights);
     let mean_height = mean(&heights);
     let squares = heights.iter().map(|h| (h - mean_height).powi(2));
     let variance = squares.sum::<f64>() / heights.len() as f64;
-    // Search the active set.
+    // A prescribed depth is that of the mean plane. The search needs the sum of height and displacement in the contact.
     let own = equations.self_influence;
     let depth = problem.prescribed_depth().map(|depth| mean_height + depth);
 
-    // Initial active set: that of the guess, or the elements below the mean height or a prescribed depth, if there are any.
+    // The first active set is that of the guess. Without one it contains the elements below the mean height, or below a
+    // prescribed depth. If no element lies below that depth, nothing touches.
     let overlap = |height: &f64| match depth {
         None => f64::from(*height <= mean_height),
         Some(depth) => (depth - height) / own,
@@ -106,7 +107,7 @@ pub(super) fn solve(
     let found = search.run();
     let [residual, depth] = [search.residual, search.depth];
     *pressure = search.pressure;
-    // Return the pressure, and outside the contact the gap as a negative one.
+    // Return the pressure in contact. Outside it return minus the gap over the self-influence, a negative pressure.
     for ((pressure, gap), inside) in pressure.iter_mut().zip(search.gap).zip(search.active) {
         *pressure = if inside {
             pressure.max(0.0)
@@ -155,7 +156,7 @@ struct PeriodicFixedSetSolver<'a> {
 impl FixedSetSolver for PeriodicFixedSetSolver<'_> {
     /// The period repeats along x.
     const PERIODIC_ALONG_X: bool = true;
-    /// With `usual` = 0.1 there are up to a quarter more operator applications in light contact.
+    /// Chosen. With `usual` = 0.1 there are up to a quarter more operator applications in light contact.
     ///
     /// With a tenth of the area of 4096² elements in contact and moduli that differ by 1000 there are 156 operator applications if
     /// both terms are equal, and 115 as they are. If `after_growth` holds for residuals that fall by less than a half too, contacts

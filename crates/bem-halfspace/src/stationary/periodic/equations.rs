@@ -33,36 +33,37 @@ use crate::stationary::periodic::block_correction::BlockCorrection;
 use crate::stationary::periodic::kernel::{PeriodicKernel, Sliding};
 use crate::{BemError, Grid};
 
-/// Largest number of GCR steps if the basis has to be truncated to fit into memory: a limit of the time.
+/// Largest number of GCR steps on one active set if the basis has to be truncated to fit into memory. Chosen to limit the time.
+/// Beyond it the equations are solved directly if they are few enough; otherwise the search goes on with the pressure so far.
 const MAX_STEPS_IF_TRUNCATED: usize = 80;
 /// Largest number of GCR steps if the whole basis fits into memory. Chosen.
 ///
 /// A dense contact of moduli that differ by some thousand does not converge in 80: its residual falls after a hundred steps with
 /// an untruncated basis.
 const MAX_STEPS: usize = 400;
-/// Memory budget of the basis on a large grid, in single-precision numbers per element of the grid; older directions are truncated.
-/// Chosen.
+/// Memory budget of the GCR basis on a large grid, in single-precision numbers per element of the grid. Beyond it the oldest
+/// directions are dropped. Chosen.
 ///
-/// With 57 per cent of 2048² elements in contact and moduli that differ by 1000 there are 146 operator applications, with 12
-/// numbers 274 and with 24 of them 136.
+/// With 57 per cent of 2048² elements in contact and moduli that differ by a factor of 1000, there are 146 operator applications.
+/// With 12 numbers per element there are 274, and with 24 there are 136.
 const BASIS_FLOATS_PER_ELEMENT: usize = 16;
-/// Memory budget of the basis on a small grid, in single-precision numbers per element of the grid: a limit of the memory. All together
-/// are at most [`MAX_BASIS_FLOATS_ON_SMALL_GRID`].
+/// Memory budget of the GCR basis on a small grid, in single-precision numbers per element of the grid. Chosen. Beyond it, or
+/// beyond [`MAX_BASIS_FLOATS_ON_SMALL_GRID`] in total, the oldest directions are dropped.
 pub(super) const BASIS_FLOATS_PER_ELEMENT_ON_SMALL_GRID: usize = 256;
-/// Largest basis that may exceed [`BASIS_FLOATS_PER_ELEMENT`], in single-precision numbers: a limit of the memory, 64
-/// MiB.
+/// Largest size of the GCR basis on a small grid, in single-precision numbers: 64 MiB. Chosen to limit the memory. A larger basis
+/// has only [`BASIS_FLOATS_PER_ELEMENT`] numbers per element of the grid.
 pub(super) const MAX_BASIS_FLOATS_ON_SMALL_GRID: usize = 1 << 24;
 /// Ratio of two successive residuals of GCR above which the coarse-space correction is solved more accurately. Chosen; from
 /// 0.5 to 0.99 no answer changes by more than 1e-9 of its bar.
 const STAGNATION_RATIO: f64 = 0.9;
-/// Cost of a direct solve with n unknowns on a grid of N elements, in GCR steps, divided by n³/N. Measured on one thread: with faer
-/// it is 2e-4 to 7e-4 from 300 to 4000 unknowns. It decides the time, not the solution.
+/// Factor on n³/N in the cost of a direct solve with n unknowns on a grid of N elements, in GCR steps. Measured on one thread:
+/// with the library faer (feature `dense`) it is 2e-4 to 7e-4 from 300 to 4000 unknowns. It decides the time, not the solution.
 const DIRECT_SOLVE_COST: f64 = if cfg!(feature = "dense") { 5e-4 } else { 5e-3 };
 /// Ratio of the operator applications on one grid so far to the cost of a direct solve, in the same unit, beyond which active sets are
 /// solved directly. Chosen.
 ///
-/// Of 5000 contacts and more, each of moduli that differ by up to a million on some 700 elements, one in 800 is not found in 2000
-/// operator applications without it.
+/// The test had more than 5000 contacts on some 700 elements each, with moduli that differ by up to a million. Without this rule
+/// one in 800 is not found in 2000 operator applications.
 const ITERATIONS_IN_DIRECT_SOLVES: f64 = 4.0;
 
 /// The equations on one active set, with packed vectors over it.
@@ -111,7 +112,7 @@ impl Equations {
         grid: &Grid,
         control: PeriodicControl,
     ) -> Result<Self, BemError> {
-        // The kernel, and its diagonal coefficient from the response to a unit pressure.
+        // Build the kernel. Its diagonal coefficient is the displacement of an element under its own unit pressure.
         let mut kernel = PeriodicKernel::new(sliding, grid)?;
         let self_influence =
             unit_response(&mut kernel, PeriodicKernel::displace, grid.n_elements())[0];
@@ -149,10 +150,11 @@ impl Equations {
         self.active.assign(|element| active[element]);
         self.active.find_runs();
         self.scattered.fill(0.0);
-        // Gather pressure and gap.
+        // Pack the pressures and gaps of the active elements into vectors.
         self.pressure = self.gather(pressure);
         self.set_gap(self.gather(gap));
-        // Responses of the preconditioner to the unit gap.
+        // Apply the preconditioner to the unit gap, without and with the coarse-space correction. Directions are made free of a
+        // mean with the result.
         let mut weights = copies(1.0, self.active.len());
         self.apply_inverse(&mut weights);
         self.weights = weights;
@@ -207,7 +209,8 @@ impl Equations {
             residual <= rms || residual <= max && largest() <= max
         };
 
-        // Iterate, unless a direct solve is known to be cheap; at most for the cost of a direct solve, if one is possible.
+        // Iterate by GCR, unless a direct solve is cheap compared with the work so far. If a direct solve is possible, the
+        // iteration may cost at most as much.
         let n_elements = self.scattered.len();
         let can_be_direct = self.n_unknowns() <= dense::MAX_UNKNOWNS as f64;
         let direct_cost = DIRECT_SOLVE_COST * self.n_unknowns().powi(3) / n_elements as f64;
@@ -259,7 +262,7 @@ impl Equations {
             }
         }
 
-        // Solve directly what the iteration has not reached.
+        // If the iteration has not converged, close the remaining gaps by a direct solve.
         if can_be_direct && !is_converged(self.rms(norm(&self.gap)), &self.gap) {
             self.largest_direct_cost = self.largest_direct_cost.max(direct_cost);
             self.solve_directly();
@@ -290,7 +293,7 @@ impl Equations {
     /// Writes the preconditioned `direction`, pressures that close the packed `gap` approximately and keep the prescribed quantity, and
     /// the gaps `image` that they cause.
     fn find_direction(&mut self, gap: &[f32], direction: &mut [f32], image: &mut [f32]) {
-        // S and its correction, applied to minus the gap.
+        // Apply the preconditioner to minus the gap: the inverse S on the whole grid, and its coarse-space correction.
         for (value, gap) in direction.iter_mut().zip(gap) {
             *value = -gap;
         }
@@ -298,12 +301,12 @@ impl Equations {
         if let Some(correction) = &mut self.correction {
             correction.correct(&self.active, &self.weights, direction);
         }
-        // Remove the mean by a change of the depth.
+        // If the mean pressure is given, change the depth so that the mean of the direction is zero.
         if self.depth_is_free {
             let depth = -self.total(direction) / self.total_unit_depth_response;
             add_scaled(direction, f32::rounded(depth), &self.unit_depth_response);
         }
-        // Find the gaps that the direction causes.
+        // Apply the influence to the direction, to find the gaps that it causes.
         self.apply_influence(direction, image);
     }
 

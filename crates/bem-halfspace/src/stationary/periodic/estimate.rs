@@ -149,7 +149,7 @@ fn on_coarse_grid(
     control: PeriodicControl,
     finer: usize,
 ) -> Result<PeriodicSliding, BemError> {
-    // The waves that this grid resolves, without an error bar.
+    // Sample the waves that the first grid resolves. The relative error of the request has no effect on its shape.
     let first = first_shape(surface, &Request::from(ANY_RELATIVE_ERROR))?;
     let shape = first.map(|edge| finer * edge);
     let SampledSurface { grid, heights, .. } = SampledSurface::new(surface, shape)?;

@@ -19,7 +19,8 @@ pub(crate) struct FourierMultiplier {
     single: Option<Transforms<f32>>,
     /// Wave number q_x of each row of a transformed field, \[rad/m]; positive for the shortest wave.
     pub(crate) along_x: Vec<f64>,
-    /// Stiffness |q|/M of all waves, `[column][row]` of the transform, \[rad/m]; for the mean that of the longest wave.
+    /// Stiffness |q|/M of all waves, `[column][row]` of the transform, \[rad/m]; for the mean that of the longest wave. Here q is
+    /// the wave vector and M the compliance ratio of a layer (1 on a half space).
     stiffness: Vec<f64>,
 }
 
@@ -28,7 +29,7 @@ impl FourierMultiplier {
     pub(crate) fn new(grid: &Grid, base: &Base) -> Self {
         let [rows, columns] = grid.shape();
         let [dx, dy] = grid.spacing();
-        // Wave numbers of the rows; those of the second half are negative.
+        // Each row of the transform has a wave number along x; those of the second half are negative.
         let unit_x = 2.0 * PI / (rows as f64 * dx);
         let unit_y = 2.0 * PI / (columns as f64 * dy);
         let number = |row: usize| {
@@ -36,7 +37,8 @@ impl FourierMultiplier {
             (row as f64 - back) * unit_x
         };
         let along_x: Vec<f64> = (0..rows).map(number).collect();
-        // Stiffness of the base for each wave.
+        // Compute the stiffness of the base for each wave. The mean takes that of the longest wave, because it is zero for a
+        // uniform pressure on a half space.
         let longest = unit_x.min(unit_y);
         let mut stiffness = copies(0.0, (columns / 2 + 1) * rows);
         for_each_row(&mut stiffness, rows, |column, values| {

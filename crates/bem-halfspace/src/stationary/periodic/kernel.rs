@@ -127,14 +127,15 @@ pub(super) struct PeriodicKernel {
 impl PeriodicKernel {
     /// The kernel of a material and its speed on a grid.
     pub(super) fn new(sliding: &Sliding, grid: &Grid) -> Result<Self, BemError> {
-        // Compliances of the rows, and the part θ of an element by which the shortest wave is shifted.
+        // Compute the compliance of each row of the transform, and from the loss angle of the shortest wave the shift θ in
+        // elements.
         let dx = grid.spacing()[0];
         let waves = FourierMultiplier::new(grid, &sliding.base);
         let along_x = &waves.along_x;
         let mut at_centre = sliding.compliances(along_x)?;
         let shortest = sliding.compliances(&[PI / dx])?[0];
         let theta = -shortest.arg() / PI;
-        // Shift the points of all waves by this distance.
+        // A shift of the points by this distance multiplies each wave by a phase factor.
         let turn = |q_x: &f64| Complex::from_polar(1.0, q_x * theta * dx);
         let mut shift: Vec<_> = along_x.iter().map(turn).collect();
         let mut at_gap: Vec<_> = at_centre.iter().zip(&shift).map(|(c, s)| c * s).collect();

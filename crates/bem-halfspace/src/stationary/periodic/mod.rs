@@ -7,10 +7,14 @@
 //! gap = h + u − d ≥ 0,  p ≥ 0,  p · gap = 0,  mean of p given,      û(q) = 2 p̂(q) M / (|q| E*(ω)),  ω = −q_x v
 //! ```
 //!
-//! with the complex contact modulus E* = 2 G*/(1 − ν) and the compliance ratio M of a layer (1 on a half space). The kernel is
-//! translation-invariant and not symmetric. The problem is solved by nested iteration, from the coarsest grid to the one asked for, each
-//! with half the spacing of the one before. The discretisation is trigonometric collocation: pressures and gaps
-//! are values at points, with the exact symbol of the kernel for each resolved wave. The friction is computed in two ways,
+//! for the displacement u, the pressure p and the depth d. A hat denotes the amplitude of the wave with the wave vector q, and v
+//! is the sliding speed. The complex contact modulus is E* = 2 G*/(1 − ν), with the shear modulus G* and the Poisson ratio ν. The
+//! compliance ratio M of a layer is 1 on a half space.
+//!
+//! The kernel is translation-invariant and not symmetric. The problem is solved by nested iteration, from the coarsest grid to
+//! the one asked for, each with half the spacing of the one before. The discretisation is trigonometric collocation: pressures
+//! and gaps are values at points, with the exact symbol of the kernel for each resolved wave. The friction coefficient μ is
+//! computed in two ways,
 //!
 //! ```text
 //! μ ⟨p⟩ = ⟨p ∂h/∂x⟩ = Σ_q 2 |p̂|² (|q_x|/|q|) Im E*(|q_x| v)/|E*|².
@@ -148,12 +152,12 @@ fn solve_in_pool(
 ) -> Result<PeriodicSliding, BemError> {
     let is_closed = |depth: f64| depth >= 0.0 && !problem.sliding.is_on_rigid_base();
     problem.check_depth(|depth| !is_closed(depth))?;
-    // Solve for the pressure.
+    // Solve for the pressure. Outside the contact the solution is negative, which the pressure field leaves out.
     let mut equations = Equations::new(problem.sliding, problem.grid, problem.control)?;
     let solved = nested::solve(problem, &mut equations, guess)?;
     problem.check_depth(|_| guess.iter().any(|pressure| *pressure > 0.0))?;
     let pressure: Vec<f64> = guess.iter().map(|p| p.max(0.0)).collect();
-    // Compute the friction in both ways.
+    // Compute the friction from the slopes of the surface, and from the power that the material dissipates.
     let mut field = vec![0.0; pressure.len()];
     let weighted_mean = |field: &[f64]| dot(field, &pressure) / pressure.iter().sum::<f64>();
     equations.kernel.slopes(problem.heights, &mut field);

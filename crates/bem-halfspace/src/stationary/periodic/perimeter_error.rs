@@ -16,11 +16,11 @@ use crate::{Grid, PressureField};
 
 /// Remaining error of the area of a rough contact, as a fraction of the perimeter correction. Measured:
 ///
-/// Of 821 contacts, with four to 16 elements per shortest wave on the coarsest of three grids, two differ by more than this and
-/// the changes on refinement, and 93 without it.
+/// The test had 821 contacts, with four to 16 elements per shortest wave on the coarsest of three grids. Two differ by more than
+/// this error and the changes on refinement together, and 93 by more than the changes alone.
 const REMAINING_FRACTION: f64 = 0.15;
-/// Largest displacement of the boundary of grooves by other waves, in elements, up to which it counts as straight:
-/// half an element, which no row of elements shows.
+/// Largest displacement of the boundary of grooves by other waves, in elements, up to which the boundary counts as straight.
+/// Chosen as half an element, which no row of elements shows.
 const MAX_WAVINESS: f64 = 0.5;
 
 /// Fraction of the period in contact, with the error of its perimeter correction.
@@ -51,7 +51,8 @@ fn groove_direction(surface: &PeriodicSurface, grid: &Grid) -> Option<[usize; 2]
     let [n, m] = steepest.numbers.map(i64::from);
     let is_along = |wave: &&Wave| m * i64::from(wave.numbers[0]) == n * i64::from(wave.numbers[1]);
     let (along, others): (Vec<Wave>, Vec<Wave>) = waves.iter().partition(is_along);
-    // Displacement of the boundary: height of the other waves over the slope of the grooves.
+    // The other waves displace the boundary by their height over the slope of the grooves. If that is too much, it is not
+    // straight.
     let with_waves = |waves: Vec<Wave>| PeriodicSurface::new(surface.period(), waves);
     let other_height = with_waves(others).map_or(0.0, |others| others.rms_height());
     let [dx, dy] = grid.spacing();
@@ -62,7 +63,7 @@ fn groove_direction(surface: &PeriodicSurface, grid: &Grid) -> Option<[usize; 2]
     let [n, m] = steepest
         .numbers
         .map(|number| number.unsigned_abs() as usize);
-    // Elements passed over whole periods, divided by their greatest common divisor (Euclid).
+    // A line passes these numbers of elements over whole periods. Divide both by their greatest common divisor (Euclid).
     let passed = [m * rows, n * columns];
     let (mut divisor, mut remainder) = (passed[0], passed[1]);
     while remainder > 0 {

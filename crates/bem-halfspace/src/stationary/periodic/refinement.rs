@@ -37,10 +37,10 @@ pub(super) const FIRST_ORDER_RATE: ConvergenceRate = ConvergenceRate {
     min_reduction: 0.5,
     expected_reduction: 0.5,
 };
-/// Lower bound of the error of a mean friction in which that from slopes prevails, as a fraction of the difference of both frictions.
-/// Chosen.
+/// Smallest ratio of the error bar of the mean friction to the difference of the frictions from slopes and from dissipation. It
+/// applies if the friction from slopes has the smaller bar. Chosen.
 ///
-/// Of 1135 results the worst erred by 4.2 bars without it, and by 2.6 with it.
+/// Of 1135 results the worst erred by 4.2 bars without this bound, and by 2.6 bars with it.
 const MIN_ERROR_OVER_DIFFERENCE: f64 = 0.25;
 /// Smallest number of elements in contact, on the coarsest grid of an error estimate, for bars to hold. With fewer, the active set
 /// decides the friction, and two grids may agree by chance. Chosen; from 0 to 30 no digit of an answer changes.
@@ -48,10 +48,11 @@ pub(crate) const MIN_CONTACT_ELEMENTS: usize = 30;
 /// Relative tolerance of the contact on the first grid, halved on each of the next, whatever error is asked for.
 /// Chosen; from 1e-7 to 1e-4 no answer changes by more than 3 % of its bar.
 pub(super) const FIRST_TOLERANCE: f64 = 1e-5;
-/// Bound of the relative error of a result per relative residual of the contact. Chosen; from 1 to 100 no bar changes
-/// by more than 10 %.
+/// Ratio of the relative error that a bar allows for the solver to the relative residual of the contact. Chosen; from 1 to 100 no
+/// bar changes by more than 10 %.
 const RESIDUAL_AMPLIFICATION: f64 = 10.0;
-/// Largest number of elements times steps of a march: a limit of the time, about half an hour of one thread.
+/// Largest product of the number of elements and the number of steps of a march, about half an hour of one thread. Chosen to
+/// limit the time: a larger march fails with [`BemError::GridTooLarge`].
 const MAX_ELEMENT_STEPS: f64 = 2e9;
 
 /// Assumed convergence of a quantity from grid to grid.
@@ -139,7 +140,7 @@ pub(super) fn refine<S>(
 where
     PeriodicEstimate<S>: Into<Reached>,
 {
-    // The first grid, and the work of the first three.
+    // Choose the shape of the first grid, and forecast the work of the first three, which an error bar needs.
     let asked = goal.request.accuracy.relative_error();
     if let Some(error) = asked {
         between_zero_and_one("relative_error", error)?;
@@ -242,7 +243,7 @@ impl RefinementGoal<'_> {
         let [.., coarse, middle, fine] = grids else {
             return None;
         };
-        // Error of a quantity from its last two changes.
+        // The error of a quantity follows from its changes on the last two refinements, and from the residual of the solver.
         let with_error = |quantity: &dyn Fn(&GridResult) -> f64, rate: ConvergenceRate| {
             let [coarse, middle, value] = [coarse, middle, fine].map(quantity);
             let previous_change = (middle - coarse).abs();
@@ -253,7 +254,8 @@ impl RefinementGoal<'_> {
             Estimate::new(value, rate.safety * change + solver_error * value.abs())
         };
 
-        // Both frictions are the same quantity, so that each bar has to reach the other one; without loss there is none.
+        // Both frictions are the same quantity, so that the bars are widened until they meet. Without dissipation there is
+        // nothing to compare.
         let mut slopes = with_error(&|found| found.friction, self.friction);
         let dissipated = |found: &GridResult| found.from_dissipation.unwrap_or(f64::NAN);
         let mut dissipation = fine
@@ -269,15 +271,16 @@ impl RefinementGoal<'_> {
         }
         let friction = dissipation.map_or(slopes, |other| weighted_mean(slopes, other));
 
-        // Newly resolved waves reduce the area more than finer elements do, so that the change before does not count then.
+        // Newly resolved waves reduce the area more than finer elements do. If the coarsest grid lacks waves, the earlier change
+        // does not count.
         let mut area_rate = self.area;
         if !coarse.has_all_waves {
             area_rate.min_reduction = 0.0;
         }
         let area = with_error(&|found| found.area_fraction.value, area_rate);
 
-        // Add the bounds of sub-grid gaps, except to what is prescribed. With few elements in contact the active set decides the
-        // values: let the bars reach to 0.
+        // Widen the bars by the bounds of sub-grid gaps, except that of the prescribed quantity. With few elements in contact the
+        // active set decides the values, so that the bars reach to 0.
         let gaps = fine.subgrid_gaps;
         let reach = f64::from(u8::from(coarse.in_contact < MIN_CONTACT_ELEMENTS));
         let widened =

@@ -41,15 +41,16 @@ impl SubgridGapBound {
     /// ½ (π n_x/N_x + π n_y/N_y)² max |p − p̄|
     /// ```
     ///
-    /// with the largest numbers n of waves in the period. Its second derivative along a line is at most its amplitude times the
-    /// square of the largest wave number along it (Bernstein 1912). Its amplitude is at most that at the centres of the elements
-    /// over cos(π n_x/N_x) cos(π n_y/N_y) (Ehlich & Zeller 1964).
+    /// with the largest numbers n of waves in the period and the mean p̄ of the pressure p. The second derivative of the pressure
+    /// along a line is at most its amplitude times the square of the largest wave number along the line (Bernstein 1912). The
+    /// amplitude is at most that at the centres of the elements over cos(π n_x/N_x) cos(π n_y/N_y) (Ehlich & Zeller 1964).
     pub(super) fn new(field: &PressureField, surface: &PeriodicSurface) -> Self {
         let pressure = &field.pressure;
         if pressure.iter().any(|pressure| *pressure <= 0.0) {
             return Self::default();
         }
-        // Amplitude of the pressure between the centres, and the most by which it falls below the nearest sample.
+        // Bound the amplitude of the pressure between the centres, and the most by which the pressure falls below the nearest
+        // sample.
         let n = pressure.len() as f64;
         let mean = mean(pressure);
         let deviations = pressure.iter().map(|pressure| (pressure - mean).abs());

@@ -53,7 +53,8 @@ impl Equations {
     /// The packed pressures that close the gaps, in their unit, from the dense influence matrix of the active set; `None` if that is
     /// singular.
     fn factorise_active_set(&mut self) -> Option<Vec<f64>> {
-        // The elements in contact, and the influence coefficients over the self-influence.
+        // List the elements in contact. The response to a unit pressure, over the self-influence, holds all influence
+        // coefficients.
         let runs = (0..self.active.row_blocks.n_blocks())
             .flat_map(|row_block| self.active.runs(row_block));
         let elements: Vec<usize> = runs.flat_map(Run::elements).collect();
@@ -63,7 +64,7 @@ impl Equations {
             self.scattered.len(),
         );
         image.iter_mut().for_each(|gap| *gap /= self.self_influence);
-        // Responses to the gaps and to the unit gap; a free depth changes so that the mean pressure stays.
+        // Solve for the pressures under the gaps and under the unit gap. A free depth changes so that the mean pressure stays.
         let gaps = self.gap.iter().map(|gap| f64::from(*gap)).collect();
         let entry = translation_invariant(&image, self.active.columns, &elements);
         let solved = dense::solve(entry, vec![gaps, vec![1.0; elements.len()]])?;
@@ -79,7 +80,7 @@ impl Equations {
     /// The packed pressures that close the gaps, in their unit, from the inverse of K on the whole grid. The unknowns are the gaps
     /// of the open elements and the mean pressure; `None` if the dense matrix of their equations is singular.
     fn solve_complement(&mut self) -> Option<Vec<f64>> {
-        // Loads under the present gaps if the open elements had none.
+        // Compute the loads under the present gaps, as if the open elements had no gap.
         let n = self.scattered.len();
         let open: Vec<usize> = (0..n)
             .filter(|element| !self.active.contains(*element))
@@ -89,8 +90,8 @@ impl Equations {
         self.active.scatter(&gaps, &mut field);
         self.apply_exact_inverse(&field, &mut loads);
 
-        // Gaps of the open elements, and the mean pressure, that leave no pressure there. A prescribed mean pressure does not change;
-        // at a prescribed depth the mean of the gaps is the displacement by the mean pressure.
+        // Solve for the gaps of the open elements and the mean pressure that leave no pressure on the open elements. A prescribed
+        // mean pressure does not change. At a prescribed depth the mean of the gaps is the displacement by the mean pressure.
         let mut image = unit_response(&mut self.kernel, PeriodicKernel::invert, n);
         image
             .iter_mut()

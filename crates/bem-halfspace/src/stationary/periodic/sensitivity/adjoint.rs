@@ -24,10 +24,11 @@ const ADJOINT_TOLERANCE: f64 = 1e-7;
 /// Tolerance of each single-precision solve of the iterative refinement, relative to its residual: far above the
 /// rounding of single precision. Three solves reduce the residual below [`ADJOINT_TOLERANCE`].
 const REFINEMENT_REDUCTION: f64 = 1e-3;
-/// Largest number of steps of the iterative refinement: a limit of the time. Three suffice if each reaches [`REFINEMENT_REDUCTION`].
+/// Largest number of steps of the iterative refinement. Chosen to limit the time: beyond it the solution fails with
+/// [`BemError::ContactNotConverged`]. Three suffice if each reaches [`REFINEMENT_REDUCTION`].
 const MAX_REFINEMENT_STEPS: usize = 20;
-/// Fraction of the residual above which a step of the iterative refinement that leaves more of it stagnates, and the
-/// refinement ends. Chosen far above [`REFINEMENT_REDUCTION`] and below 1.
+/// Ratio of the residual after a step of the iterative refinement to that before, above which the refinement stagnates and fails.
+/// Chosen far above [`REFINEMENT_REDUCTION`] and below 1.
 const STAGNATION_RATIO: f64 = 0.7;
 
 /// Derivatives of one quantity under a constant mean pressure.
@@ -122,13 +123,15 @@ impl<'a> Adjoint<'a> {
 
     /// Gradients of friction, depth, and logarithm of the area, under a constant mean pressure.
     pub(super) fn gradients(&mut self) -> Result<Change<Gradient>, BemError> {
-        // Displacements and fields that the gradients share.
+        // Compute what all gradients need: the pressures over their sum, and the displacements under the pressures for a
+        // compliance of 1 in each row. The other fields begin with zeros.
         let (pressure, total) = (self.pressure, self.total);
         let shares: Vec<f64> = pressure.iter().map(|pressure| pressure / total).collect();
         let unit_response = self.unit_compliance_response(pressure);
         let [none, mut by_pressures, mut slopes] = [0; 3].map(|_| vec![0.0; pressure.len()]);
 
-        // The friction is the mean dissipation under the load, or the mean slope of the pressure times the displacement.
+        // The friction is the mean dissipation weighted with the pressure: quadratic in the pressures over linear, hence the
+        // factor 2. Its derivative by the displacements is the slope of the pressure over the sum of the pressures.
         let kernel = &mut self.equations.kernel;
         kernel.dissipate(pressure, &mut by_pressures);
         let mean = dot(&by_pressures, pressure) / total;
@@ -175,7 +178,7 @@ impl<'a> Adjoint<'a> {
         shares: &[f64],
         unit_response: &[f64],
     ) -> Result<Gradient, BemError> {
-        // Loads in contact, and gaps outside it from the mean height of the contact.
+        // The boundary is found in one field: pressures in contact, and outside it gaps from the mean height of the contact.
         let n = self.pressure.len();
         let [mut moved, mut heights] = [0; 2].map(|_| vec![0.0; n]);
         let kernel = &mut self.equations.kernel;
@@ -191,7 +194,7 @@ impl<'a> Adjoint<'a> {
             _ => gap - sum / count,
         });
 
-        // The boundary between them.
+        // Locate the contact boundary in this field, with the second difference of the kernel along both axes.
         kernel.displace(&unit_pressure(n), &mut moved);
         let differences = [0, 1].map(|axis| second_difference(self.grid.shape(), axis));
         let [dx, dy] = self.grid.spacing();
@@ -207,7 +210,8 @@ impl<'a> Adjoint<'a> {
         let measure = ContactBoundary::new(&field).area;
         let area = area::area_fraction(field.shape[1], self.pressure).area * n as f64;
 
-        // Derivatives by gaps, which are measured from the mean height of the contact, and by pressures.
+        // Sort the derivatives of the logarithm of the area into those by pressures and those by gaps. Gaps count from the mean
+        // height of the contact, so that the sum of their derivatives is subtracted in proportion to the pressures.
         let [mut by_gaps, mut by_pressures] = [0; 2].map(|_| vec![0.0; n]);
         for (element, value) in measure.by_values.iter().enumerate() {
             let by_values = if field.inside[element] {
@@ -221,7 +225,7 @@ impl<'a> Adjoint<'a> {
         add_scaled(&mut by_gaps, -sum, shares);
         let mut gradient = self.gradient(&by_gaps, &by_pressures, Vec::new(), unit_response)?;
 
-        // Derivatives by the second difference of the kernel.
+        // Add the derivatives by the second difference of the kernel, as derivatives by the displacements under a unit pressure.
         let mut by_kernel = vec![0.0; n];
         for (axis, by_second_difference) in measure.by_second_difference.iter().enumerate() {
             add_scaled(
@@ -250,7 +254,7 @@ impl<'a> Adjoint<'a> {
         by_displacement: Vec<f64>,
         unit_response: &[f64],
     ) -> Result<Gradient, BemError> {
-        // Adjoint loads of the reversed contact, then the derivatives by heights and compliances that follow from them.
+        // Solve for the adjoint loads of the reversed contact. The derivatives by heights and compliances follow from them.
         let (loads, eta) = self.solve(
             reversed(start, self.grid),
             &reversed(by_pressures, self.grid),
@@ -283,7 +287,8 @@ impl<'a> Adjoint<'a> {
         let mut by_row = row_sums(by_height, response, self.grid);
         let n_rows = by_row.len();
         if n_rows.is_multiple_of(2) {
-            // The kernel has the absolute value of the compliance there, and the shift its phase.
+            // For the shortest wave along x the kernel has the absolute value of the compliance, and the shift of the gaps its
+            // phase.
             let q_x = self.waves.along_x[n_rows / 2];
             let compliance = self.sliding.compliances(&[q_x])?[0];
             by_row[n_rows / 2] *= compliance.conj() / compliance.re;
@@ -292,13 +297,13 @@ impl<'a> Adjoint<'a> {
     }
 
     /// Solves the adjoint equations by iterative refinement of single-precision solutions, from `loads` and with the right side
-    /// −`right`; all fields are reversed along x. Returns the adjoint loads and η.
+    /// −`right`; all fields are reversed along x. Returns the adjoint loads and the multiplier η of the [module](super).
     fn solve(&mut self, mut loads: Vec<f64>, right: &[f64]) -> Result<(Vec<f64>, f64), BemError> {
         let mut gap = vec![0.0; loads.len()];
         let n_contact = self.contact.iter().filter(|inside| **inside).count() as f64;
         let (mut first, mut before) = (None, f64::INFINITY);
         for _ in 0..MAX_REFINEMENT_STEPS {
-            // Residual in double precision.
+            // Compute the residual of the adjoint equations in double precision. Its mean over the contact is η.
             self.equations.displace(&loads, &mut gap);
             add_scaled(&mut gap, 1.0, right);
             let inside = || {
@@ -316,7 +321,7 @@ impl<'a> Adjoint<'a> {
             }
             before = residual;
 
-            // Correction in single precision.
+            // Correct the loads by a solution of the equations for this residual, in single precision.
             self.equations.set_active_set(&self.contact, &loads, &gap);
             let size = self.equations.residual_rms();
             self.equations.solve(REFINEMENT_REDUCTION * size, 0.0);
@@ -365,14 +370,14 @@ fn row_sums(left: &[f64], right: &[f64], grid: &Grid) -> Vec<Complex<f64>> {
     let transform = f64::forward(rows);
     let mut scratch = vec![Complex::default(); transform.get_inplace_scratch_len()];
     let mut sums = vec![Complex::default(); rows];
-    // Transform of one column along x.
+    // This closure transforms one column of a field along x.
     let mut column = |field: &[f64], index: usize| {
         let values = field[index..].iter().step_by(columns);
         let mut values: Vec<Complex<f64>> = values.map(|value| Complex::from(*value)).collect();
         transform.process_with_scratch(&mut values, &mut scratch);
         values
     };
-    // Add the products of both transforms.
+    // Sum the products of both transforms over all columns, which is the sum over q_y (Parseval).
     for index in 0..columns {
         let pairs = column(left, index).into_iter().zip(column(right, index));
         for (sum, (left, right)) in sums.iter_mut().zip(pairs) {

@@ -35,8 +35,7 @@ use crate::steady::sensitivity::{ByModuli, Change, TwoGridExtrapolation};
 use crate::{BemError, Elastomer, Grid, PressureField};
 use adjoint::{Adjoint, Gradient, KernelChange, unit_pressure};
 
-/// Largest relative difference of two periods that count as equal: above the rounding of numbers of ten digits in a
-/// file.
+/// Largest relative difference of two periods that count as equal. Chosen above the rounding of numbers of ten digits in a file.
 const PERIOD_TOLERANCE: f64 = 1e-9;
 /// Derivatives and error bars from two grids. The derivatives are those on the fine grid, because the elements at the contact boundary
 /// differ from grid to grid without a common order. The error bar is 2.5 times the difference of the grids; the factor is chosen.
@@ -116,7 +115,8 @@ impl PeriodicSensitivity {
         let sliding = Sliding::new(elastomer, load.velocity())?;
         let control = load.require_stationary()?;
         let grid = pressure.grid;
-        // Check the grid and the guess.
+        // Each edge must have an even number of elements, because the coarse grid has half as many, and the guess must fill the
+        // grid.
         let names = ["elements along x", "elements along y"];
         for (name, edge) in names.into_iter().zip(grid.shape()) {
             in_range(name, edge as f64, edge.is_multiple_of(2), "even")?;
@@ -227,7 +227,7 @@ impl State {
             control,
             options: PeriodicOptions::default(),
         };
-        // The contact from the guess, then its adjoint equations.
+        // Solve the contact from the guess, then its adjoint equations for the gradients.
         let mut pressure = solve_from(&mut guess, problem)?.pressure.pressure;
         let mut adjoint = Adjoint::new(sliding, grid, heights, &pressure)?;
         let gradients = adjoint.gradients()?;
@@ -297,7 +297,7 @@ impl State {
     /// The change from one kernel to another, each that of a material on a grid with the shape of this one.
     fn between_kernels(&self, ends: [(&Sliding, &Grid); 2]) -> Result<KernelChange, BemError> {
         let n = self.pressure.len();
-        // Differences of the displacements under the pressures and under a unit pressure.
+        // Subtract the displacements by both kernels from each other, under the pressures and under a unit pressure.
         let mut field = vec![0.0; n];
         let mut change = KernelChange {
             displacement: vec![0.0; n],
