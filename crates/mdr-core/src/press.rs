@@ -5,7 +5,7 @@
 //! ∫ (d − h̃)⁺ dx = 2 (1 − ν) J(t) F_N/4           under a force that has been there for the time t
 //! F_N = 4 G(t)/(2 (1 − ν)) ∫ (d − h̃)⁺ dx         at a depth that has been there for the time t
 //! ```
-//! Until then the contact only grows, or stays as it is (Lee & Radok 1960).
+//! Up to the time t the contact only grows, or stays as it is (Lee & Radok 1960).
 
 use indenters::{Control, PressingLoad, RigidLine};
 use numerics::{Estimate, between_zero_and_one};
@@ -66,7 +66,8 @@ pub fn indent(
     let modulus = (material.half_space_factor() * compliance).recip();
     let mut pressed = on_springs(line, modulus, control, relative_error)?;
     if let Control::IndentationDepth(_) = control {
-        // The same contact on springs of another modulus.
+        // At a depth the contact is that on springs of another modulus, so that force and load change by the ratio of the
+        // moduli.
         let ratio = material.relaxation_modulus(time)? * compliance;
         pressed.normal_force = pressed.normal_force * ratio;
         pressed.load.iter_mut().for_each(|[_, load]| *load *= ratio);

@@ -3,9 +3,11 @@
 use super::foundation::Foundation;
 use super::linear_step::{StepWork, TimeStep};
 
-/// Change of the time, as a part of the step, with which Newton's method ends: the next change is about its square.
+/// Newton's method for the instant of contact or separation ends when that instant changes by at most this fraction of the
+/// step. The next change would be about the square of it.
 const CROSSING_TOLERANCE: f64 = 1e-9;
-/// Iterations of the search for a crossing at most; as many bisections reach the last digit.
+/// Largest number of iterations in the search for the instant at which a load or a gap vanishes: as many bisections reach its
+/// last digit.
 const MAX_CROSSING_STEPS: usize = 60;
 
 /// One element in a step during which it is in contact for a part of the time.
@@ -28,7 +30,7 @@ impl ContactEvent<'_> {
         let foundation = self.foundation;
         let n_branches = foundation.branches.len();
         let rise = to - from;
-        // Load, and its derivative by the part of the step, at a part of the step.
+        // `load` returns the load of the element and its derivative by `part`, after the fraction `part` of the step.
         let load = |part: f64| {
             let branches = foundation.branches.iter().zip(&self.history[..n_branches]);
             let viscous = foundation.dashpot * rise / self.duration;
@@ -45,7 +47,8 @@ impl ContactEvent<'_> {
                 [sum + stress_at_part, rate + (work - a * stress) * remaining]
             })
         };
-        // Find the separation. It is at the beginning if the load is negative there: with a dashpot it jumps where the speed does.
+        // The element separates where its load falls to 0. A load that is negative at the beginning separates it there: with a
+        // dashpot the load jumps where the speed does.
         let part = falling_zero(load);
         let mut work = StepWork::default();
         if part > 0.0 {
@@ -87,7 +90,7 @@ impl ContactEvent<'_> {
             limit += amplitude;
             *variable = amplitude * (-time / mode.length).exp();
         }
-        // A solid recovers completely; the limit would only be rounding.
+        // A solid recovers completely, so that its limit is exactly 0; the computed sum would differ from 0 by rounding.
         if foundation.spring > 0.0 { 0.0 } else { limit }
     }
 
@@ -96,7 +99,8 @@ impl ContactEvent<'_> {
     pub(crate) fn make_contact(&mut self, limit: f64, [from, to]: [f64; 2]) -> StepWork {
         let foundation = self.foundation;
         let rise = to - from;
-        // Gap, and its derivative by the part of the step, at a part of the step.
+        // `gap` returns the height of the line above the recovering element and its derivative by `part`, after the fraction
+        // `part` of the step.
         let gap = |part: f64| {
             let history = self.history.iter().zip(&foundation.modes);
             let start = [limit - (from + part * rise), -rise];
@@ -106,7 +110,7 @@ impl ContactEvent<'_> {
                 [gap - remaining, rate + a * remaining]
             })
         };
-        // Recover up to the contact, then compress for the rest of the step.
+        // The element recovers until the gap closes, and is compressed by the line for the rest of the step.
         let part = falling_zero(gap);
         for (variable, mode) in self.history.iter_mut().zip(&foundation.modes) {
             *variable *= (-part * self.duration / mode.length).exp();
@@ -134,7 +138,8 @@ impl ContactEvent<'_> {
             *variable = Foundation::free_stress(branch, &remaining);
         }
         let stresses = &mut self.history[..foundation.branches.len()];
-        // A lone dashpot resists a jump of the displacement.
+        // A lone dashpot resists a jump of the displacement, so that the element keeps the displacement to which it has
+        // recovered.
         if !foundation.has_dashpot() {
             foundation.apply_strain_jump(stresses, imposed - displacement);
             displacement = imposed;

@@ -90,7 +90,7 @@ pub(crate) const RECIPROCALS: [f64; 64] = {
 pub(crate) fn moments(z: f64, moments: &mut [f64]) {
     let last = moments.len() - 1;
 
-    // Upwards.
+    // The upward recurrence gives μ_j for j ≤ z: it multiplies an error of μ_(j−1) by j/z, which is at most 1.
     moments[0] = decay_and_mean(z)[1];
     let mut order = 1;
     while order <= last && (order as f64) <= z {
@@ -101,7 +101,8 @@ pub(crate) fn moments(z: f64, moments: &mut [f64]) {
         return;
     }
 
-    // Downwards from the series 1/(n+1) − z/((n+1)(n+2)) + …, whose terms fall from the first on; 50 of them reach rounding.
+    // The last moment, of order n, is the series 1/(n+1) − z/((n+1)(n+2)) + …, whose terms fall from the first on; 50 of them
+    // reach rounding. The downward recurrence then gives the moments in between.
     let mut term = RECIPROCALS[last + 1];
     let mut sum = term;
     for reciprocal in &RECIPROCALS[last + 2..] {

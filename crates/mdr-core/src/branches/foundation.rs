@@ -68,7 +68,7 @@ impl Foundation {
         let (relaxation, creep) = (material.relaxation(), material.creep());
         let half_space_factor = material.half_space_factor();
 
-        // The unit of stress: the instantaneous modulus, or, without one, η₀ v of the dashpot over a metre.
+        // The unit of stress is the instantaneous modulus. A lone dashpot has none; its unit is η₀ v divided by one metre.
         let dashpot = relaxation.viscosity() * velocity / half_space_factor;
         let moduli = relaxation.branches().iter().map(|branch| branch.modulus);
         let spring = relaxation.equilibrium_modulus() / half_space_factor;
@@ -80,7 +80,8 @@ impl Foundation {
         };
         let unit = positive("stiffness of the foundation", stiffness)?;
 
-        // Distances of relaxation and retardation.
+        // Relaxation and retardation times become distances: they are multiplied by the velocity, and refused unless the
+        // product is positive.
         let lengths = |times: Vec<f64>, name| {
             let lengths = times
                 .into_iter()
@@ -92,7 +93,8 @@ impl Foundation {
         let times = creep.elements().iter().map(|e| e.retardation_time);
         let recovery_lengths = lengths(times.collect(), "distance of retardation")?;
 
-        // Branches and modes with the coefficients of the transformation between them.
+        // Each branch gets its coefficients l_i/(L_k − l_i) for all modes k, and each mode the same coefficients for all
+        // branches i. They convert stresses into amplitudes of recovery and back.
         let ratio = |branch: f64, mode: f64| branch / (mode - branch);
         let branch_lengths = relaxation.branches().iter().zip(&relaxation_lengths);
         let branches = branch_lengths.map(|(branch, &length)| Branch {

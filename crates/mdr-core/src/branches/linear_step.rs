@@ -112,7 +112,8 @@ impl TimeStep {
         let modulus = lanes(branches, 0.0, |branch| branch.modulus);
         let compliance = lanes(branches, 0.0, |branch| branch.modulus.recip());
         let a = lanes(branches, 1.0, |branch| self.duration / branch.length);
-        // e^(−a) − 1, φ(a), φ(2a), and the differences of φ.
+        // The coefficients of a branch need `change` = e^(−a) − 1, `once` = φ(a), `twice` = φ(2a), and three differences of φ.
+        // The differences are series up to a = `SERIES_MAX_RATIO`, and closed forms above it.
         let change = a.map(|a| (-a).exp_m1());
         let once: Lanes = std::array::from_fn(|k| -change[k] / a[k]);
         let twice: Lanes = std::array::from_fn(|k| once[k] * (1.0 + 0.5 * change[k]));
@@ -123,7 +124,8 @@ impl TimeStep {
             differences[2][k] = 1.0 - 2.0 * once[k] + twice[k];
         }
         let [lag, cross_dissipation, dissipation_of_compression] = differences;
-        // Sums over the branches, and coefficients of each.
+        // The branches add their stiffness, mean load and dissipation to the sums of the step; the coefficients of each branch
+        // are kept to advance its stress.
         let decay = change.map(|change| 1.0 + change);
         let gain = product(modulus, once);
         self.stiffness += total(gain);
@@ -175,7 +177,8 @@ impl TimeStep {
         compression: f64,
         stresses: &mut [f64],
     ) -> StepWork {
-        // Sum over the branches, and advance their stresses.
+        // The loop sums the parts of mean load and dissipation that depend on the stresses before the step, and advances these
+        // stresses to its end.
         let u = [compression; LANES];
         let [mut mean, mut dissipated] = [[0.0; LANES]; 2];
         for (branches, stresses) in self.branches.iter().zip(stresses.as_chunks_mut().0) {

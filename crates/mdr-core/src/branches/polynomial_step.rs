@@ -10,11 +10,11 @@
 
 use crate::line::{DEGREE, end_value, square_integral, start_value};
 
-/// Ratio a from which on the boundary layer is split off. Below, the terms of the expansion vanish like (a/2)^k/k!: with 28 of
-/// them for a = 4, which [`MAX_TERMS`] holds; a = 8 would need 37.
+/// Ratio a from which on the stress is split into a polynomial and a boundary layer. Below it, the terms of one Legendre
+/// expansion vanish like (a/2)^k/k!. For a = 4 that takes 28 terms, which [`MAX_TERMS`] holds; a = 8 would need 37.
 const MIN_LAYER_RATIO: f64 = 4.0;
-/// Legendre terms of a stress: enough for the polynomial and an exponential of a = [`MIN_LAYER_RATIO`] to the last
-/// digit.
+/// Largest number of Legendre terms of a stress: enough for the polynomial of a piece and for an exponential of a =
+/// [`MIN_LAYER_RATIO`] to the last digit.
 pub(crate) const MAX_TERMS: usize = DEGREE + 30;
 
 /// Stress e of a branch over one piece.
@@ -82,7 +82,8 @@ fn exponential_terms(ratio: f64) -> usize {
 ///
 /// The `rates` G u'_k are 0 beyond their last entry.
 fn solve_for_slopes(ratio: f64, start: f64, rates: &[f64], n_terms: usize) -> [f64; MAX_TERMS + 1] {
-    // Forward elimination, then back substitution.
+    // The first loop eliminates the coefficients below the diagonal; the second one solves for the slopes from the last to the
+    // first.
     let mut slopes = [0.0; MAX_TERMS + 1];
     let mut pivots = [0.0; MAX_TERMS];
     for k in 0..n_terms {
@@ -107,7 +108,8 @@ fn solve_with_layer(ratio: f64, start: f64, rates: &[f64]) -> BranchStress {
     let smooth = particular_solution(ratio, rates);
     let layer = start - start_value(&smooth);
     let decay = (-2.0 * ratio).exp();
-    // ∫ e^(−a(1+t)) p dt = [e^(−a(1+t)) s] with s' − a s = p.
+    // The integral of e² contains twice the product of layer and smooth part p. Its factor is ∫ e^(−a (1 + t)) p dt = [e^(−a (1
+    // + t)) s], where the polynomial s solves s' − a s = p.
     let dual = particular_solution(-ratio, &smooth[..rates.len()]);
     let cross = decay * end_value(&dual) - start_value(&dual);
     let width = -(-2.0 * ratio).exp_m1() / ratio;
@@ -127,7 +129,8 @@ fn solve_with_layer(ratio: f64, start: f64, rates: &[f64]) -> BranchStress {
 /// Legendre coefficients of the polynomial p with p' + a p = Σ r_k P_k, from the highest one down.
 fn particular_solution(ratio: f64, right_hand_side: &[f64]) -> [f64; MAX_TERMS] {
     let mut solution = [0.0; MAX_TERMS];
-    // The coefficient k of p' is (2k + 1) (c_(k+1) + c_(k+3) + …): one running sum for even k, one for odd.
+    // The Legendre coefficient k of p' is (2k + 1) (c_(k+1) + c_(k+3) + …), with c_k those of p: `sums` has one running sum for
+    // even k and one for odd k.
     let mut sums = [0.0; 2];
     for (k, rate) in right_hand_side.iter().enumerate().rev() {
         sums[k % 2] += solution[k + 1];

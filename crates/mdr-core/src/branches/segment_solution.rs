@@ -4,7 +4,8 @@ use super::foundation::{Branch, Foundation};
 use super::polynomial_step::{BranchStress, MAX_TERMS, branch_stress};
 use crate::line::{Segment, derivative, square_integral, start_value, value};
 
-/// Factor s of the bound s c ‖r‖ δ for the change of a dissipation c ∫ r² dt over −1 ≤ t ≤ 1 by a change δ of the displacement.
+/// Factor s in a bound of how much a dissipation c ∫ r² dt over −1 ≤ t ≤ 1 changes if the displacement changes by δ: at most by
+/// s c ‖r‖ δ. Here r is the rate of the displacement, or the stress of a branch.
 ///
 /// Cauchy and Schwarz give 2 c ‖r‖ ‖δr‖. The rate is assumed to change by 2 √2 δ in the root mean square, so that
 /// ‖δr‖ = 4 δ.
@@ -97,7 +98,7 @@ impl Foundation {
         let dashpot = self.dashpot * per_length;
         let rise = segment.end() - start_value(&segment.displacements);
 
-        // The spring and the lone dashpot.
+        // The solution begins with the spring and the lone dashpot, whose load follows the displacement and its rate at once.
         let mut solution = SegmentSolution {
             smooth: [0.0; MAX_TERMS],
             n_terms: rates.len(),
@@ -112,7 +113,7 @@ impl Foundation {
             solution.smooth[k] = self.spring * segment.displacements[k] + dashpot * rate;
         }
 
-        // Add the stresses of the branches.
+        // Each branch is solved from its stress at the front end of the segment, and adds its stress, load and dissipation.
         let n_rates = segment.degree.max(1);
         for (branch, start) in self.branches.iter().zip(stresses) {
             let ratio = 0.5 * segment.length / branch.length;

@@ -125,10 +125,11 @@ pub(super) struct Approach {
 /// Steps of the search for the edge that are not guarded by bisection; afterwards every other step halves the bracket. Chosen:
 /// more only delay searches in which Halley's method does not converge.
 const UNGUARDED_EDGE_STEPS: usize = 16;
-/// Steps after which the search for the edge ends: 91 of them have halved the bracket, which is then narrower than rounding.
+/// Largest number of steps in the search for the edge. By then 91 of them have halved the bracket, which is narrower than
+/// rounding.
 const MAX_EDGE_STEPS: usize = 200;
-/// Relative change of the depth of the edge at which its search ends. Chosen: the derivatives have this relative error, the
-/// force its square or less.
+/// Relative change of the depth of the edge at which the search for the edge ends. Chosen: the derivatives of the force have
+/// this relative error, and the force itself has its square or less.
 const EDGE_TOLERANCE: f64 = 1e-8;
 
 impl Approach {
@@ -140,7 +141,7 @@ impl Approach {
         n_points: usize,
         differentiates: bool,
     ) -> Self {
-        // Branches, and the spring as one that does not relax.
+        // The equilibrium spring is appended to the branches as one that does not relax: its rate is 0.
         let branches = spectrum.branches().iter();
         let branch_moduli = branches.clone().map(|branch| branch.modulus);
         let moduli: Vec<f64> = branch_moduli
@@ -211,7 +212,7 @@ impl Approach {
             load += modulus * sum;
             terms += modulus * sum.abs();
         }
-        // Add the errors by rounding and by the radii.
+        // The sizes of all terms bound the rounding of the load; the polynomials of the radii add their own error.
         let scale = self.load_scale();
         ContactSums {
             time,
@@ -290,7 +291,8 @@ impl Approach {
             return;
         }
 
-        // Beyond it the contact grows over new elements, piece by piece of the radii.
+        // Beyond the largest depth so far the contact grows over new elements, from piece to piece of the polynomials for the
+        // radius.
         self.has_recontact |= self.has_receded;
         self.has_receded = false;
         if from.depth < deepest {
@@ -397,7 +399,7 @@ impl Approach {
             radius,
         };
         if self.rings.is_empty() {
-            // All of a flat end comes into contact together.
+            // All elements of a flat end come into contact together, so that its whole radius is gained at first contact.
             for time_weighted in &mut self.now.time_weighted {
                 time_weighted.edge = radius.terms()[0];
             }
@@ -452,7 +454,8 @@ impl Approach {
         (edge.ring, edge.theta, edge.lag) =
             (index, theta, self.point.time - (ring.start_time + step));
 
-        // Its load w, the modulus −∂w/∂D, and the rate of the modulus.
+        // The loop sums the load w of the element, the modulus −∂w/∂D by which w falls with the depth D of contact, and the
+        // rate at which this modulus changes.
         (edge.speed, edge.load) = (self.speed, self.viscosity * self.speed);
         let [mut modulus, mut slope] = [0.0; 2];
         for (k, at_contact) in self.at_rings[index].depth.iter().enumerate() {
@@ -509,7 +512,7 @@ impl Approach {
         self.edge.place = None;
         let mut bracket = [0.0, deepest];
         for step in 0..MAX_EDGE_STEPS {
-            // The ring of this depth.
+            // The search moves to the ring whose elements came into contact at the trial depth.
             while ring > 0 && depth < self.rings[ring].start_depth {
                 ring -= 1;
             }
@@ -539,7 +542,8 @@ impl Approach {
                 self.integrate_to_edge(next - depth);
                 return;
             }
-            // Halley steps, or every other step a bisection.
+            // The first steps are Halley's. If they do not converge, the search starts again at the depth 0, and every other
+            // step halves the bracket.
             depth = match step {
                 _ if step < UNGUARDED_EDGE_STEPS => next,
                 UNGUARDED_EDGE_STEPS => 0.0,
@@ -564,7 +568,8 @@ impl Approach {
         for (k, sum) in edge.sums.iter_mut().enumerate() {
             *sum = place.radius * edge.strains[k] + edge.decays[k] * self.at_contact.load[k];
         }
-        // ∂F/∂D = a' w at constant t, and w falls to 0 within the shift.
+        // At constant time the sum of the loads changes by a' w per depth D of the edge, with a' = da/dD. The load w falls to 0
+        // within the shift, so that half of it counts.
         (edge.shift, edge.correction) = (shift, 0.5 * place.slope * edge.load * shift);
         edge.place = Some(place);
         let from = self.rings[ring].start_depth;
@@ -573,7 +578,8 @@ impl Approach {
 
     /// Computes the integrals at t₁, when the element at the edge came into contact.
     fn find_integrals_at_edge(&mut self) {
-        // Those at the inner boundary of the ring, and over its part inside the edge.
+        // The integrals are known at the inner boundary of the ring, and are advanced over the part of the ring inside the
+        // edge.
         let EdgeElement { ring, theta, .. } = self.edge;
         self.at_contact.copy_from(&self.at_rings[ring]);
         let inside = self.rings[ring].up_to(theta);

@@ -76,11 +76,11 @@ const EXACT_QUADRATURE_TOLERANCE: f64 = 1e-14;
 /// Gauss–Lobatto nodes of a panel of the quadrature over a ring. Chosen: a panel is exact up to degree 13 and is halved where
 /// that is not enough.
 const N_PANEL_NODES: usize = 8;
-/// Gaps and loads of the wrong sign that count as rounding: gaps relative to the largest depth, loads to the terms of
-/// a load. Chosen: far above rounding, and far below a gap or a tension that is real.
+/// Relative size up to which a gap or a load of the wrong sign counts as rounding. Gaps are compared with the largest depth,
+/// loads with the terms that they are the sum of. Chosen: far above rounding, and far below a gap or a tension that is real.
 pub(super) const SIGN_TOLERANCE: f64 = 1e-10;
-/// Part of the largest depth by which a body without force is lifted off the surface: more than rounding, and less
-/// than any force shows. Chosen.
+/// Height by which a body without force is lifted off the surface, as a fraction of the largest depth. Chosen: more than
+/// rounding, and too little to show in a force.
 const LIFT_OFF_DEPTH: f64 = 1e-12;
 
 impl<'a> Contact<'a> {
@@ -164,7 +164,8 @@ impl<'a> Contact<'a> {
             at = if self.rings.is_empty() {
                 self.begin_contact(at, end)?
             } else {
-                // Direction of the edge. After a turn it is known, and rounding must not decide it again.
+                // Just after a turn the direction of the edge is known, and rounding must not decide it again. Otherwise the
+                // stresses of the element at the edge give it.
                 let turned = self.direction_after_turn.take();
                 let direction = match turned {
                     Some(EdgeDirection::Separation) => -1.0,

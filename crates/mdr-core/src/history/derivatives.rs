@@ -1,6 +1,7 @@
 //! Derivatives of the force along a path of the depth by material, position of first contact and shape of the body.
 //!
-//! At the edge of a contact that shrinks w = 0, so that they are those of the closed form in `approach.rs` at constant t₁.
+//! The element at the edge of a shrinking contact carries the load w = 0, so that its time of contact t₁ does not affect the
+//! force. The derivatives are therefore those of the closed form in `approach.rs` at constant t₁.
 
 use indenters::{Control, EquivalentProfile, HistoryPoint};
 use numerics::{in_range, positive};
@@ -54,7 +55,8 @@ pub fn force_derivatives(
         let allowed = "a depth, whose force is differentiated";
         in_range("control", force, false, allowed)?;
     }
-    // A result without contact so far, and a body at the first point.
+    // The result begins empty, with one list for each branch. A body that never goes below the surface has neither force nor
+    // derivatives.
     let deepest = points.iter().map(|[_, depth]| *depth).fold(0.0, f64::max);
     let spectrum = material.relaxation();
     let branch_lists = vec![Vec::new(); spectrum.branches().len()];
@@ -102,7 +104,8 @@ impl ForceDerivatives {
             } = place;
             contact_radius = approach.radius();
 
-            // ∂/∂η₀, and the derivatives by the shift of the edge under the load of its element.
+            // The dashpot gives the derivative by the viscosity η₀. A change of the depth or of the heights of the body also
+            // shifts the edge, where the element carries `edge.load`.
             let (edge, at_contact, rates) = (&approach.edge, &approach.at_contact, &approach.rates);
             by_viscosity = approach.speed * radius;
             force = approach.viscosity * by_viscosity;
@@ -112,7 +115,8 @@ impl ForceDerivatives {
                 let (modulus, decay, lag) = (approach.moduli[k], edge.decays[k], edge.lag);
                 by_depth += modulus * decay * time_weighted.edge;
                 by_stretch += modulus * decay * time_weighted.stretch;
-                // ∂F/∂τ_k = −∂F/∂(1/τ_k)/τ_k², from integrals weighted by the time that has passed.
+                // The derivative by a relaxation time is ∂F/∂τ_k = −∂F/∂(1/τ_k)/τ_k². That by the rate 1/τ_k follows from
+                // integrals weighted by the time that has passed.
                 let slower = approach.now.time_weighted[k].depth
                     - decay * (time_weighted.depth + lag * at_contact.depth[k]);
                 let by_rate =

@@ -130,7 +130,7 @@ impl LineElements<'_> {
     fn release(&self, height: f64, stresses: &[f64], since: SegmentTime) -> Free {
         let path = self.path;
         let displacement = path.depth(since) - height;
-        // Strains z_k of the dashpots of the branches, times their moduli.
+        // `viscous` holds the strain z_k of the dashpot in each branch, times the modulus G_k: it is G_k u less the stress σ_k.
         let branches = path.moduli.iter().zip(stresses);
         let viscous: Vec<f64> = branches
             .map(|(modulus, stress)| modulus * displacement - stress)

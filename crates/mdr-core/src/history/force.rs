@@ -17,15 +17,15 @@ use super::{CurvePoint, HistoryOptions};
 use crate::MdrError;
 use crate::branches::decay_and_mean;
 
-/// Parts of all segments together beyond which the refinement under a force stops with [`MdrError::HistoryNotReached`]. Chosen: a
-/// limit of the time.
+/// Largest number of parts, added over all segments, into which a history of the force is divided. Chosen, to limit the
+/// computing time: where more would be needed, the refinement stops with [`MdrError::HistoryNotReached`].
 const MAX_PARTS_UNDER_FORCE: usize = 1 << 14;
 
-/// Rounding of depths and radii that are roots of an equation, relative to them. Chosen: 450 units in the last place.
+/// Relative rounding error of depths and radii that are found as roots of an equation. Chosen: 450 units in the last place.
 const ROOT_ROUNDING: f64 = 1e-13;
 
-/// Error of a sum over elements by quadrature, as a part of the relative error that the depth may have: negligible
-/// beside it. Chosen.
+/// Ratio of the tolerance of the quadrature over elements to the relative error asked for. Chosen: the error by quadrature is
+/// negligible beside the one that the depth may have.
 const QUADRATURE_SHARE: f64 = 1e-3;
 
 /// A body under a history of the force.
@@ -47,13 +47,13 @@ impl ForceHistory<'_> {
         let duration = self.points[self.points.len() - 1][0] - self.points[0][0];
         let radii = self.radii_for_force(self.material.creep_compliance(duration)? / factor)?;
 
-        // In closed form as long as the contact does not shrink.
+        // As long as the contact does not shrink, depth and contact radius have a closed form.
         let grown = self.before_shrinking(&self.points, &radii, factor);
         if grown.len() == self.points.len() {
             return Ok(grown);
         }
 
-        // Refine the parts; row k of the table is extrapolated k times.
+        // Each turn of the loop halves the parts of all segments. Row k of the table has been extrapolated k times.
         let mut parts = 1;
         let mut change_before = f64::INFINITY;
         let mut table = vec![self.march(&radii, parts)?];
@@ -68,11 +68,12 @@ impl ForceHistory<'_> {
                 continue;
             }
 
-            // Stop by the change of the best extrapolated depths.
+            // The refinement ends when the best extrapolated depths change by at most the error asked for.
             let [before, better] = [&coarse, &table].map(|rows| &rows[rows.len() - 1]);
             let depth_change =
                 largest_change(before, better, |point| point.indentation_depth.value);
-            // Two changes, because one may be small by chance; both are at least of second order.
+            // A quarter of the change before counts too, because one change may be small by chance. The errors are at least of
+            // second order, so that a halving divides them by four or more.
             let change =
                 depth_change.max(0.25 * std::mem::replace(&mut change_before, depth_change));
             let radius_change = largest_change(before, better, |point| point.contact_radius.value);
@@ -189,7 +190,8 @@ impl ForceHistory<'_> {
                 break;
             }
 
-            // ∫ J dF at the end of the step.
+            // The recoverable and the flowed part add up to ∫ J dF at the end of the step. Divided by the factor of the force
+            // it is ∫ a dd, from which the depth follows.
             for (value, element) in retarded.iter_mut().zip(creep.elements()) {
                 let x = step / element.retardation_time;
                 let [decay, mean] = decay_and_mean(x);
@@ -210,7 +212,7 @@ impl ForceHistory<'_> {
                 0.0
             };
 
-            // Errors, by the polynomials of the radii and by rounding.
+            // Depth and radius have errors by the polynomials of the radii, by rounding, and by the modulus.
             let depth_error = if depth > 0.0 {
                 radii.area_error / radius
             } else {
@@ -235,14 +237,14 @@ impl ForceHistory<'_> {
 
     /// The curve at the points of the history, with the depth linear over each of a number of parts per segment; without errors.
     fn march(&self, radii: &Radii, parts: usize) -> Result<Vec<CurvePoint>, MdrError> {
-        // Points of the history, and those in between that are not asked for.
+        // The list holds the points of the history, which are returned, and the ends of the parts in between, which are not.
         let mut before = [self.points[0][0], 0.0];
         let mut points = Vec::new();
         for point in &self.points {
             let step = [point[0] - before[0], point[1] - before[1]];
             let n = if step[0] > 0.0 { parts } else { 1 };
             for part in 1..=n {
-                // Shorter parts at both ends, where the depth changes like a root of the time.
+                // The parts are shorter at both ends of a segment, where the depth changes like a root of the time.
                 let uniform = part as f64 / n as f64;
                 let share = uniform * uniform * (3.0 - 2.0 * uniform);
                 let between = [0, 1].map(|k| before[k] + share * step[k]);
@@ -256,7 +258,8 @@ impl ForceHistory<'_> {
             before = *point;
         }
 
-        // In closed form up to the first shrinkage, then by the depth that each force needs.
+        // Up to the first shrinkage the depths have a closed form; afterwards the depth that each force needs is sought point
+        // by point.
         let forces: Vec<[f64; 2]> = points.iter().map(|(point, _)| *point).collect();
         let factor = 8.0 / self.material.half_space_factor();
         let largest = forces.iter().map(|[_, force]| *force).fold(0.0, f64::max);
@@ -266,7 +269,7 @@ impl ForceHistory<'_> {
         let mut contact = Contact::new(self.body, path, radii.clone());
         contact.tolerance = QUADRATURE_SHARE * self.options.relative_error;
         let mut curve = Vec::with_capacity(self.points.len());
-        // A flat end keeps its disc.
+        // A flat end keeps its disc in contact even without force, so that it never counts as unloaded.
         let can_lift_off = self.body.apex_exponent().is_finite();
         let mut is_loaded = true;
         for (index, ([time, force], is_asked)) in points.into_iter().enumerate() {
@@ -344,9 +347,9 @@ fn shrinks(creep: &CreepSpectrum, retarded: &[f64], force: f64, step: f64, rise:
     evenly.chain(closer).any(|part| rate(part) < 0.0)
 }
 
-/// Equal intervals of a segment at whose ends the sign of d/dt ∫ J dF is checked. It is also checked at twice as many points,
-/// each half as far from the beginning of the segment as the one before. Chosen: the integral changes its sign a few times at
-/// most.
+/// Number of equal intervals of a segment at whose ends the sign of d/dt ∫ J dF is checked. It is also checked at twice as many
+/// points, each half as far from the beginning of the segment as the one before. Chosen: the integral changes its sign a few
+/// times at most.
 const N_SHRINKING_CHECKS: i32 = 24;
 
 /// The radii up to a depth \[m], or as far as the line of the body rises; `deepest` is then reduced to that.
@@ -356,7 +359,7 @@ fn radii_up_to(body: &dyn EquivalentProfile, deepest: &mut f64) -> Result<Radii,
         Err(MdrError::Indenter(IndenterError::NonMonotoneLine { limiting_depth, .. })) => {
             limiting_depth
         }
-        // The largest depth that is well inside the vertical edge.
+        // The radii end at a depth a thousandth below that of the vertical edge, well inside it.
         Err(MdrError::DepthBeyondEdge { available, .. }) => 0.999 * available,
         other => return other,
     };

@@ -97,7 +97,8 @@ impl StepIntegrals {
         self.moments.resize(n_moments * n, 0.0);
         self.decays.clear();
         self.decays.extend(rates.iter().map(|rate| rate * length));
-        // Downward recurrence, for all branches together; the start far above does not matter.
+        // The downward recurrence computes the moments of all branches together. It starts from 0 at an order so high that this
+        // start does not matter.
         self.sums.clear();
         self.sums.resize(n, 0.0);
         for order in (1..=n_moments + EXTRA_MOMENT_ORDERS).rev() {
@@ -128,7 +129,7 @@ impl StepIntegrals {
 
     /// Advances the integrals of ḋ over a step in which the contact does not grow and the depth increases by `rise`, \[m].
     pub(super) fn hold(&self, state: &mut HistoryIntegrals, rise: f64) {
-        // The weight t − s = (1 − θ) Δt makes differences of two moments.
+        // The weight t − s = (1 − θ) Δt turns the integral over the step into a difference of two moments.
         for (k, time_weighted) in state.time_weighted.iter_mut().enumerate() {
             let gained = rise * self.length * (self.moment(0, k) - self.moment(1, k));
             time_weighted.depth =

@@ -119,7 +119,7 @@ pub fn indent_along(
         let unloaded = |point: [f64; 2]| unloaded_point(point[0], point[1]);
         return Ok(points.into_iter().map(unloaded).collect());
     }
-    // A reference, because only a sized type can become a trait object.
+    // The trait object is made from a reference to the argument, because only a sized type can become one.
     let material: &dyn Material = &material;
     check_spectra(material)?;
     let curve = match history[0].control {
@@ -194,7 +194,7 @@ fn follow_depths(
         positive("time between two depths", pair[1][0] - pair[0][0])?;
     }
     if spectrum.viscosity() > 0.0 && points[0][1] > 0.0 {
-        // The body would jump to the first point.
+        // A body that begins below the surface would jump to its first point, which a lone dashpot does not allow.
         positive("time between two depths", 0.0)?;
     }
     let mut approach = Approach::new(radii.clone(), &spectrum, points.len(), false);

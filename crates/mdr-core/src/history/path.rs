@@ -55,7 +55,7 @@ impl Path {
     /// A path without points.
     pub(super) fn new(material: &dyn Material) -> Self {
         let (relaxation, creep) = (material.relaxation(), material.creep());
-        // Modulus and rate of each branch; the equilibrium spring is one that does not relax.
+        // Each branch has a modulus and a rate; the equilibrium spring is appended as one that does not relax.
         let spring = Some([relaxation.equilibrium_modulus(), 0.0]).filter(|[g, _]| *g > 0.0);
         let branches: Vec<[f64; 2]> = relaxation
             .branches()
@@ -63,7 +63,7 @@ impl Path {
             .map(|branch| [branch.modulus, branch.relaxation_time.recip()])
             .chain(spring)
             .collect();
-        // Modes of recovery; the free flow of a fluid is the one of rate 0.
+        // Each element of the creep spectrum is a mode of recovery; the free flow of a fluid is appended as one of rate 0.
         let delayed = creep.elements().iter().map(|element| RecoveryMode {
             rate: element.retardation_time.recip(),
             fluidity: element.fluidity(),
@@ -94,7 +94,7 @@ impl Path {
             self.point_integrals = vec![0.0; self.n_branches()];
             return;
         };
-        // Advance the integrals from the last point, between which the depth is linear.
+        // The integrals q_k advance from the point before; between the two points the depth is linear.
         let (step, rise) = (time - before[0], depth - before[1]);
         let start = self.point_integrals.len() - self.n_branches();
         for (k, rate) in self.rates.iter().enumerate() {
@@ -262,7 +262,7 @@ impl Path {
         if self.step(at.segment) == 0.0 {
             return speed;
         }
-        // Rate of the load per length at the edge, with the terms that cancel in it.
+        // `rate` is the rate of the load per length at the edge, and `rate_scale` the size of the terms that cancel in it.
         let (mut rate, mut rate_scale) = (self.instantaneous_modulus() * speed, 0.0);
         let strain_integrals = self.strain_integrals(at);
         for (k, stress) in stresses.iter().enumerate() {

@@ -19,7 +19,8 @@ pub(super) const TAIL_TOLERANCE: f64 = 2e-13;
 /// Distance from a vertical edge, such as the equator of a sphere, relative to its radius, at which a contact has
 /// reached the edge. Chosen.
 const EDGE_MARGIN: f64 = 1e-10;
-/// Part of the area a d below which a piece is not divided further. Chosen: 45 units in the last place of the area.
+/// A piece is not divided further if its area is at most this fraction of the area a d, with a the largest radius and d the
+/// largest depth. Chosen: 45 units in the last place of the area.
 const NEGLIGIBLE_AREA: f64 = 1e-14;
 
 /// Contact radius a(d) from first contact to the largest depth, as piecewise polynomials.
@@ -59,7 +60,8 @@ impl Radii {
         }
         let negligible = NEGLIGIBLE_AREA * deepest * largest;
         let exponent = body.apex_exponent();
-        // cos(order · angle) at the angles π (2 node + 1)/(2 n).
+        // The table holds the cosines of all multiples of π/(2 n), with n the number of coefficients. `cosine` takes cos(order
+        // · angle) at the angle π (2 node + 1)/(2 n) of a node from it.
         let table: [f64; 4 * N_COEFFICIENTS] =
             std::array::from_fn(|n| (0.5 * PI * n as f64 / N_COEFFICIENTS as f64).cos());
         let cosine = |node, order| table[order * (2 * node + 1) % (4 * N_COEFFICIENTS)];
@@ -71,13 +73,13 @@ impl Radii {
             let [[low, high], [inner, outer]] = [depths, radii_at_depths];
             let middle = 0.5 * (low + high);
             let is_tiny = outer * (high - low) <= negligible || middle <= low || middle >= high;
-            // At the apex d^(1/p) is a polynomial only of a cone and of a flat end.
+            // At the apex of a power x^p the radius is like d^(1/p), which is a polynomial only for a cone and for a flat end.
             let is_root =
                 low == 0.0 && exponent.is_finite() && (exponent - 1.0).abs() > f64::EPSILON;
             if is_tiny || !is_root {
                 let (piece, tail) = Piece::fitted(body, depths, radii_at_depths, &cosines);
                 if is_tiny || tail <= TAIL_TOLERANCE * outer {
-                    // At the apex the radius itself is the bound.
+                    // At the apex the tail says nothing about a root of the depth, and the radius itself bounds the error.
                     let tail = if is_root { outer } else { tail };
                     radii.area_error += 0.01 * tail * (high - low);
                     radii.pieces.push(piece);
@@ -130,7 +132,7 @@ impl Radii {
 
     /// The radius over θ ∈ [0, 1] while the depth increases linearly within a piece.
     pub(super) fn polynomial_between(&self, [from, to]: [f64; 2]) -> Polynomial {
-        // By its middle, because rounding may put the ends into the pieces next to it.
+        // The piece is found by the middle of the two depths, because rounding may put the ends into the pieces next to it.
         let piece = self.piece_at(0.5 * (from + to));
         let start = piece.position(from);
         let length = piece.position(to) - start;
@@ -232,14 +234,14 @@ impl Piece {
         cosines: &[[f64; N_COEFFICIENTS]; N_COEFFICIENTS],
     ) -> (Self, f64) {
         let [low, high] = depths;
-        // Radii at the nodes, from the outermost inwards.
+        // The radii at the nodes are found from the outermost inwards, so that each is a bound for the next one.
         let mut previous_radius = outer;
         let values: [f64; N_COEFFICIENTS] = std::array::from_fn(|node| {
             let depth = low + 0.5 * (high - low) * (1.0 + cosines[node][1]);
             previous_radius = radius(body, depth, [inner, previous_radius]);
             previous_radius
         });
-        // Chebyshev series through them, and the coefficients of the powers.
+        // The Chebyshev series through these radii is computed first, and from it the coefficients of the powers of ξ.
         let scaled = values.map(|value| 2.0 / N_COEFFICIENTS as f64 * value);
         let mut series = sum_of_rows(&scaled, cosines);
         series[0] *= 0.5;

@@ -13,8 +13,8 @@ const GAUSS_RULE: [[f64; 2]; 3] = [
     [0.5, 8.0 / 18.0],
     [0.887_298_334_620_741_7, 5.0 / 18.0],
 ];
-/// Parts of all segments together beyond which the refinement of the work stops with [`MdrError::WorkNotReached`]. Chosen: a
-/// limit of the time.
+/// Largest number of parts, added over all segments, on which the work is computed. Chosen, to limit the computing time: where
+/// more would be needed, the refinement stops with [`MdrError::WorkNotReached`].
 const MAX_PARTS_OF_WORK: usize = 1 << 13;
 
 /// The work ∫ F dd \[J] from the first point of a history to each point.
@@ -101,7 +101,7 @@ fn cumulative_work(curve: &[CurvePoint], parts: usize) -> Vec<f64> {
     let mut work_at_points = vec![work];
     let length = GAUSS_RULE.len() * parts + 1;
     for segment in curve.windows(length + 1).step_by(length) {
-        // Means of force and depth over the segment, by Gauss quadrature.
+        // Gauss quadrature gives the means of force and depth over the segment.
         let [start, end] = [segment[0], segment[length]].map(values);
         let quadrature_points = segment[1..length].iter().zip(GAUSS_RULE.iter().cycle());
         let weighted = quadrature_points
@@ -110,7 +110,7 @@ fn cumulative_work(curve: &[CurvePoint], parts: usize) -> Vec<f64> {
             [force + more, depth + deeper]
         });
         let [force, depth] = sums.map(|sum| sum / parts as f64);
-        // Work is ∫ F dd; where the force is given, integrate by parts.
+        // The work is ∫ F dd. Where the force is given, integration by parts turns it into F d − ∫ d dF.
         work += if is_force {
             end[0] * end[1] - start[0] * start[1] - depth * (end[0] - start[0])
         } else {

@@ -8,7 +8,8 @@ use numerics::{golden_section, in_range, positive};
 
 use crate::MdrError;
 
-/// Elements of a foundation at most; more are refused as [`MdrError::TooManyElements`]. Chosen: a limit of memory and time.
+/// Largest number of elements of a foundation. Chosen, to limit memory and computing time: more are refused as
+/// [`MdrError::TooManyElements`].
 pub(crate) const MAX_ELEMENTS: usize = 1 << 22;
 /// On an infinite domain the line is sampled up to this multiple of the distance at which it was last below the largest needed
 /// height. Chosen: a part of the body that comes down farther out is overlooked.
@@ -57,7 +58,8 @@ impl ElementHeights {
 
     /// Position of an element on the line, \[m].
     pub(crate) fn position(&self, element: usize) -> f64 {
-        // One of the two differences is zero; their signs differ, and indices have none.
+        // The element lies ahead of the anchor or behind it. Indices have no sign, so that the other one of the two differences
+        // is cut off at 0.
         let ahead = element.saturating_sub(self.anchor_index) as f64;
         let behind = self.anchor_index.saturating_sub(element) as f64;
         self.anchor + (ahead - behind) * self.spacing
@@ -86,7 +88,7 @@ impl ElementHeights {
             height,
         };
 
-        // Heights on both sides of the anchor, relative to it, from the rear to the front.
+        // The heights on both sides of the anchor are joined to one list, from the rear to the front.
         let rear = ray(-spacing).heights()?.ok_or_else(too_many)?;
         let front = ray(spacing).heights()?.ok_or_else(too_many)?;
         let anchor_index = rear.len();
@@ -94,7 +96,7 @@ impl ElementHeights {
         heights.push(anchor_height);
         heights.extend(front);
 
-        // Heights relative to the lowest element.
+        // From here on the heights are counted from the lowest element.
         let lowest_height = heights.iter().copied().fold(anchor_height, f64::min);
         for height in &mut heights {
             *height -= lowest_height;

@@ -13,7 +13,8 @@ const CELLS_PER_ELEMENT: usize = 4;
 /// a cell; the line itself is evaluated in the others. Chosen: far below the error of the elements.
 const CUBIC_TOLERANCE: f64 = 1e-10;
 
-/// Rounding of positions, relative to the length of a cell. Chosen.
+/// Distance from an end or from the lowest point of the line, relative to the length of a cell, up to which a position counts
+/// as that point. Chosen: such a difference may be rounding.
 const POSITION_ROUNDING: f64 = 1e-9;
 
 /// Table of the heights above the lowest point, \[m].
@@ -52,7 +53,7 @@ impl<'a> HeightTable<'a> {
             let nodes_around = cell
                 .checked_sub(1)
                 .and_then(|first| nodes.get(first..first + 4));
-            // Not only in the middle, where odd terms of the error vanish.
+            // The cubic is compared at three places, not only in the middle of the cell, where odd terms of the error vanish.
             let is_close = |part: f64| {
                 let exact = height_of_cell(cell as f64 + part);
                 let terms = nodes_around.into_iter().flatten().zip(weights(part));
@@ -95,13 +96,13 @@ impl<'a> HeightTable<'a> {
         let spacing = CELLS_PER_ELEMENT as f64 / self.cells_per_metre;
         let first_cell = position_in_cells.floor();
         let weights = weights(position_in_cells - first_cell);
-        // Elements in front of the first one whose four nodes are in the table.
+        // `skipped` is the number of elements before the first one whose four nodes are in the table.
         let before = (1.0 - first_cell).max(0.0) / CELLS_PER_ELEMENT as f64;
         let skipped = whole_part(before.ceil()).min(n_elements);
         let cell = whole_part((first_cell + (skipped * CELLS_PER_ELEMENT) as f64).max(1.0));
         let from = |number: usize| &self.nodes[number % CELLS_PER_ELEMENT][..];
 
-        // Cubics for all elements, each with the same weights of its four nodes.
+        // The cubics of all elements have the same four weights, because every element is at the same fraction of its cell.
         let nodes = [cell - 1, cell, cell + 1, cell + 2].map(|node| {
             let first = (node / CELLS_PER_ELEMENT).min(from(node).len());
             &from(node)[first..]

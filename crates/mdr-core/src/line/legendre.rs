@@ -27,7 +27,8 @@ impl Interpolation {
             nodes[j] = node;
             let values: Polynomial = legendre_values(node);
             for (k, row) in rows.iter_mut().enumerate() {
-                // The discrete norm of the last polynomial differs from that of the integral.
+                // At the nodes the sum of the weighted squares of the last polynomial, of degree n, is 2/n, and not its
+                // integral 2/(2n + 1).
                 let norm = if k == DEGREE {
                     2.0 / DEGREE as f64
                 } else {
@@ -62,7 +63,8 @@ pub(crate) fn value(coefficients: &[f64], t: f64) -> f64 {
 /// Coefficients of p'(t), as many as those of p; the last one is 0.
 pub(crate) fn derivative<const N: usize>(coefficients: &[f64; N]) -> [f64; N] {
     let mut slopes = [0.0; N];
-    // c'_k/(2k + 1) = c'_(k+2)/(2k + 5) + c_(k+1).
+    // The coefficients c'_k of p' follow from those of p, from the highest one down: c'_k/(2k + 1) = c'_(k+2)/(2k + 5) +
+    // c_(k+1).
     let mut sums = [0.0; 2];
     for k in (0..N - 1).rev() {
         sums[k % 2] += coefficients[k + 1];

@@ -16,8 +16,8 @@ use super::range::Range;
 use super::segment::Segment;
 use crate::MdrError;
 
-/// Positions along the whole range at which the polynomials are compared with the line, besides their nodes. Chosen: narrower
-/// details between nodes may be overlooked.
+/// Number of positions along the whole range at which the polynomials are compared with the line, besides their nodes. Chosen:
+/// narrower details between nodes may be overlooked.
 const N_STATIONS: f64 = 64.0;
 /// Samples of the slope of a piece in the search for its turning points: the slope, of degree nine, has nine zeros at most.
 const N_SLOPE_SAMPLES: usize = 24;
@@ -27,11 +27,11 @@ const SHORT_PIECE_RATIO: f64 = 0.125;
 
 /// Maximum number of polynomials of a line. Chosen: more take seconds for each trial depth.
 const MAX_PIECES: usize = 1 << 18;
-/// Effect of the rounding of heights and positions on the last terms of a polynomial, as a multiple of both. Measured
-/// by `evidence tuning`.
+/// Ratio of the rounding in the last terms of a polynomial to that of heights and positions. Measured by `evidence tuning`.
 const TERM_ROUNDING_FACTOR: f64 = 8.0;
 
-/// Shortest piece, relative to its distance from zero; shorter ones have nodes at the rounding of positions.
+/// Length of the shortest piece, relative to its distance from x = 0. In shorter pieces the distance between nodes is as small
+/// as the rounding of positions.
 pub(super) const MIN_PIECE_LENGTH: f64 = 1024.0 * f64::EPSILON;
 
 /// Criterion for a resolved polynomial.
@@ -81,7 +81,7 @@ impl Profile {
             length: range.ends[1] - range.ends[0],
             resolution,
         };
-        // Pieces between the kinks, from the front to the rear.
+        // The range is divided at its kinks, and each part is resolved into pieces from the front to the rear.
         let [rear, front] = range.ends;
         let mut breaks = vec![front];
         let inside = |x: &f64| *x > rear && *x < front;
@@ -91,7 +91,7 @@ impl Profile {
         for ends in breaks.windows(2) {
             builder.resolve([ends[0], ends[1]], &mut pieces)?;
         }
-        // Compressions relative to the lowest point of the line, at a depth of one.
+        // The compressions become relative to the lowest point of the line, which is one depth deep.
         let ends = |piece: &Piece| start_value(piece.terms()).max(end_value(piece.terms()));
         let lowest = -pieces.iter().map(ends).fold(0.0, f64::max);
         for piece in &mut pieces {
@@ -135,7 +135,7 @@ impl Piece {
 
     /// Turning point of the line inside the piece, as −1 < t < 1; `None` without one.
     fn turning_point(&self) -> Option<f64> {
-        // |P'_k| ≤ k (k + 1)/2: the slope has no zero if its first term outweighs all others.
+        // Because |P'_k| ≤ k (k + 1)/2, the slope has no zero if its first term outweighs all others.
         let (terms, degree) = (self.terms(), self.segment.degree);
         let bound = (2..=degree).map(|k| (k * (k + 1) / 2) as f64 * terms[k].abs());
         if terms[1].abs() >= bound.sum::<f64>() {
@@ -246,7 +246,7 @@ impl<D: Fn(f64) -> Result<f64, MdrError>> Builder<D> {
             tail: 0.0,
             singular: false,
         };
-        // Interpolate the heights.
+        // The polynomial interpolates the depth of the line below the anchor; heights that are not finite are refused.
         let drop = |t: f64| (self.drop)(piece.position(t)).unwrap_or(f64::NAN);
         piece.segment.displacements = self.interpolation.interpolate(drop);
         if !piece.terms().iter().all(|c| c.is_finite()) {
@@ -314,6 +314,6 @@ fn estimate_tail(coefficients: &Polynomial) -> f64 {
     }
 }
 
-/// Smallest decay from pair to pair of terms in the geometric series of the rest; less decay is rounding, whose terms
-/// add up to nothing.
+/// Smallest value of 1 − q in the geometric series of [`estimate_tail`], where q is the ratio of the last pair of terms to the
+/// pair before. A ratio closer to 1 is rounding, whose terms add up to nothing.
 const MIN_PAIR_DECAY: f64 = 0.25;

@@ -47,7 +47,7 @@ impl Range {
         let excess = |x: f64| Ok(checked_height(line, x)? - anchor_height - depth);
         let [rear_end, front_end] = line.domain();
 
-        // The ends, from outside to inside, over the whole line and over the pieces between kinks.
+        // Each end of the range is sought from outside to inside, over the whole line and over the pieces between its kinks.
         let mut stops = line.kinks();
         stops.retain(|x| *x > rear_end && *x < front_end);
         stops.insert(0, rear_end);
@@ -129,7 +129,7 @@ fn outermost(
     if end.is_finite() && excess(end)? <= 0.0 {
         return Ok(end);
     }
-    // Distance of a point above the height limit, from which samples go inwards.
+    // `outside` is the distance of a point above the height limit, from which the samples go inwards.
     let mut outside = if end.is_finite() {
         end - anchor
     } else {
@@ -137,7 +137,7 @@ fn outermost(
     };
     // The sum of two positions may be rounded beyond the end.
     let within = |x: f64| if end > anchor { x.min(end) } else { x.max(end) };
-    // The anchor itself lies below the height limit, so that this ends.
+    // The anchor itself lies below the height limit, so that the loop ends.
     loop {
         let inside = outside * (-1.0 / STATIONS_PER_OCTAVE).exp2();
         // The smallest numbers are rounded up to themselves.

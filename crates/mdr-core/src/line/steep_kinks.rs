@@ -13,7 +13,7 @@ const KINK_DISTANCE_RATIO: f64 = 0.25;
 /// Smallest ratio of the differences of slopes from distance to distance at a steep kink: 2 for an inverse root, less
 /// a margin for smaller powers.
 const MIN_DIFFERENCE_RATIO: f64 = 1.99;
-/// Part of the slopes below which their differences are rounding. Chosen.
+/// Difference of two slopes, relative to the slopes, up to which it counts as rounding. Chosen.
 const SLOPE_ROUNDING: f64 = 1e-9;
 
 /// A side of a kink on which the slope is unbounded.

@@ -18,7 +18,7 @@ use crate::branches::{Foundation, Mode};
 /// Norm of the residual with which conjugate gradients end, relative to that of the right-hand side, both in the
 /// preconditioned norm. Measured by `evidence tuning`.
 const CG_TOLERANCE: f64 = 1e-8;
-/// Iterations of conjugate gradients at most; the last iterate is used if they do not suffice. Chosen.
+/// Largest number of iterations of conjugate gradients. Chosen: if they do not suffice, the last iterate is used.
 const MAX_CG_ITERATIONS: usize = 200;
 
 /// Contacts of all elements over a cycle; the default has no elements and records nothing.
@@ -146,7 +146,7 @@ impl<'a> CycleJacobian<'a> {
         foundation: &Foundation,
         is_force: bool,
     ) -> Self {
-        // Time for which each element is in contact.
+        // The durations of the steps in which an element is loaded add up to the time for which it is in contact.
         let mut times = vec![0.0; contact_history.elements.len() + 1];
         for (duration, runs) in contact_history.steps_with_runs() {
             add_to_runs(&mut times, runs, duration);
@@ -185,7 +185,8 @@ impl<'a> CycleJacobian<'a> {
         });
         let factors: Vec<ModeFactors> = factors.collect();
 
-        // The step without the response of the loads, and its mean displacement over a cycle.
+        // `step` begins as the step that the amplitudes would take if the loads did not respond. `free` is its mean
+        // displacement of each element over a cycle.
         let mut step = residual.to_vec();
         let rows = step.chunks_mut(n_history).map(|row| {
             let history = row.iter_mut().zip(&factors);
@@ -200,7 +201,7 @@ impl<'a> CycleJacobian<'a> {
             .map(|mode| mode.mean_factor * mode.load_compliance)
             .sum();
 
-        // Subtract the response of the loads.
+        // The loads respond to these displacements and change the amplitudes in turn; that part is subtracted.
         let load_response = self.load_response(&free, compliance);
         for (row, load_response) in step.chunks_mut(n_history).zip(&load_response) {
             for (amplitude, mode) in row.iter_mut().zip(&factors) {
@@ -217,7 +218,7 @@ impl<'a> CycleJacobian<'a> {
         if !self.is_force {
             return product;
         }
-        // Cumulative sums, from which the sums over the loaded runs of each step are differences.
+        // From cumulative sums over the elements the sum over a run of loaded ones is a difference of two entries.
         let [mut loads, mut moduli, mut means] = [(); 3].map(|()| vec![0.0; v.len() + 1]);
         for (index, (k, v)) in self.moduli.iter().zip(v).enumerate() {
             loads[index + 1] = k * v;

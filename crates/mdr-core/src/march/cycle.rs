@@ -13,7 +13,8 @@ use crate::MdrError;
 use crate::branches::{Mode, n_history};
 use crate::history::SUM_ROUNDING;
 
-/// Number of cycles after which the search for the limit cycle is given up: a limit of the time.
+/// Largest number of cycles in the search for the limit cycle, to limit the computing time: after them the search ends with
+/// [`MdrError::NotPeriodic`].
 const MAX_CYCLES: usize = 400;
 /// Deviation from the expected residual, relative to the residual before the step, at which the next step covers as
 /// many cycles as the last one: `fac` times the tolerance in the step size control of Hairer, Nørsett & Wanner 1993,
@@ -23,8 +24,8 @@ const TARGET_DEVIATION: f64 = 0.4;
 /// Largest number of cycles that a step covers; with it a step is the full Newton step for all but the slowest modes.
 /// Measured by `evidence tuning`.
 const MAX_CYCLES_PER_STEP: f64 = 1e16;
-/// Safety factor on the change by a step that did what was expected, as a bound of what remains. Measured by
-/// `evidence tuning`.
+/// Factor on the change by the last step that gives a bound of the change that remains, if the step did what was expected.
+/// Measured by `evidence tuning`.
 const REMAINDER_SAFETY_FACTOR: f64 = 2.0;
 
 /// Finds the limit cycle to the tolerance of the problem, from the amplitudes of the resolution before if there is one; `None` if the
@@ -176,7 +177,7 @@ impl<'a> CycleSearch<'a> {
         let is_force = matches!(self.problem.load.largest_control(), Control::NormalForce(_));
         let jacobian = CycleJacobian::new(contact_history, foundation, is_force);
         let step = jacobian.step(self.modes(), self.cycles_per_step, &self.residual);
-        // Predicted residual: the part of the cycles that the step does not cover.
+        // The residual predicted after the step is the share of the cycles that the step does not cover, mode by mode.
         let remaining: Vec<f64> = self
             .modes()
             .iter()

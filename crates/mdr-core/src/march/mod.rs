@@ -34,30 +34,35 @@ use crate::steady::LineProblem;
 use motion_problem::MotionProblem;
 pub use slide::{Sliding, SlidingStep, slide, slide_memory};
 
-/// Elements along the contact beyond which a refinement stops. Chosen: a limit of the time.
+/// Largest number of elements along the contact in a refinement. Chosen, to limit the computing time: the refinement stops
+/// there, even if the error is still larger than asked for.
 const MAX_ELEMENTS_ALONG_CONTACT: usize = 4096;
-/// Power of the number of elements with which the work grows: the number of steps grows in proportion to it.
+/// Exponent of the number of elements along the contact in the amount of work: the number of steps grows in proportion to that
+/// number, and so does the work of each step.
 const WORK_EXPONENT: f64 = 2.0;
 /// Largest order of convergence that is assumed. Smooth bodies have a better one, but the place of their contact boundary
 /// between the elements makes it unsafe to assume more.
 const MAX_ORDER: f64 = 1.0;
-/// Elements of a foundation per element of the contact, for the estimate of memory. Chosen: an upper bound for usual bodies.
+/// Ratio of the number of elements of a foundation to that along the contact, for the estimate of memory. Chosen: an upper
+/// bound for usual bodies.
 const FOUNDATION_PER_CONTACT: f64 = 4.0;
 
 /// Largest product of elements, steps and cycles of a resolution that a refinement takes up. Chosen: about a minute of one
 /// thread.
 const MAX_WORK: f64 = 5e8;
-/// Elements along the contact from which on the refinement of a limit cycle stops if the friction is smaller than its change by
-/// the last halving of the spacing: it is then only an error of the elements. Chosen: a limit of the time.
+/// Number of elements along the contact from which on the refinement of a limit cycle stops if the friction is smaller than its
+/// change by the last halving of the spacing. The friction is then only an error of the elements. Chosen, to limit the
+/// computing time.
 const MIN_ELEMENTS_TO_GIVE_UP: usize = 128;
 /// Order of convergence that is lost against the exponent p of an apex x^p, because its place between two elements is arbitrary.
 const TIP_ORDER_LOSS: f64 = 0.5;
 /// Order of convergence behind a steep kink, where the line rises like the root of the distance.
 const STEEP_KINK_ORDER: f64 = 0.5;
-/// Elements over which a stroke goes at least on the resolution where a relative error is first sought. On fewer of
-/// them two resolutions agree by chance. Measured by `evidence tuning`.
+/// Smallest number of elements over which a stroke goes on the resolution where a relative error is first sought. On fewer
+/// elements two resolutions agree by chance. Measured by `evidence tuning`.
 const MIN_ELEMENTS_PER_STROKE: f64 = 4.0;
-/// Elements along the contact at most on the resolution where a relative error is first sought. Chosen.
+/// Largest number of elements along the contact on the resolution where a relative error is first sought. Chosen: it is used if
+/// fewer would give a stroke less than [`MIN_ELEMENTS_PER_STROKE`].
 const MAX_FIRST_ELEMENTS: usize = 8 * FIRST_ELEMENTS;
 /// Relative tolerance of the limit cycle on a given number of elements, below the error of any affordable number of
 /// them. Chosen.

@@ -16,7 +16,8 @@ use crate::branches::{Foundation, n_history};
 use crate::error::enough_elements;
 use crate::line::{ElementHeights, MAX_ELEMENTS, has_steep_kinks};
 
-/// Steps of a motion, or of one cycle, beyond which it is refused. Chosen: a limit of the time.
+/// Largest number of steps of a motion, or of one cycle. Chosen, to limit the computing time: a motion with more steps is
+/// refused.
 const MAX_STEPS: f64 = 4e6;
 /// Duration of the first pressing, at rest, relative to that of the first step. Measured by `evidence tuning`.
 pub(super) const FIRST_PRESSING_DURATION: f64 = 1e-3;
@@ -82,7 +83,8 @@ impl<'a> MotionProblem<'a> {
         elements: usize,
         report: &dyn Fn(f64),
     ) -> Result<MotionRecord, MdrError> {
-        // Steps, and a first guess of the height.
+        // The motion is divided into steps. The foundation is first as high as a prescribed depth, or as a guess from the shape
+        // of the line and the resolution before.
         let spacing = self.length / elements as f64;
         let steps = self.load.steps(elements, spacing, MAX_STEPS)?;
         let mut height = match self.load.largest_control() {
@@ -138,7 +140,7 @@ impl<'a> MotionProblem<'a> {
             1.0
         };
         let per_element = copies * (n_history * size_of::<f64>()) as f64 + MOTION_BYTES_PER_ELEMENT;
-        // The values on four resolutions; a list grows by doubling.
+        // Four records of each step are counted, for the values on four resolutions and for lists that grow by doubling.
         let per_step = 4 * size_of::<MotionStep>() + size_of::<MovingStep>();
         Ok(n_steps * per_step as f64 + n_elements * per_element)
     }
@@ -182,7 +184,7 @@ impl<'a> MotionProblem<'a> {
         let Some(pressed) = winkler.advance(pressing, start.position, first)? else {
             return Ok(None);
         };
-        // Then follow the cycle or the path.
+        // After the pressing the line follows its limit cycle or its path.
         if self.load.is_cycle() {
             return find_limit_cycle(self, winkler, steps, report);
         }
@@ -193,7 +195,7 @@ impl<'a> MotionProblem<'a> {
     fn prescribed(&self, control: Control, spacing: f64) -> Prescribed {
         match control {
             Control::IndentationDepth(depth) => Prescribed::Depth(depth),
-            // In this order forces whose square is no number stay in range.
+            // The divisions come in this order so that even forces whose square is out of the range of numbers give a result.
             Control::NormalForce(force) => {
                 Prescribed::Load(0.25 * force / spacing / self.foundation.unit)
             }
@@ -220,7 +222,8 @@ impl<'a> MotionProblem<'a> {
             spacing,
             ..MotionRecord::default()
         };
-        // State at the beginning, and factor that corrects the prescribed force.
+        // The loop begins with the state before the first step. `force_factor` corrects the prescribed force so that its mean
+        // over a step comes closer to it.
         let (mut dissipated, mut force_factor) = (0.0, 1.0);
         let first = self.load.stages()[0].start;
         let mut before = StepEnd {

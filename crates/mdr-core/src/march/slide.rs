@@ -49,8 +49,8 @@ const FRICTION_ROUNDING: f64 = 1e-12;
 /// Largest ratio of the changes over two successive contact lengths that counts as exponential decay; slower changes
 /// are rounding. Chosen: it bounds the remaining change by 99 times the last one.
 const MAX_CHANGE_RATIO: f64 = 0.99;
-/// Error of the ends of the contact in steps: an end lies within a step of the outermost element, which is loaded
-/// within one more.
+/// Error of an end of the contact, as a multiple of the spacing: the end lies within one spacing of the outermost loaded
+/// element, which is loaded within one more.
 const END_ERROR_STEPS: f64 = 2.0;
 /// Steps before the end whose values give the scatter from step to step. Measured by `evidence tuning`.
 const N_SCATTER_STEPS: usize = 6;
@@ -162,7 +162,7 @@ pub fn slide<'w>(
         |record, _: &dyn Fn(f64)| Ok::<_, MdrError>(problem.other_errors(record, material)),
     )?;
 
-    // The result of the finest resolution, with its errors.
+    // The answer is the result of the finest resolution, with the errors that the refinement has estimated.
     let record = refined.value;
     let end_values = problem.end_values(&record.steps);
     let [friction_coefficient, indentation_depth, rear, front] =
@@ -199,7 +199,7 @@ pub fn slide_memory(
 ) -> Result<f64, MdrError> {
     let problem = SlidingProblem::new(line, material, load)?;
     let Schedule { spacing, n_steps } = problem.schedule(elements)?;
-    // A list grows by doubling, and an answer takes its rows out of it.
+    // Four records of each step are counted, because a list grows by doubling, and an answer takes its rows out of it.
     let per_step = 4 * size_of::<SlidingStep>();
     let n_elements =
         (FOUNDATION_PER_CONTACT * problem.contact.length / spacing).min(2.0 * MAX_ELEMENTS as f64);
@@ -263,7 +263,8 @@ impl<'a> SlidingProblem<'a> {
     /// Steps for a number of elements along the contact, or along the sliding distance where that is shorter.
     fn schedule(&self, elements: usize) -> Result<Schedule, MdrError> {
         let length = self.contact.length;
-        // A whole part of the distance, and no more than the distance itself, so that resolutions have steps in proportion.
+        // The sliding distance is divided into equal parts that are no longer than the contact, so that all resolutions have
+        // steps in proportion.
         let (resolved, parts) = match self.load.sliding_distance() {
             None => (length, MAX_CONTACT_LENGTHS),
             Some(distance) => {
@@ -312,8 +313,8 @@ impl<'a> SlidingProblem<'a> {
             start,
         )?;
 
-        // Press at rest, unless a dashpot resists.
-        // In this order forces whose square is no number stay in range.
+        // The line is pressed at rest, unless a dashpot resists. The divisions come in this order so that even forces whose
+        // square is out of the range of numbers give a result.
         let load = 0.25 * self.normal_force / spacing / self.foundation.unit;
         if !self.foundation.has_dashpot() {
             let duration = FIRST_PRESSING_DURATION * time_step;

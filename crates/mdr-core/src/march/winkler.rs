@@ -225,7 +225,8 @@ impl<'a> WinklerFoundation<'a> {
         let Some([rear, front]) = sums.ends else {
             return Ok(());
         };
-        // Height of an element at the beginning of the step.
+        // `height` is that of the line over an element at the end of the step, which the last swap has made the beginning of
+        // the next one.
         let height = |element: usize| {
             let index = element.checked_sub(self.heights_before.first)?;
             self.heights_before.heights.get(index).copied()
@@ -252,7 +253,7 @@ impl<'a> WinklerFoundation<'a> {
         let spacing = self.sampled.spacing;
         let heights = &self.sampled.heights;
 
-        // The elements below the limit, with one more on each side, at the positions before and after the step.
+        // The window holds all elements below the limit at the positions before and after the step, with one more on each side.
         let is_low = |height: &f64| *height <= limit;
         let anchor = self.sampled.anchor_index;
         let rear = heights
@@ -272,7 +273,7 @@ impl<'a> WinklerFoundation<'a> {
             whole_part(high.ceil() + 1.0).min(last),
         ];
 
-        // The heights over the window at both positions.
+        // The heights of the line over the window are computed at both positions.
         let start = (self.first + window[0] as f64) * spacing;
         let count = window[1] + 1 - window[0];
         self.window = window;

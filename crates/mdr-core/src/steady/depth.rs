@@ -10,7 +10,8 @@ use crate::error::non_finite;
 
 /// Depth at which the search starts, \[m]; any other would do.
 const SEARCH_START: f64 = 1.0;
-/// Steps of the secant method at most. Each multiplies the number of exact digits, so that most searches end before.
+/// Largest number of steps of the secant method. Each step multiplies the number of exact digits, so that most searches end
+/// before.
 const MAX_SECANT_STEPS: usize = 12;
 /// Relative margin of the bracket that proportion gives. Chosen: proportion may be exact, and the force then rounded to the
 /// wrong side.
@@ -43,7 +44,7 @@ pub(super) fn refined_depth(
     target: f64,
     start: f64,
 ) -> Result<f64, MdrError> {
-    // Secant method in the logarithms of force and depth.
+    // The secant method works in the logarithms of force and depth, from a start within reach of the line.
     let (mut depth, at_depth) = within_reach(&load, start, target)?;
     let mut log_ratio = (at_depth / target).ln();
     // Force and depth are nearly a power law, whose exponent the steps find. The first one assumes an exponent between fluid
@@ -61,7 +62,7 @@ pub(super) fn refined_depth(
             exponent = slope;
         }
 
-        // Stop when the deviation does not fall any more: rounding.
+        // The search stops when the deviation does not fall any more, because what remains is rounding.
         if next_log_ratio.abs() < log_ratio.abs() {
             (depth, log_ratio) = (next, next_log_ratio);
         } else if step_number > 0 {

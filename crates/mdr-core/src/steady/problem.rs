@@ -215,7 +215,7 @@ impl<'a> LineProblem<'a> {
             return Err(MdrError::FrictionDiverges { position });
         }
 
-        // Force and friction.
+        // Normal force and friction coefficient follow from the load and the work of the pass.
         let ends = sums.ends();
         sums.contacts.reverse();
         let SweepSums { load, work, .. } = sums;
@@ -223,7 +223,7 @@ impl<'a> LineProblem<'a> {
         let force = finite("normal force", unit * (depth * load), 0.0)?;
         let friction = finite("friction coefficient", depth * (work / load), 0.0)?;
 
-        // Their errors, by the tails of the polynomials and by rounding.
+        // The errors of force and friction come from the tails of the polynomials and from rounding.
         let errors = [sums.load_error, sums.work_error];
         let [load_error, work_error] = errors.map(|error| TAIL_SAFETY_FACTOR * error);
         // A larger force at the same depth is a smaller depth at the same force, which changes the friction again.

@@ -13,7 +13,8 @@ use crate::line::{Piece, Profile, Segment};
 /// Positions in a segment at which the signs of load and gap are checked. Chosen: a contact or gap between two of them may be
 /// overlooked.
 const N_SEGMENT_SAMPLES: usize = 12;
-/// Penetration, in depths, up to which a gap counts as open: rounding.
+/// Penetration, in depths, up to which a gap still counts as open, because it may be rounding: 16 units in the last place of
+/// the depth.
 const GAP_ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// Displacement at the rear end of the line, in depths, below which what an elastic foundation releases there counts
 /// as rounding. Its energy is below 1e-12 of the whole.
@@ -30,7 +31,8 @@ const MAX_MISSED_COMPRESSION: f64 = 1e-12;
 /// so close to the end begins there: the dissipation of a dashpot in so short a part is the square of rounding over
 /// its length.
 const MIN_CONTACT_PART: f64 = 1e-13;
-/// Contact intervals of one line at most. Chosen: a limit of the time.
+/// Largest number of contact intervals of one line. Chosen, to limit the computing time: more are refused as
+/// [`MdrError::TooMuchDetail`].
 const MAX_CONTACTS: usize = 1 << 12;
 
 /// Sums over one pass.
@@ -133,7 +135,8 @@ impl SurfaceMarch<'_> {
                 if piece.singular && self.foundation.has_dashpot() {
                     self.sums.too_steep.get_or_insert(piece.segment.ends[1]);
                 }
-                // Under load: solve the segment, up to the first tension.
+                // Under load the whole segment is solved. If the load becomes tensile inside it, only the part up to there
+                // counts.
                 let solution = self.foundation.solve_segment(segment, &stresses);
                 match first_tension(&solution, self.foundation.has_dashpot() && !is_new) {
                     None => {
@@ -181,7 +184,7 @@ impl SurfaceMarch<'_> {
         let displacement = self.storing_displacement(free);
         self.sums.work -= self.foundation.stored_energy(displacement, &stresses);
 
-        // A contact that begins late, by rounding of positions, is a jump.
+        // A contact that begins late through rounding of positions begins with a jump of the displacement.
         let compression = segment.displacement(t) - free;
         if compression > MAX_MISSED_COMPRESSION {
             self.foundation
@@ -309,7 +312,7 @@ fn samples() -> impl Iterator<Item = f64> {
 fn straight_parts(value: impl Fn(f64) -> f64) -> impl Iterator<Item = [f64; 2]> {
     let at = |t: f64| [t, value(t)];
     let mut points = vec![at(-1.0)];
-    // The next position comes last.
+    // The list is reversed, so that the next position is its last entry.
     let mut ahead: Vec<[f64; 2]> = samples().map(at).collect();
     ahead.reverse();
     while let (Some(&from), Some(&to)) = (points.last(), ahead.last()) {

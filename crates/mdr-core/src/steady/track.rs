@@ -16,7 +16,8 @@ use crate::MdrError;
 use crate::branches::{Foundation, FreeSurface};
 use crate::line::{Profile, Range};
 
-/// Passes of the track after which the search for the periodic state is given up. Chosen: a limit of the time.
+/// Largest number of passes of the track in the search for the periodic state. Chosen, to limit the computing time: after them
+/// the search ends with [`MdrError::NotPeriodic`].
 const MAX_PASSES: usize = 300;
 /// Remaining distance to the periodic state, in depths, at which the search ends. Chosen: it is part of the error.
 const PERIODICITY_TOLERANCE: f64 = 1e-11;
@@ -33,8 +34,8 @@ pub(super) fn check_length(track: f64, range: &Range) -> Result<(), MdrError> {
     Err(MdrError::TrackTooShort { track, needed })
 }
 
-/// Sums over the pass whose surface ahead is that behind the pass before, on a `track` of a length \[m]. [`MdrError::NotPeriodic`]
-/// if it is not found.
+/// Sums over a pass of the periodic state, in which the surface ahead is the one that the pass before has left, on a `track` of
+/// a length \[m]. [`MdrError::NotPeriodic`] if this state is not found.
 pub(super) fn sweep_until_periodic(
     foundation: &Foundation,
     profile: &Profile,
@@ -43,7 +44,8 @@ pub(super) fn sweep_until_periodic(
 ) -> Result<SweepSums, MdrError> {
     // Depths that are too large for the track only occur during the search for a depth, which needs a monotone force.
     let free = (track - profile.length).max(0.0);
-    // Passes that the slowest mode needs to recover: the distance to the periodic state is as many changes of one pass.
+    // `slowness` is the number of passes that the slowest mode needs to recover: the distance to the periodic state is as many
+    // changes of one pass.
     let slowness = -(-track / foundation.longest_recovery()).exp_m1().recip();
     let tolerance = PERIODICITY_TOLERANCE.max(PERIODICITY_ROUNDING * slowness);
     let mut remaining_change = 0.0;
@@ -78,7 +80,7 @@ pub(super) fn sweep_until_periodic(
         foundation.recovering_surface(&ahead),
         loads,
     )?;
-    // Error: the whole surface may be higher or lower by the remaining change.
+    // The remaining change is an error of force and friction, because the whole surface may be higher or lower by it.
     let sensitivity = foundation.sensitivity(profile.length.recip(), profile.length);
     sums.load_error += remaining_change * sensitivity.load;
     sums.work_error += remaining_change * sensitivity.work;

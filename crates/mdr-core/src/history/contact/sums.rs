@@ -6,10 +6,11 @@ use crate::history::element::{EdgeDirection, EdgeMove};
 use crate::history::path::{DecayedHistory, SegmentTime};
 use crate::history::radius::N_COEFFICIENTS;
 
-/// How often a panel of the quadrature over a ring may be halved. Chosen: a change that is left then counts as error.
+/// Largest number of times that a panel of the quadrature over a ring is halved. Chosen: the change by the last halving then
+/// counts as error.
 const MAX_PANEL_DIVISIONS: u32 = 12;
-/// Error of a panel over its change by the last division. Where the stress jumps inside a panel, each half keeps an
-/// error as large as the change, together 2; the other factor of 2 is a margin.
+/// Ratio of the error that is assumed for a panel to its change by the last division. Where the stress jumps inside a panel,
+/// each half keeps an error as large as the change, together 2; the other factor of 2 is a margin.
 const QUADRATURE_ERROR_OVER_CHANGE: f64 = 4.0;
 
 impl Contact<'_> {

@@ -26,7 +26,7 @@ use crate::line::{ElementHeights, has_steep_kinks};
 const N_TIP_CHORDS: usize = 64;
 /// Distance from the lowest point to the inner end of a chord, relative to that to its outer end. Chosen.
 const TIP_CHORD_RATIO: f64 = 0.75;
-/// Factor on the sum over the chords of a tip; of a power x⁴ they leave out a tenth.
+/// Factor on the sum over the chords of a tip. Chords leave out a part of the integral: of a power x⁴ it is a tenth.
 const TIP_EXCESS_FACTOR: f64 = 1.25;
 
 /// Moduli of a material that act within a step, over (1 − ν)/2.
@@ -85,7 +85,7 @@ impl LastContact<'_> {
     pub(super) fn subgrid_forces(&self, material: &dyn Material) -> SubgridForces {
         let spacing = self.elements.spacing;
         let moduli = StepScaleModuli::new(material, self.velocity, spacing);
-        // Loads of all elements, from those around the last contact.
+        // `loads` extends the loads around the last contact to all elements; the others carry nothing.
         let mut loads = vec![0.0; self.elements.heights.len()];
         for [x, load] in self.load.iter().filter(|[_, load]| *load > 0.0) {
             let element = whole_part((x - self.elements.position(0)) / spacing + 0.5);
@@ -116,14 +116,15 @@ impl LastContact<'_> {
         let spacing = self.elements.spacing;
         let heights = &self.elements.heights;
         let position = self.elements.position(rear);
-        // Slopes on both sides of the rearmost element, and mean slopes over it and over the element behind.
+        // The slopes of the line on both sides of the rearmost element are compared with its mean slopes over that element and
+        // over the one behind.
         let [slope, slope_behind] = [position, position.next_down()].map(|x| self.line.slope(x));
         let mean = self.rise(rear) / spacing;
         let mean_behind = (heights[rear] - heights[rear - 1]) / spacing;
         if !(slope.is_finite() && slope_behind.is_finite() && mean.is_finite()) {
             return SubgridForces::default();
         }
-        // Load of the rearmost element on the slope behind it; the missing load is at most that.
+        // `load` is what the rearmost element would carry on the slope behind it; the missing load is at most that.
         let load = (loads[rear] - moduli.per_slope * (mean - slope_behind)).max(0.0);
         let difference = moduli.per_slope * (slope_behind - mean_behind).abs();
         let carried = 0.5 * spacing * load.min(difference);

@@ -78,7 +78,7 @@ fn too_short_a_distance_returns_the_steps_in_the_error() {
     let problem = SlidingProblem::new(&line, &dashpot(), &load).expect("a problem");
     let length = problem.contact.length;
     let sampled = ElementHeights::below(&line, length / 40.0, 0.1).expect("elements");
-    // The friction in the stationary state, (22).
+    // `limit` is the friction coefficient of the stationary state, (22) of Kürschner (2014).
     let limit = 8.0 / 3.0 * 0.4 * length;
     let Err(MdrError::NotStationary {
         drift,
@@ -152,7 +152,7 @@ proptest! {
         let sampled = ElementHeights::below(&line, spacing, depth).expect("elements");
         let record = problem.run(sampled, 1e5, &|_| ()).expect("a state").expect("high enough");
         let mut before = 0.0;
-        // Rounding of a sum over at most 35 elements, divided by their number.
+        // `slack` allows for the rounding of a sum over at most 35 elements, divided by their number.
         let slack = 4.0 * f64::EPSILON * depth;
         for step in &record.steps {
             let now = step.indentation_depth;
