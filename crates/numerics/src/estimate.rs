@@ -49,7 +49,7 @@ impl fmt::Display for Estimate {
             return write!(formatter, "{} ± {}", Rounded(value), Rounded(error));
         }
 
-        // Powers of ten of the last digit shown and of the first one.
+        // `last` and `first` are the powers of ten of the last digit shown and of the first one.
         let shown_error = error.max(MIN_RELATIVE_ERROR * value.abs());
         let last = power_of_rounded(shown_error) - 1;
         let first = power_of_ten(value).max(power_of_rounded(shown_error));
@@ -57,7 +57,7 @@ impl fmt::Display for Estimate {
             let [digits, error_digits] = [value, shown_error].map(|number| fixed(number, -last));
             return write!(formatter, "{digits} ± {error_digits}");
         }
-        // Half of the power at a time, because the whole one may overflow.
+        // The power of ten is applied in two halves, because the whole one may overflow.
         let half = 10.0_f64.powi(-first / 2);
         let other_half = 10.0_f64.powi(-first - -first / 2);
         let mantissa = |number: f64| fixed(number * half * other_half, first - last);

@@ -7,14 +7,14 @@
 //! x = g_n − Σ γ_k (g_n − g_k),    |f_n − Σ γ_k (f_n − f_k)| least,    f_k = g(x_k) − x_k
 //! ```
 //!
-//! The evaluation after it starts from the plain value g(x). The difference between the results of both shows how much still
-//! changes. It finds limit cycles of reciprocating motions: docs/tribometer.md, "How it is computed".
+//! The next evaluation starts from the plain value g(x). The difference between the results of these two evaluations shows how
+//! much still changes. The iteration finds limit cycles of reciprocating motions: docs/tribometer.md, "How it is computed".
 
-/// Number of evaluations before the first combination: two for a difference, and one that checks it. From 2 to 5 no
-/// answer changes by more than 0.2 % of its bar.
+/// Number of evaluations before the first combination: two for a difference, and one that checks it. With any number from 2 to
+/// 5, no answer changes by more than 0.2 % of its error bar.
 const PLAIN_EVALUATIONS: usize = 3;
-/// Largest number of evaluations that are combined: a limit of the memory, which holds four states for each (point, value,
-/// residual, difference of residuals).
+/// Largest number of evaluations that are combined; older ones are dropped. It limits the memory, which holds four vectors for
+/// each evaluation: point, value, residual, and difference of residuals.
 const MAX_COMBINED: usize = 8;
 /// Smallest squared norm of a residual difference after orthogonalisation, relative to before. A smaller one is
 /// rounding: the difference depends linearly on the others and is left out. From 1e-20 to 1e-8 no digit of an answer
@@ -61,7 +61,8 @@ pub fn anderson_fixed_point<T, E>(
     let mut remaining = f64::INFINITY;
     let mut is_combination = false;
     for evaluations in 1..=max_evaluations {
-        // Evaluate, and start the next evaluation from the value.
+        // The map is evaluated at the state. Its value becomes the state of the next evaluation, unless a combination replaces
+        // it.
         let (mut result, value) = map(&state)?;
         let start = std::mem::replace(&mut state, value.clone());
         let evaluation = Evaluation { start, value };
@@ -81,7 +82,7 @@ pub fn anderson_fixed_point<T, E>(
             continue;
         };
 
-        // Test for convergence.
+        // The iteration has converged if the error estimated from the last two results is at most the tolerance.
         remaining = remaining_error(&mut result, &last);
         if remaining <= tolerance {
             return Ok(FixedPoint::Converged {
@@ -123,7 +124,8 @@ impl Evaluation {
 
 /// Replaces the last value g_n, which is the state, by the combination g_n − Σ γ_k (g_n − g_k) with the smallest residual.
 fn combine(evaluated: &[Evaluation], state: &mut [f64]) {
-    // The residuals f_k, and their differences f_n − f_k to the last one.
+    // The combination needs the residuals f_k = g(x_k) − x_k, and the difference f_n − f_k between the last one and each of
+    // them.
     let residuals: Vec<Vec<f64>> = evaluated
         .iter()
         .map(|Evaluation { start, value }| minus(value, start))
@@ -170,7 +172,8 @@ fn subtract(a: &mut [f64], factor: f64, b: &[f64]) {
 /// A vector that depends linearly on later ones has the weight 0.
 fn least_squares_weights(vectors: &[Vec<f64>], target: &[f64]) -> Vec<f64> {
     let mut weights = vec![0.0; vectors.len()];
-    // Orthonormal vectors, each with its coefficients in the given ones; the latest evaluations come first.
+    // `basis` collects orthonormal vectors, each with its coefficients as a combination of the given ones. The latest
+    // evaluations come first.
     let mut basis: Vec<[Vec<f64>; 2]> = Vec::new();
     for (index, given) in vectors.iter().enumerate().rev() {
         let mut vector = given.clone();
@@ -194,7 +197,7 @@ fn least_squares_weights(vectors: &[Vec<f64>], target: &[f64]) -> Vec<f64> {
             basis.push([vector, coefficients]);
         }
     }
-    // Project the target on the basis.
+    // The projections of the target on the basis give the weights of the given vectors.
     for [vector, coefficients] in &basis {
         subtract(&mut weights, -dot(vector, target), coefficients);
     }

@@ -44,7 +44,7 @@ impl Display for MessageNumber {
             None if let Some(short) = without_rounding_error(self.0) => {
                 Display::fmt(&Self(short), formatter)
             }
-            // Debug writes these with a power of ten.
+            // `Debug` writes numbers out of this range with a power of ten.
             None if !POSITIONAL_RANGE.contains(&self.0.abs()) => {
                 fmt::Debug::fmt(&self.0, formatter)
             }

@@ -7,7 +7,8 @@
 
 use std::cmp::Ordering;
 
-/// Newton steps per node. Each doubles the two digits of the first guess; the fourth changes less than rounding.
+/// Number of Newton steps per node. The first guess has two digits, each step doubles their number, and the fourth changes a
+/// node by less than rounding.
 const NEWTON_STEPS: usize = 4;
 /// Number of nodes that are computed together, because the recursion over the degree of one node is sequential: a
 /// vector register of eight numbers. It changes the time only.
@@ -42,7 +43,7 @@ pub struct LobattoRule {
 pub fn lobatto_rule(n_points: usize) -> LobattoRule {
     let degree = n_points.max(2) - 1;
     let n = degree as f64;
-    // P_(n−1) and P_n at the nodes of one batch.
+    // `last_two` returns P_(n−1) and P_n at the nodes of one batch.
     let last_two = |t: [f64; NODES_PER_BATCH]| {
         (0..degree).fold(
             [[0.0; NODES_PER_BATCH], [1.0; NODES_PER_BATCH]],
@@ -52,7 +53,7 @@ pub fn lobatto_rule(n_points: usize) -> LobattoRule {
             },
         )
     };
-    // Nodes and weights of one batch, by Newton's method from the Chebyshev–Lobatto nodes.
+    // `batch` computes nodes and weights of one batch by Newton's method, which starts from the Chebyshev–Lobatto nodes.
     let batch = |first: usize| {
         let guess = |k: usize| -(std::f64::consts::PI * (first + k) as f64 / n).cos();
         let newton_step = |t: [f64; NODES_PER_BATCH], _| {
@@ -70,7 +71,7 @@ pub fn lobatto_rule(n_points: usize) -> LobattoRule {
         .step_by(NODES_PER_BATCH)
         .flat_map(batch)
         .collect();
-    // The middle node of an odd number is exactly 0.
+    // The middle one of an odd number of nodes is exactly 0.
     let nodes = (0..=degree).map(|index| match (2 * index).cmp(&degree) {
         Ordering::Less => half[index][0],
         Ordering::Equal => 0.0,
@@ -92,7 +93,7 @@ mod tests {
     /// No other rule of as many nodes with both ends among them has this degree of exactness.
     #[test]
     fn products_of_legendre_polynomials_are_integrated_exactly() {
-        // Degrees up to 2n − 1: ∫ P_i P_k = 2/(2k + 1) for i = k, else 0.
+        // The rule is exact for products up to the degree 2n − 1: ∫ P_i P_k dt = 2/(2k + 1) for i = k, else 0.
         for n in [5, 12] {
             let LobattoRule { nodes, weights } = lobatto_rule(n);
             assert_abs_diff_eq!(nodes[0], -1.0, epsilon = 2e-16);

@@ -10,7 +10,7 @@ use crate::Estimate;
 /// Step in t of the coarsest trapezoidal sum, which is halved at least [`MIN_HALVINGS`] times. Chosen; it moves
 /// integrals by less than their stated error.
 const COARSEST_STEP: f64 = 0.5;
-/// Largest number of times the step is halved: a limit of the time, with which a sum has some 12 000 nodes.
+/// Largest number of times that the step is halved, to limit the computing time: a sum then has some 12 000 nodes.
 const MAX_HALVINGS: usize = 9;
 /// Number of halvings before the change by a halving is trusted as the error. The first sums may agree by chance, for
 /// example if both miss a narrow feature. Chosen.
@@ -35,7 +35,7 @@ pub fn integrate_from_ends(
 ) -> Estimate {
     let half_width = 0.5 * (interval[1] - interval[0]);
     let mut step = COARSEST_STEP;
-    // The coarsest trapezoidal sum.
+    // The first value of the integral is the coarsest trapezoidal sum, over the nodes t = 0, ±`step`, ±2 `step`, ….
     let mut sums = node_sums(&integrand, interval, 0.0, step);
     let mut previous = half_width * step * sums.signed;
     let mut error = f64::INFINITY;
@@ -94,7 +94,7 @@ fn node_sums(
             return sums;
         }
         let u = FRAC_PI_2 * t.sinh();
-        // 1 − tanh u without cancellation.
+        // `complement` is 1 − tanh u, computed without cancellation.
         let complement = 2.0 / (1.0 + (2.0 * u).exp());
         let weight = FRAC_PI_2 * t.cosh() / u.cosh().powi(2);
         let distance = half_width * complement;

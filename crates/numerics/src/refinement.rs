@@ -220,8 +220,8 @@ const WEIGHT_OF_TWO_ESTIMATES: f64 = 1.7;
 pub const MIN_CONVERGENCE_ORDER: f64 = 0.1;
 /// Share of the requested relative error that an iteration on each resolution may leave, such as that to a limit cycle.
 ///
-/// Chosen; with 1e-3 to 0.3 no bar of `evidence tuning` changes by more than 1.5 times in the one-dimensional model, and with 0.01 to 0.1
-/// no digit on the half space.
+/// Chosen: with shares from 1e-3 to 0.3 no error bar of `evidence tuning` changes by more than a factor of 1.5 in the
+/// one-dimensional model. With 0.01 to 0.1 no digit changes on the half space.
 pub const ITERATION_SHARE: f64 = 0.05;
 /// Rounding error of the many sums behind a value, relative to it.
 ///
@@ -323,7 +323,8 @@ pub fn refine<T, E>(
             solve(elements, report)
         })
     };
-    // Quantities on half and on three eighths of the elements, from the second level on known from the level before.
+    // `half` and `three_eighths` hold the quantities on half and on three eighths of the elements. From the second level on
+    // they are known from the level before.
     let (mut half, mut three_eighths) = (Vec::new(), None);
     let level = refine_levels(watch, goal.initial_work(elements), |last, progress| {
         if last.is_none() {
@@ -365,7 +366,7 @@ pub fn refine<T, E>(
             }
         }
 
-        // Richardson extrapolation, where the order is known.
+        // Where the order is known, the stated value is improved by Richardson extrapolation from n/2 and n elements.
         let extrapolated = fine.iter().zip(&half).map(|(fine, half)| {
             let gain = fine
                 .extrapolation_order
@@ -446,7 +447,7 @@ struct ResolutionValues {
 impl ResolutionValues {
     /// Discretisation error of the fine value, if errors fall like the elements to the power −order.
     fn error(&self, order: f64) -> f64 {
-        // ratio^q − 1 without cancellation: it is small for the sharpest cusps.
+        // `gain` is ratio^q − 1, computed without cancellation, because it is small for the sharpest cusps.
         let gain = |ratio: f64| (order * ratio.ln()).exp_m1();
         let from_half = (self.fine - self.half).abs() / gain(2.0);
         let from_three_quarters = (self.fine - self.three_quarters).abs() / gain(4.0 / 3.0);
@@ -628,7 +629,7 @@ mod tests {
     fn the_work_of_all_resolutions_is_reported() {
         let watch = Recorder::new(usize::MAX);
         watched(Accuracy::Elements(16), &watch).expect("a value");
-        // The work on 8, 6, 12 and 16 elements, and the other error with half of the work on 16.
+        // The work is that on 8, 6, 12 and 16 elements, and that of the other error, half of the work on 16.
         let done = [4, 8, 11, 14, 20, 26, 34, 42, 46, 50].map(|work| f64::from(work) / 50.0);
         assert_eq!(watch.reported.into_inner().expect("one thread"), done);
     }

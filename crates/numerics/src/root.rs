@@ -30,7 +30,7 @@ pub fn try_bracketed_root<E>(
     if fb == 0.0 {
         return Ok(Some(b));
     }
-    // False also when one of them is NaN.
+    // `opposite` is false also when one of the two values is NaN.
     let opposite = fa * fb.signum() < 0.0;
     if !opposite {
         return Ok(None);

@@ -47,7 +47,8 @@ pub struct Minimum {
     pub model: QuadraticModel,
 }
 
-/// Largest number of steps that lower the sum. Chosen: a limit of the time.
+/// Largest number of steps that lower the sum. Chosen, to limit the computing time: after them the search returns the point
+/// that it has reached.
 const MAX_STEPS: usize = 100;
 /// Damping λ of the first step, relative to the diagonal: the customary 1e-3. It changes the path to the minimum, not
 /// the minimum.
@@ -57,8 +58,8 @@ const DAMPING_DECREASE: f64 = 0.2;
 /// Factor on the damping after a step that does not lower the sum. Chosen; it changes the number of steps, not the
 /// minimum.
 const DAMPING_INCREASE: f64 = 4.0;
-/// Damping at which the search gives up lowering the sum: a step is then 1e-9 of that without damping along each
-/// parameter. A limit of the time.
+/// Damping at which the search gives up lowering the sum, to limit the computing time. A step is then 1e-9 of that without
+/// damping along each parameter.
 const MAX_DAMPING: f64 = 1e9;
 /// Damping of a step by the model alone, relative to the diagonal, which keeps a singular matrix positive definite. Chosen:
 /// above rounding, and far below what changes a step.
@@ -145,7 +146,8 @@ fn descend(
     let mut model = evaluate(&parameters).filter(is_finite)?;
     let (mut damping, mut evaluations) = (INITIAL_DAMPING, 1);
     for _ in 0..MAX_STEPS {
-        // Stop below the target, or with a step by the model alone.
+        // The search stops at a sum below the target. It also stops with a step by the model alone, if the model predicts a
+        // small decrease or the evaluations are used up.
         if let StoppingRule::PredictedDecrease {
             sufficient_decrease,
             target,
@@ -270,7 +272,7 @@ fn damped_step(
 /// The inverse of a symmetric positive definite matrix of `n` rows, row by row; `None` if it is singular to rounding.
 pub fn inverse(matrix: &[f64], n: usize) -> Option<Vec<f64>> {
     let scale: Vec<f64> = (0..n).map(|k| matrix[k * n + k].sqrt().recip()).collect();
-    // Inverted with a unit diagonal, so that the units of the parameters do not matter.
+    // The matrix is scaled to a unit diagonal before it is inverted, so that the units of the parameters do not matter.
     let scaled = |row: usize, column: usize| scale[row] * matrix[row * n + column] * scale[column];
     let inverse = DMatrix::from_fn(n, n, scaled).cholesky()?.inverse();
     let entry = |(index, value): (usize, &f64)| scale[index / n] * value * scale[index % n];

@@ -17,9 +17,10 @@ pub struct IntervalEnd {
     pub relative_tolerance: f64,
 }
 
-/// Largest number of points of the search for one end of an interval: a limit of the time.
+/// Largest number of trials in the search for one end of an interval, to limit the computing time. After them the closest trial
+/// outside the interval is returned.
 const MAX_TRIALS: usize = 20;
-/// Largest number of evaluations of the sum per trial: a limit of the time.
+/// Largest number of evaluations of the sum per trial, to limit the computing time.
 ///
 /// If it is not enough, the sum after the predicted decrease of the last model is used. In a curved valley that is
 /// too small rather than too large, and the interval becomes wider.
@@ -48,7 +49,7 @@ pub fn profile_end(
     let range = ranges[parameter];
     let bound = range.bounds[usize::from(side > 0.0)];
     let max_step = side * (bound - best.parameters[parameter]);
-    // Bracket of the end: the last trial inside the interval, and the last one outside.
+    // The bracket of the end consists of the last trial inside the interval and the last one outside it.
     let [mut inner, mut outer] = [0.0, f64::INFINITY].map(|step| Trial {
         step,
         root_rise: step,
@@ -73,7 +74,7 @@ pub fn profile_end(
             return None;
         }
 
-        // Update the bracket.
+        // The trial replaces the inner or the outer end of the bracket.
         let (inner_before, outer_before) = (inner, outer);
         *(if is_inside { &mut inner } else { &mut outer }) = trial;
 
@@ -94,7 +95,7 @@ pub fn profile_end(
             inner.interpolate_to(outer)
         };
     }
-    // The closest trial at which the sum has certainly risen enough.
+    // After the last trial the answer is the closest one at which the sum has certainly risen enough.
     Some(value_at(outer.step)).filter(|end| end.is_finite())
 }
 
@@ -172,7 +173,7 @@ fn tangent(best: &Minimum, parameter: usize) -> Vec<f64> {
             let diagonal = inverse[parameter * (n + 1)];
             column.map(|entry| entry / diagonal).collect()
         }
-        // Without an inverse the others stay.
+        // If the normal matrix has no inverse, the other parameters stay where they are.
         None => (0..n)
             .map(|k| if k == parameter { 1.0 } else { 0.0 })
             .collect(),

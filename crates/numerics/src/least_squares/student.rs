@@ -28,7 +28,7 @@ fn probability_within(angle: f64, degrees_of_freedom: usize) -> f64 {
     let is_odd = degrees_of_freedom % 2 == 1;
     let (mut term, mut power) = if is_odd { (cosine, 3) } else { (1.0, 2) };
     let mut sum = if degrees_of_freedom > 1 { term } else { 0.0 };
-    // The finite series of powers of cos θ, each term from the one before.
+    // The probability contains a finite series of powers of cos θ, in which each term follows from the one before.
     while power < degrees_of_freedom {
         let order = power as f64;
         term *= cosine * cosine * (order - 1.0) / order;
