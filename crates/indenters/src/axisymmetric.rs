@@ -33,7 +33,7 @@ pub struct ProfilePoint {
 }
 
 impl ProfilePoint {
-    /// Value beyond the end of the body, infinite in all parts.
+    /// Value of a profile beyond the end of the body, where height, slope and curvature are infinite.
     pub const ENDED: Self = Self {
         height: f64::INFINITY,
         slope: f64::INFINITY,
@@ -51,7 +51,7 @@ pub struct LinePoint {
 }
 
 impl LinePoint {
-    /// Value beyond the end of the body.
+    /// Value of an equivalent line beyond the end of the body, where height and slope are infinite.
     pub const ENDED: Self = Self {
         height: f64::INFINITY,
         slope: f64::INFINITY,
@@ -159,7 +159,8 @@ pub fn abel_slope(body: &(impl Axisymmetric + ?Sized), x: f64) -> f64 {
     if x == 0.0 {
         return apex_slope(body);
     }
-    // The smooth part, and the inverse roots behind the kinks.
+    // Integrate the smooth part of the slope by quadrature, and add the inverse square root that each kink of the profile
+    // contributes behind it.
     let smooth = integrate_quarter_turn(body, x, |r| moment_slope(body, r));
     let kinks = body.kinks().into_iter().filter(|kink| kink.radius < x);
     let leg = |b: f64| ((x - b) * (x + b)).sqrt();
@@ -174,7 +175,8 @@ fn moment_slope(body: &(impl Axisymmetric + ?Sized), r: f64) -> f64 {
     if change.is_finite() {
         return point.slope + change;
     }
-    // Close to a sharp apex h'' overflows before r h'' does; h' ∼ r^(p−1) gives (r h')' = p h'.
+    // Use the leading power close to a sharp apex, where h'' overflows before r h'' does: from h' ∼ r^(p−1) follows (r h')' = p
+    // h'.
     point.slope * body.profile_exponent()
 }
 

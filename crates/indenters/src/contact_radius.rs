@@ -8,14 +8,15 @@ use crate::leading_edge::crossing;
 use crate::{Axisymmetric, EquivalentLine, IndenterError};
 use numerics::{InvalidParameter, bracketed_root, in_range, positive};
 
-/// Ratio 2^(1/8) of neighbouring radii of the search (chosen): narrower valleys of the line are missed.
+/// Ratio of neighbouring radii of the search, 2^(1/8). Chosen: valleys of the line that are narrower than a step are missed.
 const SEARCH_STEP: f64 = 1.090_507_732_665_257_7;
-/// Number of octaves over which the line must follow its leading power to count as the apex (chosen): 12 decades, so that a power
+/// Number of octaves over which the line must follow its leading power to count as the apex. Chosen: 12 decades, so that a power
 /// of a small region is not taken for it.
 const APEX_OCTAVES: u32 = 40;
-/// Largest relative deviation of the local exponent from the leading exponent near the apex (chosen).
+/// Largest relative deviation of the local exponent from the leading exponent with which the line counts as the apex. Chosen.
 const APEX_EXPONENT_TOLERANCE: f64 = 1e-2;
-/// Largest relative fall of the line, Δh̃/h̃ or x |h̃'|/h̃, that counts as rounding (chosen: some thousand roundings).
+/// Largest relative fall of the line that counts as rounding: Δh̃/h̃ or x |h̃'|/h̃, with the height h̃ of the line at the radius
+/// x. Chosen: some thousand roundings.
 const FALL_TOLERANCE: f64 = 1e-12;
 
 /// Contact radius a \[m] at an indentation `depth` d > 0 \[m]: the smallest radius with h̃(a) = d.
@@ -35,11 +36,11 @@ pub fn contact_radius(
 ) -> Result<f64, IndenterError> {
     let depth = positive("depth", depth)?;
     let search = Search { body, depth };
-    // Just outside a downward jump of the slope the line falls.
+    // Collect the kinks at which the slope jumps down, because the line falls just outside them by an inverse square root.
     let mut falling_kinks = body.kinks();
     falling_kinks.retain(|kink| kink.slope_jump < 0.0);
     let edges: Vec<f64> = falling_kinks.iter().map(|kink| kink.radius).collect();
-    // Search outwards, interval by interval, up to the next falling kink.
+    // Search outwards, interval by interval, for the first radius at which the line turns down; a falling kink ends the search.
     let mut inner = search.start_radius()?;
     loop {
         if edges.contains(&inner) {
@@ -121,12 +122,12 @@ impl<P: Axisymmetric + ?Sized> Search<'_, P> {
         let Some(falling) = self.falling_point([inner, outer])? else {
             return Ok(None);
         };
-        // A level line, or one whose height underflows, has not turned yet.
+        // A slope of 0 counts as positive: a level line, or one whose height underflows, has not turned yet.
         let slope = |x: f64| match self.body.line_slope(x) {
             0.0 => f64::MIN_POSITIVE,
             other => other,
         };
-        // One unit in the last place outwards, because the slope at a kink is the inner one.
+        // Begin one unit in the last place farther outwards, because the slope at a kink is the inner one.
         let first = inner.next_up();
         if slope(first) < 0.0 {
             return Ok(Some(inner));
@@ -147,7 +148,7 @@ impl<P: Axisymmetric + ?Sized> Search<'_, P> {
             if !is_lower || middle <= start || middle >= end {
                 return Ok(None);
             }
-            // The line falls over at least one of the halves.
+            // Keep the half over which the line falls; at least one of the two halves is such.
             if self.line_height(middle)? < self.line_height(start)? {
                 end = middle;
             } else {

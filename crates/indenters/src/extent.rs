@@ -1,14 +1,14 @@
 //! Search for the extent of the points of a surface that are lower than a given height.
 
-/// Half widths of the smallest and the largest square that is searched, in units of the height (chosen): an end near the largest
+/// Half widths of the smallest and the largest square that is searched, in units of the height. Chosen: an end near the largest
 /// counts as infinite.
 const SEARCH_HALF_WIDTHS: [f64; 2] = [1e-9, 1e60];
-/// The search ends when no lower point lies between a square and one this many times as wide (chosen): parts that are farther out
-/// are missed.
+/// Ratio of the widths of two squares: the search ends when no lower point lies between a square and one so many times as wide.
+/// Chosen: parts that are farther out are missed.
 const SEARCH_MARGIN: f64 = 1024.0;
-/// Number of intervals of a search grid along each axis (chosen): parts narrower than one of them may be missed.
+/// Number of intervals of a search grid along each axis. Chosen: parts narrower than one of them may be missed.
 const GRID_INTERVALS: i32 = 128;
-/// Bound on the number of refined grids, each over twice the rectangle found on the previous one (chosen).
+/// Largest number of refined grids, each over twice the rectangle found on the previous one. Chosen.
 const MAX_REFINEMENTS: usize = 40;
 
 /// Ends `[[x_min, x_max], [y_min, y_max]]` of a rectangle, \[m].
@@ -20,7 +20,8 @@ pub(crate) fn search(height: f64, is_lower: impl Fn([f64; 2]) -> bool) -> Rectan
         return [[0.0; 2]; 2];
     }
     let [first, last] = SEARCH_HALF_WIDTHS.map(|half_width| half_width * height);
-    // Search squares of growing width.
+    // Search squares of growing width for points below the height, and return the tightened rectangle around them if it is
+    // finite.
     let found = search_squares(&is_lower, [first, last]);
     let is_infinite = |end: f64| end.abs() > last / SEARCH_MARGIN;
     if !found.as_flattened().iter().copied().any(is_infinite) {

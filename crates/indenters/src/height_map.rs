@@ -8,7 +8,7 @@ use crate::table::{check_heights, check_min_length};
 use crate::{IndenterError, Surface};
 use numerics::{finite, positive, whole_part};
 
-/// Distance beyond the edge, relative to the length of the map, within which a point counts as on the edge (chosen).
+/// Ratio of the distance beyond the edge to the length of the map up to which a point counts as on the edge. Chosen.
 ///
 /// It covers the rounding of coordinates that were meant to lie on the edge.
 const EDGE_TOLERANCE: f64 = 1e-12;
@@ -91,7 +91,7 @@ impl HeightMap {
         for height in &heights {
             finite("height", *height)?;
         }
-        // Count the heights from the lowest one.
+        // Measure all heights from the lowest node, which becomes the origin of the body.
         let lowest = lowest_node(shape, &heights);
         let base = heights[lowest[0] * shape[1] + lowest[1]];
         for height in &mut heights {
@@ -150,7 +150,7 @@ impl HeightMap {
 
     /// The cell along an axis that holds a coordinate \[m], and the position in the cell, from 0 to 1; `None` outside.
     fn cell(&self, axis: usize, coordinate: f64) -> Option<(usize, f64)> {
-        // Points beyond the edge by rounding count as on it.
+        // Points that are beyond the edge only by rounding count as on it; those farther outside have no height.
         let node = coordinate / self.spacing[axis] + self.lowest[axis] as f64;
         let last = self.shape[axis] - 1;
         let end = last as f64;
@@ -218,7 +218,7 @@ impl Surface for HeightMap {
     }
 
     fn extent_below(&self, height: f64) -> [[f64; 2]; 2] {
-        // First and last row and column with a node below the height.
+        // Find the first and last row and column that contain a node below the height.
         let mut nodes = self.lowest.map(|index| [index, index]);
         for (index, _) in (self.heights.iter().enumerate()).filter(|(_, node)| **node <= height) {
             let node = [index / self.shape[1], index % self.shape[1]];

@@ -9,7 +9,7 @@ use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 use crate::{IndenterError, RigidLine};
 use numerics::{finite, integrate, positive};
 
-/// Bound on the number of bisections in search of kinks that the line does not report; one kink takes about 30.
+/// Largest number of bisections in search of kinks that the line does not report. Chosen; one kink takes about 30.
 const MAX_BISECTIONS: usize = 1000;
 
 /// Height h(r) \[m] of the body of revolution whose equivalent line is the right half of `line`, at a `radius` r > 0 \[m].
@@ -36,7 +36,7 @@ pub fn inverse_abel(
         });
     }
     let height = |phi: f64| line.height(radius * phi.sin());
-    // Split the quarter turn at the reported kinks.
+    // Split the quarter turn of the integration angle at the reported kinks, because quadrature is accurate only between them.
     let kinks = line.kinks().into_iter();
     let inner = kinks.filter(|kink| *kink > 0.0 && *kink < radius);
     let mut angles = vec![0.0];

@@ -12,8 +12,8 @@ use crate::table::check_min_length;
 use crate::{IndenterError, RigidLine};
 use numerics::{InvalidParameter, bracketed_root, finite, positive};
 
-/// Default number of intervals of the domain that are searched for one turning point each (chosen): two in one interval may be
-/// missed.
+/// Default number of intervals of the domain that are searched for one turning point each. Chosen: of two turning points in one
+/// interval both may be missed.
 const DEFAULT_SAMPLES: usize = 1024;
 
 /// The leading edge A of a rigid line that moves towards positive x.
@@ -114,7 +114,7 @@ pub fn leading_edge_with(
     for end in line.domain() {
         finite("end of the domain", end)?;
     }
-    // Split the line into monotone pieces.
+    // Split the line where it turns into pieces that only rise or only fall, and find its height at their ends.
     let breaks = line.monotone_breaks(samples);
     let heights: Vec<f64> = breaks
         .iter()

@@ -27,7 +27,7 @@
 //! ```
 #![cfg_attr(not(test), warn(unused_crate_dependencies))]
 
-// Only the inflation backend of `zip` is chosen here.
+// The code does not use this crate itself; its features choose the backend with which `zip` inflates archives.
 #[cfg(feature = "topography")]
 use flate2 as _;
 

@@ -5,7 +5,7 @@ use auto_impl::auto_impl;
 use crate::Axisymmetric;
 use numerics::bracketed_root;
 
-/// Bound on the number of bisections of a search interval whose slopes contradict its heights (chosen).
+/// Largest number of bisections of a search interval whose slopes contradict its heights. Chosen.
 const MAX_BISECTIONS: u32 = 40;
 
 /// A continuous rigid line h̃(x) on a closed interval, which moves towards positive x.
@@ -43,7 +43,7 @@ pub trait RigidLine {
 #[derive(Debug, PartialEq)]
 pub struct EquivalentLine<'a, P: ?Sized>(pub &'a P);
 
-// Not derived: a derive would require the body itself to be `Clone`.
+// This is not derived, because a derive would require that the body itself is `Clone`.
 impl<P: ?Sized> Clone for EquivalentLine<'_, P> {
     fn clone(&self) -> Self {
         *self
@@ -88,18 +88,19 @@ fn find_breaks(line: &(impl RigidLine + ?Sized), samples: usize) -> Vec<f64> {
     breaks.push(upper);
     let spacing = (upper - lower) / samples.max(1) as f64;
     let stations = stations(&breaks, spacing);
-    // Slope at the end of the previous interval, zero as long as the line is level.
+    // Keep the slope at the end of the previous interval; it is zero as long as the line is level.
     let mut previous_slope = 0.0_f64;
     for ends in stations.windows(2) {
         let [left, right] = [ends[0], ends[1]];
         let [start, end] = inside([left, right]).map(|x| line.slope(x));
         let rise = line.height(right) - line.height(left);
         let entry_slope = first_nonzero([start, rise, previous_slope]);
-        // A turn at the station itself. A height that is not finite becomes a break, so that callers refuse it there.
+        // Record a turn at the station itself, where the slope changes its sign. A height that is not finite becomes a break, so
+        // that callers refuse it there.
         if previous_slope.signum() * entry_slope < 0.0 || !line.height(left).is_finite() {
             breaks.push(left);
         }
-        // A turn inside the interval.
+        // Record a turn inside the interval, which is found by bisection.
         let mut bisections = 0;
         breaks.extend(turning_point(line, [left, right], &mut bisections));
         previous_slope = first_nonzero([end, entry_slope, previous_slope]);
@@ -115,7 +116,7 @@ fn stations(fixed: &[f64], spacing: f64) -> Vec<f64> {
     for gap in fixed.windows(2) {
         stations.push(gap[0]);
         let between = (1_usize..).map(|step| gap[0] + step as f64 * spacing);
-        // No sliver is left before the end of the gap.
+        // Stations end half a spacing before the gap does, so that no narrow interval is left there.
         stations.extend(between.take_while(|x| x + 0.5 * spacing < gap[1]));
     }
     stations.extend(fixed.last());

@@ -8,18 +8,20 @@ use numerics::{ErrorParts, Estimate, Quantity, Refined};
 
 use crate::{Control, MovingLoad, Stage};
 
-/// Weights of the relative remaining changes in the test for a limit cycle (chosen): friction coefficient, tangential force, normal
-/// force and depth of steps. With 0.1 a single step may still change by ten times the tolerance.
+/// Factors on the relative remaining changes per cycle in the test for a limit cycle: those of friction coefficient, tangential
+/// force, normal force and depth. Chosen. With 0.1 a quantity of a single step may still change by ten times the tolerance.
 const LIMIT_CYCLE_WEIGHTS: [f64; 4] = [1.0, 0.1, 0.1, 0.1];
-/// Weight of the relative remaining change of the history variables in the test for a limit cycle (chosen): that of the forces.
+/// Factor on the relative remaining change of the history variables in the test for a limit cycle. Chosen: equal to that of the
+/// forces.
 const HISTORY_WEIGHT: f64 = 0.1;
-/// Number of elements along the contact on which nothing is known of the friction. On N elements its relative error is at least the cube
-/// of this number over N, which is 3 % on 6.5 elements and 0.2 % on 16 (docs/theory/transient-half-space.md, "Linear loads").
+/// Number of elements along the contact on which nothing is known of the friction. On N elements its relative error is at least
+/// the cube of the ratio of this number to N: 3 % on 6.5 elements and 0.2 % on 16 (docs/theory/transient-half-space.md, "Linear
+/// loads").
 const UNRESOLVED_CONTACT_ELEMENTS: f64 = 2.0;
-/// Approximate number of points at which a motion is reported (chosen): they have error bars of their own, and the tangential forces
+/// Approximate number of points at which a motion is reported. Chosen. Each has error bars of its own, and the tangential forces
 /// of a single motion control its refinement.
 const POINTS_PER_MOTION: usize = 64;
-/// Rounding error of the friction coefficient, relative to the mean slope (chosen).
+/// Ratio of the rounding error of the friction coefficient to the mean slope. Chosen.
 const FRICTION_ROUNDING: f64 = 1e-12;
 /// Number of quantities of the whole motion, which precede those of its points: friction coefficient, peak friction, work.
 const MOTION_QUANTITIES: usize = 3;
@@ -264,7 +266,8 @@ impl MotionView<'_> {
             .iter()
             .map(|station| interpolate(self.load, &record.steps, *station))
             .collect();
-        // The scale of a quantity is its largest value; the elastic tangential force scales with slope times normal force.
+        // Find the largest value of each quantity as its scale; the elastic tangential force scales with slope times normal
+        // force.
         let mut scales = [f64::MIN_POSITIVE; POINT_QUANTITIES];
         for point in &points {
             for (scale, value) in scales.iter_mut().zip(point.values) {
@@ -289,12 +292,13 @@ impl MotionView<'_> {
 
     /// Friction coefficient, peak friction and work of the whole motion, with the errors that are known on one resolution.
     fn motion_quantities(&self, record: &MotionRecord) -> [Quantity; MOTION_QUANTITIES] {
-        // Values and scales of the record.
+        // Read friction, its peak and its scale, to which the errors below refer, from the record.
         let friction = record.friction();
         let peak = record.peak();
         let slope_scale = self.slope_scale(record);
         let is_cycle = self.load.is_cycle();
-        // Errors that differences between grids may not show: of the energy balance of a cycle, and of few elements in contact.
+        // Add errors that differences between grids may not show: the imbalance of the energy of a cycle, and the effect of few
+        // elements in contact.
         let imbalance = if is_cycle {
             record.imbalance.abs()
         } else {
@@ -366,7 +370,8 @@ impl MotionView<'_> {
             truncation: Some(change),
             ..ErrorParts::NONE
         };
-        // The peak changes like the tangential force, and the work like the friction and the normal force.
+        // Take the remaining change of the peak from that of the tangential force, and the change of the work from those of
+        // friction and normal force.
         let [friction, point_errors @ ..] = record.remaining_changes;
         let [tangential_force, normal_force, _] = point_errors;
         let force_scale = record.scales()[2];
@@ -398,7 +403,8 @@ impl MotionView<'_> {
         let friction = not_negative(stated[0], error[0]);
         let is_force = matches!(self.load.largest_control(), Control::NormalForce(_));
         let is_prescribed = |k: usize| (k == 1 && is_force) || (k == 2 && !is_force);
-        // Points: prescribed quantities are exact, the others have the errors of the refinement.
+        // Collect the values at the points of the output: prescribed quantities are exact, the others have the errors of the
+        // refinement.
         let stations = self.stations().into_iter().enumerate();
         let points = stations.map(|(index, station)| {
             let prescribed = self.load.stages()[station.stage].point_at(station.part);
@@ -420,7 +426,7 @@ impl MotionView<'_> {
                 indentation_depth,
             }
         });
-        // An end of the contact is known to two elements.
+        // Each end of the contact gets the error of two elements, because it is known only to the grid.
         let last = record.steps.last().and_then(|step| step.contact);
         let end = |end: f64| Estimate::new(end, 2.0 * record.spacing);
         Moved {
@@ -473,11 +479,12 @@ fn interpolate(load: &MovingLoad, steps: &[MotionStep], station: Station) -> Int
         .partition_point(|step| step.time < time)
         .clamp(1, count - 1);
     let (before, next) = (&steps[after - 1], &steps[after]);
-    // Interpolate between them.
+    // Interpolate the values linearly in time between the two steps.
     let along = (time - before.time) / (next.time - before.time);
     let (from, to) = (values(before), values(next));
     let interpolated = std::array::from_fn(|k| from[k] + along * (to[k] - from[k]));
-    // Find the scatter, with three steps at least.
+    // Estimate the interpolation error: the distance of a middle step from the line through its neighbours, if the stage has
+    // three steps.
     let scatter = match steps.get((after + 1).saturating_sub(2).min(count.saturating_sub(3))..) {
         Some([a, b, c, ..]) => {
             let middle = (b.time - a.time) / (c.time - a.time);

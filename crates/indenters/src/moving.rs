@@ -84,7 +84,7 @@ impl MovingLoad {
                 length: points.len(),
             });
         };
-        // Check the points.
+        // Check each point: time, position and control must be finite, and all points must prescribe a force, or all a depth.
         let is_force = |point: &MovingPoint| matches!(point.control, Control::NormalForce(_));
         for (index, point) in points.iter().enumerate() {
             finite("time", point.time)?;
@@ -107,7 +107,7 @@ impl MovingLoad {
             }
         }
         positive("duration of the motion", last.time - first.time)?;
-        // Turn each interval into a stage.
+        // Turn each interval between two points into a stage, with times relative to the start of the motion.
         let relative_to_start = |point: MovingPoint| MovingPoint {
             time: point.time - first.time,
             ..point
@@ -122,7 +122,7 @@ impl MovingLoad {
             stages: points.windows(2).map(stage).collect(),
             is_cycle: false,
         };
-        // Check the whole motion.
+        // Check that the motion as a whole has a length, and a load above 0 at one point at least.
         positive("length of the motion", load.length())?;
         let allowed = "above 0 at one point of the motion at least";
         let largest = load.largest_control().value();
@@ -213,7 +213,7 @@ impl Stage {
             Shape::Sinusoidal => (std::f64::consts::FRAC_PI_2 * part).sin().powi(2),
             Shape::Triangular => part,
         };
-        // Exact if both ends are equal.
+        // Interpolate between the ends of the stage; if both ends are equal, the result has no rounding error.
         let interpolate = |from: f64, to: f64, part: f64| from + (to - from) * part;
         let control = interpolate(start.control.value(), end.control.value(), part);
         MovingPoint {

@@ -2,17 +2,18 @@
 
 use crate::{IndenterError, MovingLoad, MovingPoint, Stage};
 
-/// Smallest number of steps of a stage per element along the contact, for stages shorter than a contact (chosen): time is then
+/// Smallest number of steps of a stage per element along the contact, for stages shorter than a contact. Chosen: time is then
 /// resolved as finely as the contact.
 const STEPS_PER_ELEMENT: f64 = 1.0;
-/// Number of steps in which the step length grows e-fold, per element along the contact (chosen): refinement of the elements
+/// Number of steps in which the step length grows e-fold, per element along the contact. Chosen: refinement of the elements
 /// refines the growth too.
 const E_FOLDING_STEPS_PER_ELEMENT: f64 = 0.125;
-/// First step of a motion, relative to the longest step of its first stage (chosen): it resolves the response to first contact.
+/// Ratio of the first step of a motion to the longest step of its first stage. Chosen: it resolves the response to first contact.
 const FIRST_STEP_FRACTION: f64 = 1e-4;
-/// First step of a moving stage after another one, relative to its longest step (chosen): the velocity may jump between them.
+/// Ratio of the first step of a moving stage that follows another one to its longest step. Chosen: the velocity may jump between
+/// them.
 const STEP_AFTER_TURN_FRACTION: f64 = 0.02;
-/// First step of a motion that begins with a hold, relative to the longest step of the hold (chosen): the load is applied
+/// Ratio of the first step of a motion that begins with a hold to the longest step of the hold. Chosen: the load is applied
 /// instantaneously, and a hold may be long.
 const FIRST_HOLD_FRACTION: f64 = 1e-6;
 
@@ -46,7 +47,7 @@ impl MovingLoad {
         let mut steps: Vec<MovingStep> = Vec::new();
         for (index, stage) in self.stages().iter().enumerate() {
             let min_steps = min_steps(stage, elements, spacing);
-            // Equal steps for a cycle, graded ones for a single motion.
+            // Divide a stage of a cycle into equal steps; for a single motion the steps grow from a short first one.
             let parts = if self.is_cycle() {
                 equal_parts(min_steps.ceil()).collect()
             } else {
@@ -201,7 +202,7 @@ impl Graded {
                 StagePart { end, length }
             })
             .collect();
-        // The sum of the lengths is 1 up to rounding.
+        // End the last step exactly at the end of the stage, because the sum of the lengths is 1 only up to rounding.
         if let Some(last) = parts.last_mut() {
             last.end = 1.0;
         }

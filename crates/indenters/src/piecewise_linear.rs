@@ -95,7 +95,7 @@ fn find_kinks(radii: &[f64], heights: &[f64], slopes: &[f64]) -> Vec<Kink> {
     (1..slopes.len()).filter(is_kink).map(kink).collect()
 }
 
-/// Bound on the rounding error of a slope jump, relative to height over width of a piece.
+/// Bound on the ratio of the rounding error of a slope jump to the ratio of height to width of a piece.
 ///
 /// Derived: two slopes, each with one rounding of two heights, of their difference and of the quotient.
 const SLOPE_ROUNDING: f64 = 8.0 * f64::EPSILON;

@@ -103,7 +103,7 @@ pub fn radius_below(body: &(impl Axisymmetric + ?Sized), height: f64) -> f64 {
     while above(0.5 * radius) && radius > f64::MIN_POSITIVE {
         radius *= 0.5;
     }
-    // Clamped, because the height may be infinite beyond the end of the body.
+    // Clamp the difference of heights, because the height may be infinite beyond the end of the body.
     let excess = |radius: f64| (body.profile_height(radius) - height).clamp(-height, height);
     bracketed_root(excess, [0.5 * radius, radius]).unwrap_or(radius)
 }

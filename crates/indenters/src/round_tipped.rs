@@ -92,7 +92,7 @@ impl Axisymmetric for RoundTippedCone {
             });
         }
         let angle = arc_cosine(self.radius, x);
-        // (x − √(x² − b²)) / b without cancellation.
+        // Compute (x − √(x² − b²))/b with the radius b of the tip in a form without cancellation.
         let overhang = self.radius / (x + leg(x, self.radius));
         Some(LinePoint {
             height: self.slope * x * (angle + overhang),

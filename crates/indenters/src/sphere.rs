@@ -42,7 +42,8 @@ impl Axisymmetric for Sphere {
         if x >= self.radius {
             return Some(LinePoint::ENDED);
         }
-        // artanh(x / R) from the exact difference R − x.
+        // Compute artanh(x/R), with the radius R of the sphere, from the exact difference R − x, so that it is accurate near the
+        // equator.
         let rest = self.radius - x;
         let inverse_hyperbolic_tangent = 0.5 * (2.0 * x / rest).ln_1p();
         Some(LinePoint {
@@ -54,7 +55,7 @@ impl Axisymmetric for Sphere {
     /// Radius x = R tanh y with y tanh y = h̃/R, by Newton's method.
     fn closed_radius(&self, height: f64) -> Option<f64> {
         let ratio = height / self.radius;
-        // Initial value: the series of y² in the ratio near the apex, y ≈ ratio far from it.
+        // Start Newton's iteration from the series of y² in the ratio near the apex, and from y ≈ ratio far from it.
         let series = 1.0 + ratio * (1.0 / 3.0 + 4.0 / 45.0 * ratio);
         let mut y = (ratio * series.min(ratio + 0.5 / ratio.max(0.5))).sqrt();
         for _ in 0..8 {

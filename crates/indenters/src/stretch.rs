@@ -9,8 +9,8 @@ use std::f64::consts::PI;
 use crate::IndenterError;
 use numerics::positive;
 
-/// Argument p/2 from which the ratio of gamma functions is summed by its asymptotic series, which reaches rounding there; below it
-/// Γ is far from overflow.
+/// Half the exponent p from which the ratio of gamma functions is summed by its asymptotic series. Chosen: the series reaches
+/// rounding there, and below it Γ is far from overflow.
 const ASYMPTOTIC_FROM: f64 = 32.0;
 
 /// Stretch κ(p) of Eq. (9), for any exponent p > 0.
@@ -39,7 +39,7 @@ fn half_step_series(x: f64) -> f64 {
         -39_325.0 / 33_554_432.0,
         -334_477.0 / 2_147_483_648.0,
     ];
-    // Horner's rule in 1/x.
+    // Sum the series from its highest order by Horner's rule in 1/x.
     let from_highest_order = COEFFICIENTS.iter().rev();
     from_highest_order.fold(0.0, |sum, coefficient| sum / x + coefficient)
 }

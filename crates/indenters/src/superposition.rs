@@ -104,7 +104,7 @@ fn derivative(terms: &[PowerTerm], order: f64, weight: impl Fn(f64) -> f64, radi
     if !sum.is_nan() {
         return sum;
     }
-    // The sum is ∞ − ∞. Factor out the dominant power: the highest one for large radii, the lowest one at the apex.
+    // Here the sum is ∞ − ∞. Factor out the dominant power: the highest one for large radii, the lowest one at the apex.
     let shift = match terms {
         [.., last] if radius > 1.0 => last.exponent,
         [first, ..] => first.exponent,

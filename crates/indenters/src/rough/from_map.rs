@@ -7,7 +7,8 @@ use rustfft::num_complex::Complex;
 use crate::rough::{PeriodicSurface, Wave};
 use crate::{HeightMap, IndenterError};
 
-/// Amplitude that counts as rounding of the transform, relative to the largest height (chosen).
+/// Ratio of an amplitude to the largest height up to which it counts as rounding of the transform, and the wave is left out.
+/// Chosen.
 const AMPLITUDE_ROUNDING: f64 = 1e-13;
 
 impl PeriodicSurface {
@@ -42,7 +43,7 @@ impl PeriodicSurface {
                 let n = n as f64;
                 let length = (m / period[0]).hypot(n / period[1]).recip();
                 let is_resolved = 2.0 * m.abs() < rows as f64 && 2.0 * n < columns as f64;
-                // One of the two waves ±(m, n).
+                // Keep only one of the two waves ±(m, n), because both are the same wave.
                 let is_representative = n > 0.0 || m > 0.0;
                 if is_resolved && is_representative && length >= shortest_wavelength * (1.0 - 1e-12)
                 {
@@ -73,7 +74,7 @@ impl PeriodicSurface {
 /// It is stored by n, with the `rows` numbers m of each n next to each other; m above rows/2 stands for m − rows.
 fn transform(map: &HeightMap) -> Vec<Complex<f64>> {
     let [rows, columns] = map.shape();
-    // Transforms along y, then along x.
+    // Fourier transform the heights along y, row by row, then along x.
     let along_y = f64::real_forward(columns);
     let (mut row, mut found) = (along_y.make_input_vec(), along_y.make_output_vec());
     let mut spectrum = vec![Complex::default(); found.len() * rows];

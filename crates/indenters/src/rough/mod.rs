@@ -25,7 +25,7 @@ pub use self_affine::SelfAffine;
 pub use spectrum::{PowerSpectrum, Ring};
 pub use tabulated::TabulatedSpectrum;
 
-/// Relative tolerance of comparisons of wave lengths (chosen); it covers the rounding of whole fractions of a period.
+/// Relative tolerance with which two wavelengths are compared. Chosen; it covers the rounding of whole fractions of a period.
 const WAVELENGTH_TOLERANCE: f64 = 1e-12;
 
 /// A wave a cos(2π (m x/L_x + n y/L_y) + φ) of a periodic surface.
@@ -166,13 +166,14 @@ impl PeriodicSurface {
         let (enough_x, enough_y) = (rows > 2 * along_x, columns > 2 * along_y);
         in_range("elements along x", rows as f64, enough_x, allowed)?;
         in_range("elements along y", columns as f64, enough_y, allowed)?;
-        // Spectrum with n ≥ 0, stored column by column.
+        // Place the amplitudes of all waves in the spectrum. It has only wave numbers n ≥ 0 along y, and is stored column by
+        // column.
         let n_columns = columns / 2 + 1;
         let mut spectrum = vec![Complex::default(); n_columns * rows];
         for wave in &self.waves {
             add_wave(wave, &mut spectrum, rows);
         }
-        // Inverse transforms along x, then along y.
+        // Transform the spectrum back along x, then along y, which gives the heights.
         let along_x = f64::inverse(rows);
         along_x.process(&mut spectrum);
         let along_y = f64::real_inverse(columns);

@@ -21,7 +21,8 @@ pub(super) struct RandomWaves {
     pub(super) seed: u64,
 }
 
-/// Upper bound on the number of wave lengths in a period along an axis (derived: two numbers fit into one stream number).
+/// Upper bound on the ratio of a period to the shortest wavelength, along an axis. Derived: two wave numbers fit into one stream
+/// number.
 const MAX_WAVES_PER_PERIOD: u16 = 1 << 15;
 
 impl RandomWaves {
@@ -46,7 +47,7 @@ impl RandomWaves {
             |axis: usize| (self.period[axis] / shortest * (1.0 + WAVELENGTH_TOLERANCE)).floor();
         #[expect(clippy::cast_possible_truncation, reason = "below the largest number")]
         let [along_x, along_y] = [0, 1].map(|axis| largest_number(axis) as i32);
-        // One of the two waves ±(m, n).
+        // Draw only one of the two waves ±(m, n), because both are the same wave.
         let waves: Vec<Wave> = (0..=along_x)
             .flat_map(|m| (-along_y..=along_y).map(move |n| [m, n]))
             .filter(|[m, n]| *m > 0 || *n > 0)
@@ -73,13 +74,13 @@ impl RandomWaves {
     /// and its angle.
     fn draw(&self, numbers: [i32; 2], amplitude: f64) -> Wave {
         let mut generator = ChaCha8Rng::seed_from_u64(self.seed);
-        // Each wave vector has its own stream.
+        // Each wave vector has its own stream of random numbers, so that a wave does not depend on which others are drawn.
         let place =
             |number: i32| (i64::from(number) + i64::from(MAX_WAVES_PER_PERIOD)).unsigned_abs();
         let [row, column] = numbers.map(place);
         generator.set_stream((row << 32) | column);
         let mut uniform = || ((generator.next_u64() >> 11) as f64 + 0.5) / (1_u64 << 53) as f64;
-        // The modulus of a complex Gaussian number with the mean square 2 (Box & Muller 1958).
+        // Draw the modulus of a complex Gaussian number with the mean square 2 (Box & Muller 1958).
         let modulus = (-2.0 * uniform().ln()).sqrt();
         Wave {
             numbers,

@@ -51,7 +51,8 @@ impl Roughness {
         check_min_length(3, "heights along y", map.shape()[1])?;
         let surface = PeriodicSurface::from_map(map, 0.0)?;
         check_lengths(map)?;
-        // Mean squares of slopes and curvatures, then moments of the heights.
+        // Compute the mean squares of slopes and curvatures: from waves if the surface is periodic, else from differences of
+        // heights. The moments of the heights follow.
         let [along_x, along_y, laplacian] = if repeats {
             mean_squares_of_waves(&surface)
         } else {
@@ -124,7 +125,7 @@ fn mean_squares_of_differences(map: &HeightMap) -> [f64; 3] {
         let squares = places.map(|[row, column]| value(row * map.shape()[1] + column).powi(2));
         squares.sum::<f64>() / (rows * columns) as f64
     };
-    // Differences between a height and the one `next` places later: 1 along y, a row along x.
+    // Compute first and second differences between a height and the one `next` places later: 1 along y, a row along x.
     let heights = map.heights();
     let step = |at: usize, next: usize| heights[at + next] - heights[at];
     let second_difference = |at: usize, next: usize| step(at + next, next) - step(at, next);

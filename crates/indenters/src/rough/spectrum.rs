@@ -105,14 +105,14 @@ fn radial_average(surface: &PeriodicSurface, shape: [usize; 2]) -> Vec<Ring> {
     let half = (0..=rows).flat_map(|m| (0..=columns).map(move |n| [m, n]));
     for [m, n] in half.filter(|numbers| *numbers != [0, 0]) {
         let q = (m as f64 * x).hypot(n as f64 * y);
-        // Off the axes (m, n) stands for (m, −n), too.
+        // Off the axes (m, n) stands for (m, −n) too, hence counts twice.
         let multiplicity = if m > 0 && n > 0 { 2.0 } else { 1.0 };
         if let Some(sum) = sums.get_mut(ring_of(q)) {
             sum.waves += multiplicity;
             sum.wave_number += multiplicity * q;
         }
     }
-    // Sum the densities of the waves.
+    // Add the spectral density of each wave of the surface to the sum of its ring.
     for wave in surface.waves() {
         let [q_x, q_y] = surface.wave_vector(wave);
         if let Some(sum) = sums.get_mut(ring_of(q_x.hypot(q_y))) {
@@ -149,7 +149,7 @@ fn profile_spectrum(surface: &PeriodicSurface, axis: usize, count: usize) -> Vec
         .collect();
     for wave in surface.waves() {
         let number = wave.numbers[axis].unsigned_abs() as usize;
-        // Both ±q have the wave number 0 along this axis.
+        // A wave with the wave number 0 along this axis counts twice, because both ±q have it.
         let multiplicity = if number == 0 { 2.0 } else { 1.0 };
         spectrum[number][1] += multiplicity * density(surface, wave) * step[1 - axis];
     }

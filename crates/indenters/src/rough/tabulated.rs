@@ -49,7 +49,7 @@ impl TabulatedSpectrum {
             positive("wave number", wave_number)?;
             not_negative("density", density)?;
         }
-        // Drop the rows without waves at both ends.
+        // Drop the rows of density 0 at both ends of the table, because they contain no waves.
         let has_waves = |density: &f64| *density > 0.0;
         let last = densities
             .iter()
@@ -106,7 +106,7 @@ impl TabulatedSpectrum {
             .clamp(1, last);
         let from = to - 1;
         let [below, above] = [self.densities[from], self.densities[to]];
-        // Linear in q next to a row without waves, otherwise a power of q.
+        // The density is linear in q next to a row without waves, otherwise a power of q.
         if below == 0.0 || above == 0.0 {
             let width = self.wave_numbers[to] - self.wave_numbers[from];
             let part = (wave_number - self.wave_numbers[from]) / width;

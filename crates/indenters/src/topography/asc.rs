@@ -4,9 +4,9 @@ use super::text::{Notation, lines, shown, text_of};
 use super::{FORMATS, LateralUnit, Memory, Topography, TopographyError};
 use numerics::whole_part;
 
-/// Marker of missing heights if the header states none (Esri's convention).
+/// Height that marks a missing one if the header states no marker (Esri's convention).
 const DEFAULT_MISSING: f64 = -9999.0;
-/// Magnitude beyond which heights of the sign of the marker are missing, too (chosen).
+/// Magnitude beyond which heights with the sign of the marker count as missing, too. Chosen.
 ///
 /// Such markers are the smallest or largest f32, written with any number of digits.
 const MAX_ABS_HEIGHT: f64 = 1e30;
@@ -29,7 +29,7 @@ const HEADER_NAMES: [&str; 10] = [
 pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, TopographyError> {
     memory.require_text(contents)?;
     let text = text_of(contents);
-    // Read the header.
+    // Read the number of columns and rows, and the spacings, from the names of the header.
     let head = Head::of(&text)?;
     let [columns, rows] = [head.required(&["ncols"])?, head.required(&["nrows"])?];
     let spacing = [
@@ -37,7 +37,7 @@ pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, Topogr
         head.required(&["cellsize", "dy"])?,
     ];
     let missing = head.number_of("nodata_value").unwrap_or(DEFAULT_MISSING);
-    // Read the heights.
+    // Read the heights line by line, and count those in each line.
     let mut heights = Vec::new();
     let mut lengths = Vec::new();
     let notation = Notation::of(&text);
@@ -60,7 +60,7 @@ pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, Topogr
             });
         }
     }
-    // Check their number.
+    // Check the number of heights in each line and in all, which the header states.
     check_line_lengths(&lengths, [columns, rows])?;
     let last = lengths.last().map_or(head.lines.max(1), |(line, _)| *line);
     if [columns, rows].iter().any(|count| count.fract() != 0.0)
@@ -146,7 +146,7 @@ impl Head {
                 })?;
             known.push((name, number));
         }
-        // Refuse a text without a header.
+        // Refuse a text without any line of a header, and name the formats that such a text may have.
         let lines = known.len();
         if lines == 0 {
             let advice = "give points x, y and z the extension xyz, and rows of heights txt";

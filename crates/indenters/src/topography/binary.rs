@@ -4,7 +4,7 @@ use super::memory::Memory;
 use super::text::text_of;
 use super::{LateralUnit, ReadFailure, Topography, metres};
 
-/// Bound on the length of the text header of a Gwyddion Simple Field, \[bytes] (chosen): a file without the zero that ends it is
+/// Largest length of the text header of a Gwyddion Simple Field, \[bytes]. Chosen: a file without the zero that ends it is
 /// refused without a search through all of it.
 const MAX_HEADER_BYTES: usize = 1 << 16;
 
@@ -39,7 +39,7 @@ pub(super) fn simple_field(contents: &[u8], memory: Memory) -> Result<Topography
     let height = unit_of(found("ZUnits", ""))?;
     let size = [number("XReal")?, number("YReal")?].map(|size| size * unit.unwrap_or(1.0));
     let spacing = [size[0] / columns as f64, size[1] / rows as f64];
-    // The zeros end at a multiple of four bytes.
+    // The header ends with zeros up to a multiple of four bytes, behind which the heights begin.
     let data = contents.get(4 * (end / 4 + 1)..).unwrap_or_default();
     let values = data.as_chunks().0;
     if columns.checked_mul(rows) != Some(values.len()) {
@@ -103,12 +103,12 @@ pub(super) fn digital_surf(contents: &[u8], memory: Memory) -> Result<Topography
         return Err(found.into());
     }
     memory.require_heights(points)?;
-    // Read the units and spacings.
+    // Read the units of the three axes, then the spacings and the height of one step in metres.
     let [unit_x, unit_y, unit_z] = [unit(180)?, unit(196)?, unit(212)?];
     let length = |at: usize, unit: Option<f64>| real(at) * unit.unwrap_or(1.0);
     let spacing = [length(120, unit_x), length(124, unit_y)];
     let step = length(128, unit_z);
-    // Read the heights.
+    // Read the heights, which are whole numbers of two or four bytes; a special one marks missing heights.
     let missing =
         (short(86) == 1).then(|| i32::from_le_bytes(bytes_at(contents, 100)).wrapping_sub(2));
     let height = |index: usize| {

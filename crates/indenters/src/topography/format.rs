@@ -90,11 +90,11 @@ const UNSUPPORTED_SIGNATURES: [(&[u8], &str); 36] = [
     (b"solid ", "a mesh of triangles (stl)"),
     (b"ply\n", "a mesh of triangles (ply)"),
 ];
-/// Number of bytes at the beginning of a file that decide between text and binary (chosen).
+/// Number of bytes at the beginning of a file that are examined to tell binary files from texts. Chosen.
 const SAMPLED_BYTES: usize = 4096;
-/// A file with more than one control character per this many bytes is binary (chosen).
+/// Number of bytes per control character below which a file counts as binary. Chosen.
 const BYTES_PER_CONTROL: usize = 50;
-/// Number of control characters that a damaged short text may contain (chosen).
+/// Largest number of control characters with which a damaged short text still counts as text. Chosen.
 const MAX_STRAY_CONTROLS: usize = 6;
 
 impl Format {
@@ -103,7 +103,7 @@ impl Format {
     /// # Errors
     /// A description of contents in none of the formats.
     pub(super) fn of(extension: &str, contents: &[u8]) -> Result<Self, String> {
-        // Refuse formats that are known and not supported.
+        // Refuse a format that is recognised by its first bytes and not supported, and name it.
         if let Some((_, name)) = UNSUPPORTED_SIGNATURES
             .iter()
             .find(|(start, _)| contents.starts_with(start))
@@ -113,7 +113,7 @@ impl Format {
         if contents.starts_with(b"PK\x03\x04") && extension != "x3p" {
             return archive_format(contents);
         }
-        // Decide by the beginning of the contents.
+        // Decide the format by the beginning of the contents, which is more reliable than the name.
         let by_contents = [
             (contents.starts_with(b"\x93NUMPY"), Self::Npy),
             (contents.starts_with(b"Gwyddion Simple Field"), Self::Gsf),
@@ -124,7 +124,7 @@ impl Format {
         if let Some((_, format)) = by_contents.into_iter().find(|(is_it, _)| *is_it) {
             return Ok(format);
         }
-        // Decide by the extension.
+        // If the contents do not decide, decide by the extension of the file name.
         match extension {
             "asc" => Ok(Self::Asc),
             "gsf" => Ok(Self::Gsf),

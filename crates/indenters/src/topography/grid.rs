@@ -2,13 +2,13 @@
 
 use numerics::whole_part;
 
-/// Largest deviation of an exact coordinate from its node, relative to the spacing (chosen): more is tried as rounding of the
-/// written digits.
+/// Largest ratio of the deviation of an exact coordinate from its node to the spacing. Chosen: a larger one may be rounding of
+/// the written digits, which is tried next.
 const EXACT_TOLERANCE: f64 = 0.01;
-/// Largest deviation of a rounded coordinate from its node, relative to the spacing (chosen; a gap makes it 0.5).
+/// Largest ratio of the deviation of a rounded coordinate from its node to the spacing. Chosen; a gap makes it 0.5.
 const MAX_ROUNDING_TOLERANCE: f64 = 0.3;
-/// Distance within which two coordinates are equal, relative to the range of all (chosen): a grid has at most a million nodes along
-/// an axis.
+/// Ratio of the distance of two coordinates to the range of all up to which they count as equal. Chosen: a grid has at most a
+/// million nodes along an axis.
 const DUPLICATE_TOLERANCE: f64 = 1e-6;
 
 /// Equally spaced coordinates.
@@ -38,7 +38,7 @@ impl Axis {
         let ends = values.first().copied().zip(values.last().copied());
         let (first, last) = ends.ok_or("no points")?;
         let range = last - first;
-        // Resolution: one unit of the last digit of the largest coordinate.
+        // The resolution of written coordinates is one unit of the last digit of the largest one.
         let digits = first.abs().max(last.abs()).log10().floor();
         let resolution = 10.0_f64.powf(digits + 1.0 - f64::from(significant));
         values.dedup_by(|next, before| *next - *before <= DUPLICATE_TOLERANCE * range);
@@ -61,7 +61,7 @@ impl Axis {
             .into_iter()
             .filter(|count| count.is_finite())
             .map(|count| axis(count, EXACT_TOLERANCE * range / count));
-        // Rounded coordinates do not show their spacing: try all numbers of intervals.
+        // Rounded coordinates do not show their spacing exactly, so try all numbers of intervals up to twice the smallest.
         let rounded = (n_intervals..=2 * n_intervals).map(|count| {
             let count = count as f64;
             axis(
@@ -85,7 +85,7 @@ impl Axis {
     pub(super) fn node(&self, value: f64) -> Option<usize> {
         let node = (value - self.first) / self.step;
         let deviation = (node - node.round()).abs() * self.step;
-        // The step itself has the rounding of the first and the last coordinate.
+        // Allow for the rounding of the step itself, which comes from the first and the last coordinate.
         let edge_rounding = 1e-9 * self.step;
         (deviation <= self.tolerance + edge_rounding).then(|| whole_part(node.round().max(0.0)))
     }

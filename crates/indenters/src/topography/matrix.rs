@@ -5,19 +5,20 @@ use super::header::Stated;
 use super::text::{Sheet, is_comment, text_of};
 use super::{FORMATS, LateralUnit, Memory, Topography, TopographyError};
 
-/// Largest relative difference between the given spacing and that of the size in the header, which is rounded (chosen).
+/// Largest relative difference between the given spacing and that of the size in the header. Chosen, because the header is
+/// rounded.
 const SPACING_TOLERANCE: f64 = 0.01;
-/// Largest deviation of a rounded label from equal spacing, relative to the spacing (chosen).
+/// Largest ratio of the deviation of a rounded label from equal spacing to the spacing. Chosen.
 const ROUNDED_LABEL_TOLERANCE: f64 = 0.3;
-/// Number of labels from which they may be rounded (chosen): of fewer numbers some are equally spaced within the larger tolerance by
-/// chance.
+/// Number of labels from which they may be rounded. Chosen: of fewer numbers some are equally spaced within the larger tolerance
+/// by chance.
 const MIN_ROUNDED_LABELS: usize = 8;
-/// Largest deviation of fewer than [`MIN_ROUNDED_LABELS`] labels from equal spacing, relative to the spacing (chosen): practically
-/// none.
+/// Largest ratio of the deviation of fewer than [`MIN_ROUNDED_LABELS`] labels from equal spacing to the spacing. Chosen:
+/// practically none.
 const EXACT_LABEL_TOLERANCE: f64 = 1e-6;
-/// Smallest number of equally spaced numbers that are not a coincidence (chosen).
+/// Smallest number of equally spaced numbers that count as labels and not as a coincidence. Chosen.
 const MIN_LABELS: usize = 4;
-/// Largest number of columns of a list of points: x, y, z, and colours and normals that scanners add (chosen).
+/// Largest number of columns with which rows may be a list of points. Chosen: x, y, z, and colours and normals that scanners add.
 const MAX_POINT_COLUMNS: usize = 10;
 
 /// Reads rows of heights, with a spacing that is given or stated in the text.
@@ -190,7 +191,7 @@ fn is_equally_spaced(numbers: &[f64]) -> bool {
     } * step.abs();
     let deviation =
         |(place, number): (usize, &f64)| (number - numbers[0] - place as f64 * step).abs();
-    // The comparison refuses NaN.
+    // The comparison is written so that it is false for NaN.
     step != 0.0
         && numbers
             .iter()

@@ -2,7 +2,7 @@
 
 use super::TopographyError;
 
-/// Memory per height while a surface is read, \[bytes] (chosen: five copies of 8 bytes and growing vectors).
+/// Memory per height while a surface is read, \[bytes]. Chosen: it covers five copies of 8 bytes and vectors that grow.
 const BYTES_PER_HEIGHT: u64 = 64;
 
 /// Memory that a reader may use in addition to the contents of the file, \[bytes].

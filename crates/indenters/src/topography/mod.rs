@@ -235,7 +235,7 @@ impl Topography {
         let columns = self.shape[1];
         self.n_filled += self.missing();
         loop {
-            // Give each hole with a known neighbour their mean.
+            // Give each missing height that has a known neighbour the mean of its known neighbours.
             let before = self.heights.clone();
             for index in (0..before.len()).filter(|index| before[*index].is_nan()) {
                 let column = index % columns;
@@ -254,7 +254,7 @@ impl Topography {
                     self.heights[index] = known.iter().sum::<f64>() / known.len() as f64;
                 }
             }
-            // End when no hole was filled.
+            // End when a round has filled no missing height.
             let missing = |heights: &[f64]| heights.iter().filter(|height| height.is_nan()).count();
             if missing(&self.heights) == missing(&before) {
                 return self;

@@ -16,7 +16,7 @@ pub(super) fn read(
     spacing: [f64; 2],
     memory: Memory,
 ) -> Result<Topography, ReadFailure> {
-    // Read the header, and check the length.
+    // Read type, order and shape of the numbers from the header, and check the length of the file.
     let (header, numbers) = split_header(contents)?;
     let size = size_of_number(header)?;
     let by_column = is_by_column(header)?;
@@ -28,7 +28,7 @@ pub(super) fn read(
         return Err(format!("{needed}, but there are {bytes} bytes").into());
     }
     memory.require_heights(Some(numbers.len() / size))?;
-    // Read the numbers.
+    // Read the heights, which have four or eight bytes each.
     let mut heights: Vec<f64> = if size == F32_BYTES {
         let number = |bytes: &[u8; F32_BYTES]| f32::from_le_bytes(*bytes).into();
         numbers.as_chunks().0.iter().map(number).collect()
@@ -36,7 +36,7 @@ pub(super) fn read(
         let number = |bytes: &[u8; F64_BYTES]| f64::from_le_bytes(*bytes);
         numbers.as_chunks().0.iter().map(number).collect()
     };
-    // Put them into the order of rows.
+    // If the file stores column after column, put the heights into the order of rows.
     if by_column {
         let place = |index: usize| index / columns + index % columns * rows;
         let in_rows = (0..heights.len()).map(|index| heights[place(index)]);

@@ -6,7 +6,7 @@ use std::str::FromStr;
 use super::text::{shown, text_of};
 use super::{Memory, ReadFailure, Topography};
 
-/// Length of the version, \[bytes].
+/// Length of the field with the version of the format, with which the file begins, \[bytes].
 const VERSION_BYTES: usize = 8;
 /// Length of manufacturer and dates after the version, \[bytes].
 const MANUFACTURER_AND_DATES_BYTES: usize = 34;
@@ -163,7 +163,7 @@ pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, ReadFa
 
 /// Splits binary contents into the header and the bytes after it.
 fn binary_head(contents: &[u8]) -> Result<(Head, &[u8]), String> {
-    // The fields have no names: their order is fixed.
+    // Take the fields of the header one after the other: they have no names, and their order is fixed.
     let mut rest = contents
         .get(VERSION_BYTES + MANUFACTURER_AND_DATES_BYTES..)
         .ok_or("the end within the header")?;
@@ -219,7 +219,7 @@ fn read_text(text: &str) -> Result<Topography, String> {
         data_type: DataType::of(names.parsed("DataType")?)?,
     };
     let head = head.validated(names.parsed("Compression")?, names.parsed("CheckType")?)?;
-    // Read the heights, and check their number.
+    // Read the heights and check their number; the words bad and nan mark missing ones.
     let height = |word: &str| {
         if word.eq_ignore_ascii_case("bad") || word.eq_ignore_ascii_case("nan") {
             return Ok(f64::NAN);

@@ -7,7 +7,7 @@ const MISSING_WORDS: [&str; 16] = [
     "na", "n/a", "#n/a", "#nv", "<na>", "null", "none", "bad", "-", "--", "---", "***", "nodata",
     "1.#qnan", "-1.#ind", "nan(ind)",
 ];
-/// Length of the beginning of a text from which the separator is found, \[bytes] (chosen): a limit of the time.
+/// Length of the beginning of a text from which the separator is found, \[bytes]. Chosen: it limits the time for long texts.
 const SAMPLED_BYTES: usize = 1 << 20;
 /// Error values of spreadsheets, which begin with `#` and are no comments.
 const FAILED_FORMULAS: [&str; 8] = ["N/A", "NV", "DIV", "VALUE", "WERT", "NUM", "REF", "NAME"];
@@ -76,7 +76,7 @@ impl Notation {
 
     /// A finite number with a decimal point, or with a decimal comma if the separator is not a comma; `None` if the cell is none.
     pub(super) fn number(&self, cell: &str) -> Option<f64> {
-        // One mark at most: two are those of thousands, or of a comma that separates cells.
+        // Accept one mark at most: two are those of thousands, or of a comma that separates cells.
         let marks = cell.bytes().filter(|byte| b".,".contains(byte)).count();
         if marks > 1 || (self.separator == ',' && cell.contains(',')) {
             return None;
@@ -209,7 +209,8 @@ impl<'a> Sheet<'a> {
         let mut marks: [Option<(usize, &str)>; 2] = [None, None];
         let mut digits = DigitCounts::default();
         for &(line, text) in &self.rows {
-            // Read the numbers of a row.
+            // Read the numbers of a row; a row with a cell that is neither a number nor missing, or with another number of cells,
+            // is refused.
             let cells = self.notation.cells(text);
             let numbers = cells
                 .iter()
@@ -217,7 +218,7 @@ impl<'a> Sheet<'a> {
                 .collect::<Option<Vec<f64>>>()
                 .filter(|numbers| numbers.len() == self.width())
                 .ok_or_else(|| self.notation.wrong_row(line, &cells))?;
-            // Note the first decimal comma and the first point.
+            // Keep the first cells with a decimal comma and with a decimal point, for the check at the end.
             for (first, mark) in marks.iter_mut().zip([',', '.']) {
                 let found = cells.iter().find(|cell| cell.contains(mark));
                 *first = first.or_else(|| found.map(|cell| (line, *cell)));
@@ -225,7 +226,7 @@ impl<'a> Sheet<'a> {
             digits.record(&cells);
             visit(line, &cells, &numbers)?;
         }
-        // Refuse a last number that seems truncated.
+        // Refuse a text without a final newline whose last number is shorter than the others, and seems truncated.
         let last = self.rows.last().map_or(1, |(line, _)| *line);
         if self.lacks_final_newline
             && let Some(problem) = digits.truncated_end()
@@ -235,7 +236,7 @@ impl<'a> Sheet<'a> {
                 problem,
             });
         }
-        // Refuse both decimal commas and points.
+        // Refuse a text that has both decimal commas and decimal points.
         let [Some((line, comma)), Some((other, point))] = marks else {
             return Ok(());
         };
@@ -383,7 +384,7 @@ pub(super) fn is_comment(line: &str) -> bool {
 pub(super) fn text_of(contents: &[u8]) -> String {
     let mut text = decode(contents);
     if !text.contains('\n') {
-        // Carriage returns separate the lines.
+        // The text has no line feeds, so carriage returns separate its lines.
         text = text.replace('\r', "\n");
     }
     if text.contains("No Data") || text.contains("no data") {

@@ -9,20 +9,20 @@ use zip::ZipArchive;
 use super::memory::Memory;
 use super::{ReadFailure, Topography};
 
-/// Bound on the length of the description, \[bytes] (chosen): a small archive may expand to any length.
+/// Largest length of the description, \[bytes]. Chosen: a small archive may expand to any length.
 const MAX_DESCRIPTION_BYTES: u64 = 1 << 20;
-/// Bound on the number of attributes in the description (chosen), because the parser compares each with all others.
+/// Largest number of attributes in the description. Chosen, because the parser compares each with all others.
 const MAX_ATTRIBUTES: usize = 4096;
-/// Bound on the number of parts of an archive (chosen); it needs a description and heights only.
+/// Largest number of parts of an archive. Chosen; only a description and heights are needed.
 const MAX_ARCHIVE_PARTS: usize = 1000;
-/// Largest padding after the heights, \[bytes] (chosen: a block of a file).
+/// Largest padding after the heights, \[bytes]. Chosen: a block of a file.
 const MAX_PADDING_BYTES: u64 = 4096;
 
 /// Reads an archive with a description in XML and a matrix of heights.
 pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, ReadFailure> {
     let mut archive = open_archive(contents)?;
     let mut read_part = |name: &str, max_bytes: u64| read_part(&mut archive, name, max_bytes);
-    // Read the description.
+    // Read the description main.xml of the archive, and refuse it if it has too many attributes.
     let main = read_part("main.xml", MAX_DESCRIPTION_BYTES)?;
     if main.iter().filter(|byte| **byte == b'=').count() > MAX_ATTRIBUTES {
         return Err(format!("main.xml: more than {MAX_ATTRIBUTES} attributes").into());

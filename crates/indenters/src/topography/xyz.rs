@@ -22,7 +22,7 @@ pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, Topogr
         );
         return Err(wrong(first, problem));
     }
-    // Find the grid of the points.
+    // Find the equally spaced grid along x and y on which the points lie.
     let stated = Stated::of(&sheet.head)?;
     let (points, digits) = read_points(&sheet)?;
     let axis = |which: usize, name: &str| {
@@ -86,18 +86,18 @@ fn place_on_grid(
         let line = sheet.rows[index].0;
         TopographyError::Line { line, problem }
     };
-    // A grid that is nearly empty is none: the points are scattered.
+    // If less than one in a hundred nodes has a point, the points are scattered and form no grid.
     let n_elements = x.count.checked_mul(y.count);
     if n_elements.is_none_or(|n_elements| n_elements / 100 > points.len()) {
         let (count, [nx, ny]) = (points.len(), [x.count, y.count]);
         return Err(wrong(0, format!("{count} points of a grid of {nx} × {ny}")));
     }
-    // The points are in memory, too.
+    // Check that the heights of the grid fit into the memory beside the points, which are there already.
     memory
         .require_heights(n_elements.and_then(|n_elements| n_elements.checked_add(points.len())))?;
     let element_at = |[at_x, at_y]: [f64; 2]| Some(y.node(at_y)? * x.count + x.node(at_x)?);
     let mut heights = vec![f64::NAN; x.count * y.count];
-    // Put each point on its node, once.
+    // Put each point on its node, and refuse a second point on the same node.
     let mut is_there = vec![false; heights.len()];
     for (index, (at, height)) in points.iter().enumerate() {
         let [at_x, at_y] = at;
