@@ -9,7 +9,7 @@
 
 /// Argument s above which M is computed as 1 − [`layer_deficit`] (chosen): the deficit is then below rounding.
 const DEFICIT_FORM_FROM: f64 = 24.0;
-/// Largest argument s that is distinguished: e^(−2s) is 0 there, and s² no overflow.
+/// Largest argument s that is distinguished from larger ones: e^(−2s) is 0 there, and s² does not overflow.
 const MAX_ARGUMENT: f64 = 1e3;
 
 /// Ratio M(s) of the compliance of a layer on a rigid base to that of the half space, for s = |q|t ≥ 0 and −1 < ν ≤ 1/2.

@@ -73,7 +73,7 @@ pub trait Material: Debug + Send + Sync {
     }
 }
 
-/// Largest |G*(ω) J*(ω) − 1| for two spectra of the same material (chosen: conversions are accurate to 1e-9).
+/// Largest |G*(ω) J*(ω) − 1| with which two spectra count as those of one material. Chosen: conversions are accurate to 1e-9.
 const MAX_SPECTRUM_MISMATCH: f64 = 1e-6;
 
 /// Refuses a material whose [`relaxation`](Material::relaxation) and [`creep`](Material::creep) contradict each other.
@@ -85,7 +85,7 @@ const MAX_SPECTRUM_MISMATCH: f64 = 1e-6;
 /// [`InvalidParameter`] with the largest deviation of the product from 1.
 pub fn check_spectra(material: &(impl Material + ?Sized)) -> Result<(), InvalidParameter> {
     let (relaxation, creep) = (material.relaxation(), material.creep());
-    // Frequencies at which one of the spectra changes, and others far below and above.
+    // Collect the frequencies at which one of the spectra changes, and others far below and above.
     let branches = relaxation.branches().iter();
     let elements = creep.elements().iter();
     let times = branches
@@ -98,7 +98,7 @@ pub fn check_spectra(material: &(impl Material + ?Sized)) -> Result<(), InvalidP
     let lowest = frequencies.iter().copied().fold(f64::INFINITY, f64::min);
     let highest = frequencies.iter().copied().fold(0.0, f64::max);
     frequencies.extend([1e-3 * lowest, 1e3 * highest]);
-    // Largest deviation of the product from 1.
+    // Find the largest deviation of the product of modulus and compliance from 1.
     let mut largest = 0.0_f64;
     for frequency in frequencies {
         let modulus = relaxation.complex_modulus(frequency);
@@ -106,7 +106,7 @@ pub fn check_spectra(material: &(impl Material + ?Sized)) -> Result<(), InvalidP
         let (Ok(modulus), Ok(compliance)) = (modulus, compliance) else {
             continue;
         };
-        // (G' + i G'') (J' − i J'').
+        // Multiply modulus and compliance: (G' + i G'') (J' − i J'') is 1 for spectra of one material.
         let real = modulus.storage * compliance.storage + modulus.loss * compliance.loss;
         let imaginary = modulus.loss * compliance.storage - modulus.storage * compliance.loss;
         let deviation = (real - 1.0).hypot(imaginary);

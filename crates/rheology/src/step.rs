@@ -40,7 +40,8 @@ struct Field {
     gain_before: f64,
 }
 
-/// Largest ratio β/α for an input that is linear over the whole step (chosen: 0.7¹⁰ ≈ 1/35 after ten steps).
+/// Largest ratio β/α with which the input is taken as linear over the whole step. Here β is the response to the previous input
+/// and α that to the new one. Chosen: 0.7¹⁰ ≈ 1/35 after ten steps.
 const MAX_ALTERNATION: f64 = 0.7;
 
 impl ExponentialStep {
@@ -82,7 +83,8 @@ impl ExponentialStep {
     /// The errors of [`creep`](Self::creep).
     pub fn creep_linear(spectrum: &CreepSpectrum, time_step: f64) -> Result<Self, RheologyError> {
         let mut step = Self::creep(spectrum, time_step)?;
-        // Response to the previous input if it is linear over the whole step, and its ratio β/α to the response to the new one.
+        // Compute the response to the previous input if it is linear over the whole step, and its ratio β/α to the response α to
+        // the new one.
         let delayed = spectrum.elements().iter().map(|one| one.lead(time_step));
         let leads = delayed.chain((spectrum.fluidity() > 0.0).then_some(0.5));
         let whole: f64 = leads
@@ -127,7 +129,8 @@ impl ExponentialStep {
             gain_before,
         } in &self.fields
         {
-            // (gain + gain_before e^(−i ωΔt))/(1 − decay e^(−i ωΔt)), without cancellation for small angles.
+            // Compute (gain + gain_before e^(−i ωΔt))/(1 − decay e^(−i ωΔt)), the response to an oscillation of the frequency ω,
+            // without cancellation for small angles.
             let [real, imaginary] = [
                 (1.0 - decay) + 2.0 * decay * (0.5 * angle).sin().powi(2),
                 decay * sin,
@@ -181,7 +184,7 @@ impl ExponentialStep {
         if input.is_empty() {
             return;
         }
-        // An input that is held at its new value.
+        // Update the history variables for an input that is held at its new value over the step.
         if !self.keeps_input {
             for (field, values) in self.fields.iter().zip(state.chunks_exact_mut(input.len())) {
                 for (value, input) in values.iter_mut().zip(input) {
@@ -190,7 +193,7 @@ impl ExponentialStep {
             }
             return;
         }
-        // An input that is linear from the previous one, which is stored behind the history variables.
+        // Otherwise update them for an input that is linear from the previous one, which is stored behind the history variables.
         let (state, before) = state.split_at_mut(n_values - input.len());
         for (field, values) in self.fields.iter().zip(state.chunks_exact_mut(input.len())) {
             for ((value, input), before) in values.iter_mut().zip(input).zip(&*before) {

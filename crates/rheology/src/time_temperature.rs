@@ -108,12 +108,12 @@ impl WlfShift {
     }
 }
 
-/// Number of updates of the weights of the linear equations (chosen); convergence is not tested.
+/// Number of updates of the weights of the linear equations. Chosen; convergence is not tested.
 const N_REWEIGHTINGS: usize = 30;
 
 /// Weighted least-squares solution C₁ and C₂ of the linear equations for pairs of ΔT and log₁₀ a_T.
 fn linear_constants(pairs: &[[f64; 2]], weight: impl Fn(f64) -> f64) -> [f64; 2] {
-    // Weighted sums of products of d = ΔT and l = log₁₀ a_T.
+    // Compute weighted sums of products of d = ΔT and l = log₁₀ a_T, which form the normal equations.
     let [mut dd, mut dl, mut ll, mut ddl, mut dll] = [0.0; 5];
     for &[d, l] in pairs {
         let w = weight(d);
@@ -144,7 +144,7 @@ impl ArrheniusShift {
     /// # Errors
     /// [`RheologyError::InvalidParameter`] when no positive energy describes the pairs.
     pub fn fit(shifts: &[[f64; 2]], reference_temperature: f64) -> Result<Self, RheologyError> {
-        // The logarithm is proportional to the energy: a straight line through the origin.
+        // The logarithm of a shift factor is proportional to the activation energy: fit a straight line through the origin.
         let per_energy = Self::new(1.0, reference_temperature)?;
         let [mut products, mut squares] = [0.0; 2];
         for &[temperature, log] in shifts {

@@ -11,11 +11,13 @@ use numerics::fourier_power;
 
 use crate::CreepSpectrum;
 
-/// Number of waves per decade of the spectrum along a line (chosen): bands of 6 % in frequency, about which the fractions blur.
+/// Number of waves per decade of the spectrum along a line. Chosen: bands have 6 % in frequency, about which the fractions blur.
 const WAVES_PER_DECADE: f64 = 40.0;
-/// Smallest wave number times the length of the contact, or times the distance slid in the longest retardation time (chosen).
+/// Smallest product of the wave number and the longer of two lengths: that of the contact, and the distance slid in the longest
+/// retardation time. Chosen.
 const MIN_WAVE_NUMBER_FACTOR: f64 = 1e-2;
-/// Largest wave number times the shortest distance of two points (chosen): beyond it a jump has a thousandth of its power.
+/// Largest product of the wave number and the shortest distance of two points. Chosen: beyond it a jump has a thousandth of its
+/// power.
 const MAX_WAVE_NUMBER_FACTOR: f64 = 1e2;
 
 /// Spectral weight of the stress of a stationary state in a band of angular frequencies.
@@ -49,7 +51,7 @@ impl CreepSpectrum {
         for StressBand { band, weight } in bands {
             let [start, end] = band;
             let width = end - start;
-            // Dissipation of a part of the band, or of a single frequency.
+            // Compute the dissipation of a part of the band, or of a single frequency if the band has no width.
             let part = |[from, to]: [f64; 2]| {
                 if width > 0.0 {
                     weight / width * (self.loss_integral(to) - self.loss_integral(from))
@@ -87,7 +89,8 @@ impl CreepSpectrum {
         velocity: f64,
         compliance: impl Fn(f64) -> f64,
     ) -> Vec<StressBand> {
-        // Waves from the length of the contact, or of the memory of the material, down to the shortest distance of two points.
+        // Take waves from the length of the contact, or of the memory of the material, down to the shortest distance of two
+        // points.
         let steps = points.windows(2).map(|pair| pair[1][0] - pair[0][0]);
         let shortest = steps.clone().filter(|step| *step > 0.0);
         let shortest = MAX_WAVE_NUMBER_FACTOR / shortest.fold(f64::INFINITY, f64::min);
@@ -96,7 +99,7 @@ impl CreepSpectrum {
         let longest = MIN_WAVE_NUMBER_FACTOR / length.max(velocity * slowest.unwrap_or(0.0));
         let step = 10_f64.powf(WAVES_PER_DECADE.recip());
         let waves = std::iter::successors(Some(longest), |wave| Some(wave * step));
-        // Bands around the waves that meet halfway in the logarithm.
+        // Give each wave a band of frequencies; neighbouring bands meet halfway in the logarithm.
         let ends = [step.sqrt().recip(), step.sqrt()].map(|end| end * velocity);
         let band = |wave: f64| StressBand {
             band: ends.map(|end| end * wave),

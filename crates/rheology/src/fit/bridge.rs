@@ -15,15 +15,17 @@ pub(super) struct KnownShift {
     pub(super) log_factor: f64,
 }
 
-/// Largest number of known pairs, the nearest ones, to which the law is fitted (chosen): with more, some may lie on the other side
+/// Largest number of known pairs, the nearest ones, to which the law is fitted. Chosen: with more, some may lie on the other side
 /// of a glass transition, where another law holds.
 const MAX_PAIRS: usize = 4;
-/// Largest misfit of ln a for which the law holds, and largest distance from the law at which a doubtful placement is kept: a tenth
-/// of a decade (chosen).
+/// Largest misfit of the natural logarithm of a shift factor with which the law holds. It is also the largest distance from the
+/// law at which a doubtful placement is kept. Chosen: a tenth of a decade.
 pub(super) const LAW_TOLERANCE: f64 = 0.1 * LN_10;
-/// Largest misfit relative to the shift of a pair (chosen: 0.5 K and 0.5 K of error in pairs 10 K apart).
+/// Largest ratio of the misfit to the shift of a pair with which the law holds. Chosen: 0.5 K and 0.5 K of error in pairs 10 K
+/// apart.
 const LAW_RELATIVE_TOLERANCE: f64 = 0.15;
-/// Range of ln of the distance of the pole below the coldest isotherm, \[K] (chosen: 1 K to 8000 K).
+/// Range in which the logarithm of the distance of the pole below the coldest isotherm is searched; the distance is in kelvins.
+/// Chosen: 1 K to 8000 K.
 const LOG_POLE_RANGE: [f64; 2] = [0.0, 9.0];
 
 /// A shift by the law, and its dependence on the known shifts.
@@ -39,7 +41,7 @@ pub(super) struct LawShift {
 /// `None` for fewer than two known pairs, and if the law does not describe them. With a pole at absolute zero it is the law
 /// of Arrhenius.
 pub(super) fn shift_by_law(mut known: Vec<KnownShift>, sought: [f64; 2]) -> Option<LawShift> {
-    // Take the nearest pairs.
+    // Keep the pairs of isotherms whose mean temperature is nearest to that of the sought pair.
     let middle = |[one, other]: [f64; 2]| one.midpoint(other);
     let distance = |pair: &KnownShift| (middle(pair.temperatures) - middle(sought)).abs();
     known.sort_by(|one, other| distance(one).total_cmp(&distance(other)));
@@ -49,7 +51,7 @@ pub(super) fn shift_by_law(mut known: Vec<KnownShift>, sought: [f64; 2]) -> Opti
     }
     let temperatures = known.iter().map(|pair| pair.temperatures).chain([sought]);
     let coldest = temperatures.flatten().fold(f64::INFINITY, f64::min);
-    // Fit the law: the steepness is linear, the pole is searched.
+    // Fit the law by least squares: its steepness is linear and follows from a formula, its pole is found by search.
     let law = |log_pole: f64| {
         let mut law = Law {
             coldest,
@@ -85,7 +87,7 @@ pub(super) fn shift_by_law(mut known: Vec<KnownShift>, sought: [f64; 2]) -> Opti
         .map(|pair| law.derivatives(pair.temperatures))
         .collect();
     let normal: Matrix2<f64> = derivatives.iter().map(|own| own * own.transpose()).sum();
-    // For a distant pole the two constants are not independent.
+    // If the pole is distant, its effect and that of the steepness cannot be told apart; a ridge keeps the matrix regular.
     let ridge = Matrix2::from_diagonal(&(normal.diagonal() * NORMAL_ROUNDING));
     let of_sought = (normal + ridge).try_inverse()? * law.derivatives(sought);
     let weights = known
@@ -98,7 +100,7 @@ pub(super) fn shift_by_law(mut known: Vec<KnownShift>, sought: [f64; 2]) -> Opti
     })
 }
 
-/// Ridge of the normal equations, relative to their diagonal (chosen: above rounding).
+/// Ratio of the ridge of the normal equations to their diagonal. Chosen, above rounding.
 const NORMAL_ROUNDING: f64 = 1e-9;
 
 /// WLF law d ln a/dT = −k/(T − T_∞)² with the pole T_∞.
@@ -130,7 +132,8 @@ impl Law {
 
     /// Derivatives of the shift of a pair of temperatures \[K] by the steepness and by ln of the pole distance, in this order.
     fn derivatives(&self, temperatures: [f64; 2]) -> Vector2<f64> {
-        // d r/d ln p = r (1 − r) for r = p/(T − T_c + p).
+        // Differentiate the relative pole r = p/(T − T_c + p) by the logarithm of its distance p below the coldest temperature
+        // T_c: d r/d ln p = r (1 − r).
         let [from, to] = self
             .relative_poles(temperatures)
             .map(|inverse| inverse * (1.0 - inverse));

@@ -23,9 +23,9 @@ pub struct CreepPoint {
     pub compliance: f64,
 }
 
-/// Number of retardation times per decade (chosen): neighbouring times differ by a factor of 1.33.
+/// Number of retardation times per decade. Chosen: neighbouring times differ by a factor of 1.33.
 const TIMES_PER_DECADE: f64 = 8.0;
-/// Largest root mean square relative error of the series for a creeping material (chosen).
+/// Root mean square relative error of the series above which the curve is refused as that of no creeping material. Chosen.
 const MAX_RMS_ERROR: f64 = 0.2;
 
 /// Relaxation moduli at the times of measured creep compliances.
@@ -64,7 +64,7 @@ fn creep_spectrum(
     points: &[CreepPoint],
     [shortest, longest]: [f64; 2],
 ) -> Result<CreepSpectrum, RheologyError> {
-    // Times at equal distances in the logarithm.
+    // Choose retardation times at equal distances in the logarithm, from the shortest to the longest measured time.
     let steps = (TIMES_PER_DECADE * (longest / shortest).log10()).ceil();
     let places = std::iter::successors(Some(0.0), |k| Some(k + 1.0)).take_while(|k| *k <= steps);
     let times: Vec<f64> = places
@@ -88,7 +88,7 @@ fn creep_spectrum(
             "no sum of retarded compliances comes near to J(t), which rises ever more slowly";
         return Err(RheologyError::WrongTrend { what });
     }
-    // Keep the compliances that are not zero.
+    // Keep the retarded elements whose fitted compliance is not zero.
     let elements = times
         .iter()
         .zip(compliances.iter().skip(2))

@@ -77,7 +77,8 @@ impl JoinedIsotherms {
     /// Slope d ln a/dT at every isotherm \[1/K], by central differences over the temperatures, one-sided at both ends; 0 for a
     /// single isotherm.
     pub(super) fn secants(&self) -> Vec<f64> {
-        // Neighbours by temperature; at both ends the isotherm itself is one of the two.
+        // Compute the slope of the logarithmic shift between the two neighbours of each isotherm by temperature. At both ends the
+        // isotherm itself is one of the two.
         let n = self.temperatures.len();
         let mut order: Vec<usize> = (0..n).collect();
         order.sort_by(|a, b| self.temperatures[*a].total_cmp(&self.temperatures[*b]));
@@ -101,14 +102,14 @@ impl MeasuredCurve {
     /// [`RheologyError::TooFewPoints`] below two points; [`RheologyError::InvalidElement`] when a frequency is not
     /// greater than the one before it, or a modulus is not finite, negative, or both of a point are zero.
     pub fn oscillation(points: Vec<ModulusPoint>) -> Result<Self, RheologyError> {
-        // Check a point, and find its |G*|.
+        // Check that a point is in order and its moduli are valid, and return the magnitude |G*| of its complex modulus.
         let magnitude = |point: &ModulusPoint, last: f64| {
             check_increasing("angular_frequency", point.angular_frequency, last)?;
             not_negative("storage", point.storage)?;
             not_negative("loss", point.loss)?;
             positive("modulus", point.storage.hypot(point.loss))
         };
-        // Weight both moduli by |G*|.
+        // Divide both moduli of a point by |G*|, so that errors are relative to it.
         let mut rows = Vec::new();
         let mut last = 0.0;
         for (index, point) in points.iter().enumerate() {

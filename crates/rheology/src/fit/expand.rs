@@ -16,14 +16,14 @@ use super::identify::{Control, IdentifyOptions, LongTimeLimit, MAX_BRANCHES, ser
 use crate::fractional::{PronyExpansion, validate};
 use crate::{RelaxationSpectrum, RheologyError};
 
-/// Numbers of branches per decade, tried in this order (chosen).
+/// Numbers of branches per decade, which are tried in this order until the error is small enough. Chosen.
 const BRANCHES_PER_DECADE: [f64; 7] = [1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0];
-/// Number of samples per decade of time, and of frequencies at which the error is found (chosen): more than two for each branch of
+/// Number of samples per decade of time, and of frequencies at which the error is found. Chosen: more than two for each branch of
 /// the densest series.
 const SAMPLES_PER_DECADE: f64 = 32.0;
-/// Fraction of the tolerance for each tail of the function, at times that are not sampled (chosen).
+/// Fraction of the tolerance that is allowed for each tail of the function, at times that are not sampled. Chosen.
 const TAIL_ERROR_FRACTION: f64 = 0.1;
-/// Bound on the number of decades beyond an end of the range (chosen); what is left then counts as error.
+/// Largest number of sampled decades beyond an end of the range; what is left then counts as error. Chosen.
 const MAX_TAIL_DECADES: i32 = 30;
 
 /// Prony series within `relative_error` of a relaxation function G(t) \[Pa] over a range of times \[s].
@@ -48,13 +48,13 @@ pub fn expand(
         relaxation_modulus,
         time_range,
     };
-    // Sample the function, with both tails.
+    // Sample the function over the range and as far into both tails as they matter.
     let [before, after] = [(shortest, 0.1), (longest, 10.0)]
         .map(|(end, factor)| function.tail(end, factor, TAIL_ERROR_FRACTION * relative_error));
     let ends = [before.time, after.time];
     let samples = function.samples(ends);
     let curve = function.curve(&samples)?;
-    // Fit with more and more branches.
+    // Fit series with more and more branches until one has the requested error.
     let mut reached = f64::INFINITY;
     for per_decade in BRANCHES_PER_DECADE {
         let n_branches = log_spaced(ends, per_decade).count();
@@ -127,7 +127,7 @@ impl RelaxationFunction<'_> {
             let change = modulus(decade + 1) - modulus(decade);
             (change / modulus(0)).abs() * 0.1_f64.powi(decade)
         };
-        // Sum of the effects from this decade on, as a geometric series.
+        // Estimate the sum of the effects from this decade on by a geometric series, whose ratio is that of two decades.
         let tail = |decade: i32| {
             let [this, next] = [effect(decade), effect(decade + 1)];
             let falls = this > next;
@@ -183,7 +183,7 @@ impl RelaxationFunction<'_> {
     ) -> Result<f64, RheologyError> {
         let [shortest, longest] = self.time_range;
         let mut worst = 0.0_f64;
-        // Errors of G at the samples, relative to G within the range.
+        // Compute the errors of G(t) at the samples, and the largest of them relative to G(t) within the range.
         let mut differences = Vec::new();
         for point in samples {
             let difference = point.modulus - series.relaxation_modulus(point.time)?;
@@ -192,7 +192,8 @@ impl RelaxationFunction<'_> {
                 worst = worst.max((difference / point.modulus).abs());
             }
         }
-        // Errors of G* at the frequencies of the range; the exact G* is that of the series and the difference.
+        // Compute the relative errors of G* at the frequencies of the range. The exact G* is the sum of that of the series and
+        // the difference.
         for time in log_spaced(self.time_range, SAMPLES_PER_DECADE) {
             let omega = time.recip();
             let [storage, loss] = modulus_difference(&differences, omega);

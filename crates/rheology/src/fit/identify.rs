@@ -107,15 +107,15 @@ impl From<Identification> for PronyExpansion {
     }
 }
 
-/// Factor m by which a relaxation time may leave the measured window (chosen).
+/// Factor m by which a relaxation time may lie outside the measured window. Chosen.
 ///
 /// The loss modulus of a branch then exceeds its value at the end of the window by at most (m + 1/m)/2 = 1.25. A branch
 /// farther outside would be determined by its flank only.
 const WINDOW_MARGIN: f64 = 2.0;
-/// Number of branches per decade of the reference series that shows the attainable error (chosen): neighbouring times differ by a
+/// Number of branches per decade of the reference series that shows the attainable error. Chosen: neighbouring times differ by a
 /// factor of 1.8, less than the width of the response of one branch.
 const DENSE_BRANCHES_PER_DECADE: f64 = 4.0;
-/// Largest number of branches (chosen): a limit of the time.
+/// Largest number of branches that a series may have. Chosen: it limits the time of a fit.
 pub(super) const MAX_BRANCHES: usize = 200;
 
 /// Prony series with moduli ≥ 0 and the smallest mean squared relative error.
@@ -181,9 +181,9 @@ fn fit_series(
     Ok((problem, series))
 }
 
-/// Smallest scale of the errors of a modulus in the fit, relative to |G*| (chosen).
+/// Smallest ratio of the scale of the errors of a modulus in the fit to |G*|. Chosen.
 const MIN_WEIGHT_SCALE: f64 = 0.1;
-/// Largest ratio of the errors of G' with individual weights and with weights by |G*| (chosen).
+/// Largest ratio of the error of G' with individual weights to that with weights by |G*|. Chosen.
 ///
 /// Beyond it the moduli contradict each other.
 const MAX_STORAGE_ERROR_RATIO: f64 = 3.0;
@@ -203,7 +203,8 @@ impl FitProblem {
     ///
     /// With contradicting moduli G'', mostly the smaller one, would degrade the fit of G'.
     fn set_weights(&mut self) -> Result<(), RheologyError> {
-        // Error of G' with weights by |G*|, then with individual ones, of at least a tenth of |G*|.
+        // Fit with weights by |G*|, then weight each modulus by itself or by at least a tenth of |G*|, and compare the errors of
+        // G'.
         let before = self.storage_error()?;
         let by_magnitude = self.rows.clone();
         for row in &mut self.rows {
@@ -254,7 +255,7 @@ impl FitProblem {
         });
         let mut target =
             DVector::from_iterator(n_rows, self.rows.iter().map(|row| row.weight * row.value));
-        // Append the Tikhonov rows.
+        // Append rows with the second differences of the columns, which smooth the moduli (Tikhonov regularisation).
         if smoothing > 0.0 && n_branches > 2 {
             let differences = second_differences(&matrix.columns(0, n_branches)) * smoothing;
             matrix = matrix.resize_vertically(n_rows + n_branches - 2, 0.0);
@@ -262,7 +263,7 @@ impl FitProblem {
             below.copy_from(&differences);
             target = target.resize_vertically(matrix.nrows(), 0.0);
         }
-        // Moduli ≥ 0, that of the spring last.
+        // Solve for moduli that are not negative; that of the spring of a solid is the last.
         let mut moduli: Vec<f64> = nnls(&matrix, &target)?.data.into();
         let spring = is_solid.then(|| moduli.pop()).flatten();
         let branches = moduli

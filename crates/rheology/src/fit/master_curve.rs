@@ -60,7 +60,8 @@ impl MasterCurve {
         log10_factor: f64,
         modulus_factor: f64,
     ) -> Result<Self, RheologyError> {
-        // Longer times are lower frequencies; the shifts become relative to the new temperature.
+        // Shift all points to the new temperature: longer times are lower frequencies. The shifts of the isotherms become
+        // relative to it.
         let factor = 10_f64.powf(log10_factor);
         for point in &mut self.points {
             point.angular_frequency /= factor;
@@ -96,7 +97,7 @@ pub fn shifted_master_curve(
     options: &SuperpositionOptions,
 ) -> Result<MasterCurve, RheologyError> {
     let chain = Chain::new(isotherms, temperature)?;
-    // Shifts by the law, relative to the reference isotherm.
+    // Compute the shift of each isotherm by the law, relative to the reference isotherm.
     let log_factor = |isotherm: &Isotherm| Ok(LN_10 * log10_factor(isotherm.temperature)?);
     let known = isotherms.iter().map(log_factor);
     let mut known: Vec<f64> = known.collect::<Result<_, RheologyError>>()?;

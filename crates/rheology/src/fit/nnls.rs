@@ -16,7 +16,7 @@ pub(super) fn nnls(
 ) -> Result<DVector<f64>, RheologyError> {
     let norms = DVector::from_iterator(matrix.ncols(), matrix.column_iter().map(|a| a.norm()));
     let (matrix, target) = compress(matrix, &norms, target);
-    // Gradients by unit columns up to this size are rounding.
+    // The columns have unit length; gradients of the squared residual up to this size count as rounding.
     let tolerance = 1e2 * f64::EPSILON * target.norm();
     let mut set = ActiveSet {
         solution: DVector::zeros(matrix.ncols()),
@@ -91,7 +91,7 @@ impl ActiveSet {
         let falling = moving.filter(|(_, (_, goal))| **goal <= 0.0);
         let candidates = falling.map(|(passive_index, (&i, goal))| {
             let now = self.solution[i];
-            // An unknown at zero blocks the whole step.
+            // An unknown that is zero already blocks the whole step.
             let fraction = if now > 0.0 { now / (now - goal) } else { 0.0 };
             Blocking {
                 passive_index,
@@ -165,7 +165,7 @@ mod tests {
             let residual = &target - &matrix * &solution;
             for (k, (&x, column)) in solution.iter().zip(matrix.column_iter()).enumerate() {
                 let gradient = column.dot(&residual) / column.norm() / target.norm();
-                // A hundred roundings of numbers below one.
+                // The conditions of the minimum must hold within some hundred roundings of numbers below one.
                 let met = if x > 0.0 {
                     gradient.abs() <= 1e-13
                 } else {

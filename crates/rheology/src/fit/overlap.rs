@@ -74,12 +74,12 @@ impl Place {
     }
 }
 
-/// Smallest sum of weights of an overlap, about one and a half intervals between points (chosen): a pair with less is placed by the
-/// law of other pairs, or refused.
+/// Smallest sum of weights of the points in an overlap, about one and a half intervals between points. Chosen: a pair with less
+/// is placed by the law of other pairs, or refused.
 const MIN_OVERLAP: f64 = 2.5;
-/// Largest root mean square distance of ln G' for isotherms that meet: a quarter of the modulus (chosen).
+/// Largest root mean square distance of ln G' with which two isotherms meet, a quarter of the modulus. Chosen.
 const MAX_RMS_DISTANCE: f64 = 0.23;
-/// Number of trial shifts, from contact at one end to contact at the other (chosen): the best one is refined by golden section.
+/// Number of trial shifts, from contact at one end to contact at the other. Chosen: the best one is refined by golden section.
 const N_TRIALS: u32 = 1000;
 
 impl LogCurves {
@@ -154,7 +154,7 @@ pub(super) fn taper(next: usize, n_points: usize, part: f64) -> f64 {
 impl Residuals {
     /// Residuals in the overlap at a shift ln a, of the points of either curve from the line through the other.
     fn new(fixed: &LogCurve, moved: &LogCurve, shift: f64) -> Self {
-        // Points of the moved curve against the line of the fixed one, then the reverse with the opposite sign.
+        // Compare the points of the moved curve with the line of the fixed one, then the reverse with the opposite sign.
         let mut residuals = Self::default();
         for (points, line, offset, sign) in
             [(moved, fixed, shift, 1.0), (fixed, moved, -shift, -1.0)]
@@ -225,7 +225,7 @@ impl Pair<'_> {
     /// is its smallest mean square at shifts that the storage modulus admits. A plateau of the storage modulus admits all
     /// shifts, so that the loss modulus decides.
     pub(super) fn best_place(&self, factor: ModulusFactor) -> Option<Place> {
-        // Residuals at trial shifts between those at which only the ends meet.
+        // Compute the residuals at equally spaced trial shifts between those at which only the ends meet.
         let [fixed, moved] = [self.fixed, self.moved].map(|lines| lines.0[0].ends());
         let [lowest, highest] = [fixed[0] - moved[1], fixed[1] - moved[0]];
         let step = (highest - lowest) / f64::from(N_TRIALS);
@@ -237,7 +237,7 @@ impl Pair<'_> {
             })
             .filter(|trial| trial.residuals[0].weight >= MIN_OVERLAP)
             .collect();
-        // Variance of the storage modulus: its smallest mean square with the best factor for it alone.
+        // The variance of the storage modulus is its smallest mean square with the best factor for it alone.
         let of_storage = |[own, _]: &[Residuals; 2]| {
             let alone = [*own, Residuals::default()];
             own.squares(factor.best_log_modulus(&alone, self.scatter))
@@ -250,7 +250,8 @@ impl Pair<'_> {
             return None;
         }
         let storage = self.scatter[0] + least_storage;
-        // Variance of the loss modulus, from shifts within three standard deviations of the expected sum of squares.
+        // The variance of the loss modulus comes from shifts at which the storage modulus is within three standard deviations of
+        // its expected sum of squares.
         let least_loss = trials
             .iter()
             .map(|trial| &trial.residuals)
@@ -271,7 +272,7 @@ impl Pair<'_> {
             self.scatter[1] + least_loss + n_points * contradiction,
         ];
         let cost = |residuals: &[Residuals; 2]| factor.cost(residuals, variances);
-        // Minimise the cost: the best trial, then golden section around it.
+        // Minimise the cost over the shift: take the best trial, then search around it by golden section.
         let best = trials
             .iter()
             .min_by(|a, b| cost(&a.residuals).total_cmp(&cost(&b.residuals)))?;

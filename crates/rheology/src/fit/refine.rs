@@ -15,9 +15,9 @@ pub(super) struct Series {
     pub(super) branches: Vec<RelaxationBranch>,
 }
 
-/// Relative improvement of the sum of squares below which the iteration ends (chosen); a smaller one costs more steps.
+/// Relative improvement of the sum of squares below which the iteration ends. Chosen; a smaller one costs more steps.
 const SUFFICIENT_IMPROVEMENT: f64 = 1e-4;
-/// Largest change of the logarithm of a modulus or time in one step (chosen): a factor of 7.4.
+/// Largest change of the natural logarithm of a modulus or time in one step, a factor of 7.4. Chosen.
 const MAX_LOG_STEP: f64 = 2.0;
 
 /// Moves positive moduli and times to a local minimum of the squared residuals, with the times in the `window` \[s].
@@ -26,7 +26,7 @@ pub(super) fn refine(rows: &[Measurement], start: Series, window: [f64; 2]) -> S
         bounds,
         largest_step: MAX_LOG_STEP,
     };
-    // Moduli may take any positive value, times those of the window.
+    // Moduli may take any positive value; relaxation times must stay within the window.
     let anywhere = range([f64::NEG_INFINITY, f64::INFINITY]);
     let within = range(window.map(f64::ln));
     let spring = start.spring.map(|_| anywhere);
@@ -83,7 +83,7 @@ impl Series {
     /// Quadratic model of the sum of squares, by the logarithms of all parameters.
     fn linearise(&self, rows: &[Measurement]) -> QuadraticModel {
         let n = self.branches.len() * 2 + usize::from(self.spring.is_some());
-        // Weighted residuals, data less series, and their derivatives in one column for each number.
+        // Compute the weighted residuals, data less series, and their derivatives by each modulus and time.
         let mut slopes = DMatrix::zeros(n, rows.len());
         let errors = rows.iter().zip(slopes.column_iter_mut());
         let errors =

@@ -14,7 +14,8 @@ pub struct SignChanges {
     pub possible: u32,
 }
 
-/// Distance below the number expected of noise, in standard deviations, that chance does not explain (chosen).
+/// Smallest distance of the number of sign changes below that expected of noise, which chance does not explain. Its unit is the
+/// standard deviation. Chosen.
 const CHANCE_STANDARD_DEVIATIONS: f64 = 4.0;
 
 impl SignChanges {

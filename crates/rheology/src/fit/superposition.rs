@@ -110,18 +110,18 @@ pub(super) struct Superposed {
     pub(super) undecided: Vec<f64>,
 }
 
-/// Smallest ln of the likelihood ratio that decides between two kinds of vertical shift (chosen): odds of 20 to 1.
+/// Smallest natural logarithm of the likelihood ratio that decides between two kinds of vertical shift. Chosen: odds of 20 to 1.
 const MIN_LOG_LIKELIHOOD_RATIO: f64 = 3.0;
 /// Largest deviation of a free ln b from that of a bound vertical shift (b_T = 1 or T/T_r) that an instrument explains.
 ///
 /// Derived: three times the prior scale of the factors in the covariance of the moduli.
 const INSTRUMENT_FACTOR: f64 = 0.03;
-/// Largest ratio of the residuals to the scatter of single points for isotherms that agree (chosen).
+/// Largest ratio of the residuals to the scatter of single points with which isotherms agree. Chosen.
 const MAX_RESIDUAL_RATIO: f64 = 2.0;
 /// Prior standard deviation of a free ln b around that of the better bound vertical shift, b_T = 1 or T/T_r (chosen): a larger one
 /// lets factors compensate wrong shifts.
 const PRIOR_MODULUS_SPREAD: f64 = 0.1;
-/// Ratio of the residuals of a pair to the median beyond which its placement is rejected (chosen).
+/// Ratio of the residuals of a pair to the median of all pairs above which its placement is rejected. Chosen.
 const FORCED_RESIDUAL_RATIO: f64 = 4.0;
 
 /// Shifts every isotherm onto its neighbour nearer to the reference, along a chain of pairs from the reference outwards.
@@ -133,7 +133,7 @@ pub(super) fn superpose(
     known: Option<&[f64]>,
     options: &SuperpositionOptions,
 ) -> Result<Superposed, RheologyError> {
-    // Check the temperatures, and prepare the curves.
+    // Check that the absolute temperatures are positive, and take the logarithms of frequencies and moduli.
     for isotherm in isotherms {
         positive("temperature", isotherm.temperature + options.kelvin_at_zero)?;
     }
@@ -208,12 +208,12 @@ fn scatter(curves: &[LogCurves]) -> [f64; 2] {
 
 /// Median of the square of a standard normal variable, 0.4549.
 const MEDIAN_OF_SQUARED_NORMAL: f64 = 0.455;
-/// Variance of the distance of a point from the line through two others, relative to that of a point (derived: 1.5 half way
-/// between them, 2 beside one of them).
+/// Ratio of the variance of the distance of a point from the line through two others to that of a point. Derived: 1.5 half way
+/// between them, 2 beside one of them.
 const RESIDUAL_VARIANCE_RATIO: f64 = 1.5;
-/// Relative scatter that is assumed for isotherms of fewer than five points (chosen).
+/// Relative scatter that is assumed for isotherms of fewer than five points, which do not show it. Chosen.
 const DEFAULT_SCATTER: f64 = 0.01;
-/// Smallest relative scatter of points, the limit of instruments (chosen).
+/// Smallest relative scatter that points are taken to have. Chosen: it is the limit of instruments.
 const MIN_SCATTER: f64 = 1e-4;
 
 /// The placement of a pair of isotherms.
@@ -318,14 +318,14 @@ impl Superposition<'_> {
         vertical: VerticalShift,
         spread: Option<f64>,
     ) -> Result<Vec<Placed>, RheologyError> {
-        // Prior of the modulus factor of each pair.
+        // Set the prior of the modulus factor of each pair: its centre is that of the vertical shift, its width the given one.
         let factor = |pair: &[usize; 2]| ModulusFactor {
             centre: self.log_modulus(vertical, *pair),
             spread,
         };
         let factors: Vec<ModulusFactor> = self.chain.iter().map(factor).collect();
         let pairs = self.chain.iter().zip(&factors);
-        // Given shifts.
+        // If the shifts are given, each pair has the difference of its two given shifts.
         if let Some(known) = self.known {
             let at = |(pair, factor): (&[usize; 2], &ModulusFactor)| {
                 let log_factor = known[pair[1]] - known[pair[0]];
@@ -334,7 +334,7 @@ impl Superposition<'_> {
             };
             return Ok(pairs.map(at).collect());
         }
-        // Shifts with the best agreement; those that are forced are replaced by the law of the others.
+        // Otherwise find the shifts with the best agreement; those that are forced are replaced by the law of the others.
         let places = pairs.map(|(pair, factor)| self.pair(*pair).best_place(*factor));
         let places: Vec<Option<Place>> = places.collect();
         let forced = forced_placements(&places);
@@ -395,7 +395,7 @@ impl Superposition<'_> {
 
     /// The bound vertical shift, b_T = 1 or T/T_r, for which the pairs agree better.
     fn select_vertical(&self) -> Result<Selected, RheologyError> {
-        // If only one kind can be placed, it is that one.
+        // If the isotherms can be placed with one kind of vertical shift only, that kind is taken.
         let without = self.place_pairs(VerticalShift::None, None);
         let Ok(entropic) = self.place_pairs(VerticalShift::Entropic, None) else {
             return Ok(Selected {
@@ -454,18 +454,19 @@ impl Superposition<'_> {
     /// - they deviate from the bound factors by more than an instrument explains;
     /// - most pairs agree within the scatter of points, unlike with factors that compensate a wrong shift.
     fn free_factors_are_significant(&self, without: &[Placed], freed: &[Placed]) -> bool {
-        // Cost of one parameter for each pair, by the number of points in the overlaps.
+        // Each free factor costs half the logarithm of the number of points (the Bayesian information criterion); sum over the
+        // pairs.
         let overlaps = without.iter().filter_map(|placed| placed.place);
         let points: f64 = overlaps.clone().flat_map(|place| place.overlaps).sum();
         let costs = 0.5 * (0.5 * points).max(1.0).ln() * overlaps.count() as f64;
-        // Largest difference between free and bound factors of all isotherms.
+        // Compute the difference between free and bound factors of each isotherm, of which the largest decides.
         let [free, bound] =
             [freed, without].map(|placed| self.sum_along_chain(placed, |one| one.log_modulus));
         let away = free
             .iter()
             .zip(&bound)
             .map(|(free, bound)| (free - bound).abs());
-        // Pairs whose residuals are above the scatter of points.
+        // Tell the pairs whose residuals are within the scatter of points from those that do not meet.
         let meet = |place: Place| {
             let mut parts = place.mean_squares.iter().zip(self.scatter);
             parts.all(|(square, scatter)| {
@@ -498,13 +499,14 @@ impl Superposition<'_> {
             choice,
             placed,
         } = selected;
-        // Add up the shifts along the chain.
+        // Add up the shifts of the pairs along the chain, which gives the shift of each isotherm.
         let log_factors = match self.known {
             Some(known) => known.to_vec(),
             None => self.sum_along_chain(&placed, |one| one.log_factor),
         };
         let log_moduli = self.sum_along_chain(&placed, |one| one.log_modulus);
-        // Shifts of an ideal rubber, if the data are undecided.
+        // If the data do not decide the vertical shift, keep the factors that it has for an ideal rubber, for the error of the
+        // moduli.
         let undecided = match choice {
             VerticalChoice::NotInData => {
                 let reference = self.chain.first().map_or(0, |[fixed, _]| *fixed);
@@ -514,7 +516,7 @@ impl Superposition<'_> {
             }
             VerticalChoice::Given | VerticalChoice::FoundInData => Vec::new(),
         };
-        // Collect the links.
+        // Collect for each pair of the chain how it was placed.
         let links = self.chain.iter().zip(placed);
         let link = |([fixed, moved], placed): (&[usize; 2], Placed)| Link {
             fixed: *fixed,
@@ -542,7 +544,7 @@ fn forced_placements(places: &[Option<Place>]) -> Vec<bool> {
             .map(|place| place.mean_squares[quantity]);
         let mut squares: Vec<f64> = squares.collect();
         squares.sort_by(f64::total_cmp);
-        // The median; of two pairs the better one.
+        // Take the median; of two pairs it is the better one.
         squares
             .get(squares.len().saturating_sub(1) / 2)
             .copied()

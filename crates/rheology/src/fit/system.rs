@@ -37,7 +37,7 @@ pub(super) struct Measurement {
     pub(super) isotherm: usize,
 }
 
-/// Smallest scale of the errors of a modulus, relative to |G*| (chosen): no instrument distinguishes it from zero.
+/// Smallest ratio of the scale of the errors of a modulus to |G*|. Chosen: no instrument distinguishes it from zero.
 pub(super) const MIN_RELATIVE_SIZE: f64 = 1e-3;
 
 impl Measurement {

@@ -46,9 +46,9 @@ pub(super) struct ContinuousSpectrum<'a> {
     pub(super) has_glass_modulus: bool,
 }
 
-/// Bound on the number of refinements, each with denser nodes over a wider range (chosen).
+/// Largest number of refinements, each with denser nodes over a wider range. Chosen.
 const MAX_REFINEMENTS: u32 = 12;
-/// Number of frequencies per decade at which the error is found (chosen).
+/// Number of frequencies per decade at which the error of the series is found. Chosen.
 const SAMPLES_PER_DECADE: f64 = 32.0;
 
 impl ContinuousSpectrum<'_> {
@@ -88,7 +88,8 @@ impl ContinuousSpectrum<'_> {
         target: f64,
     ) -> Result<RelaxationSpectrum, RheologyError> {
         let step = 2.0 * PI * self.strip_half_width.min(0.5 * PI) / (2.0 / target).ln();
-        // Branches that act as a spring have the error (s/ω)^(1 + a), those that act as a dashpot (ω/s)^(2 − a).
+        // Choose the range of the rates s: at a frequency ω slow branches act as a spring with the error (s/ω)^(1 + a), fast ones
+        // as a dashpot with (ω/s)^(2 − a). Here a is the exponent.
         let slowest = low * target.powf(1.0 / (1.0 + self.exponent));
         let fastest = high * target.powf(-1.0 / (2.0 - self.exponent));
         let middle = 0.5 * (low.ln() + high.ln());
@@ -148,7 +149,7 @@ fn sum_of_series(term: impl Fn(u32) -> f64) -> f64 {
     sum
 }
 
-/// Bound on the number of terms (derived: the slowest decay is e^(−0.01 h) per term with h > 0.1).
+/// Largest number of terms of the sum. Derived: the slowest decay is e^(−0.01 h) per term, with the step h > 0.1.
 const MAX_TERMS: u32 = 100_000;
 
 /// Refuses a band of angular frequencies \[rad/s] that is empty or not positive, and a relative error outside 1e-12 to 0.1.

@@ -53,7 +53,8 @@ impl FractionalMaxwell {
         let given = self.parameters;
         let (sine, cosine) = (0.5 * PI * given.exponent).sin_cos();
         let magnitude = (omega * given.relaxation_time).powf(given.exponent);
-        // z/(1 + z) with |z| ≤ 1, or 1/(1 + 1/z).
+        // Compute z/(1 + z) with z = (iωτ)^a for |z| ≤ 1, and the equal 1/(1 + 1/z) otherwise, so that nothing overflows. Here ω
+        // is the angular frequency, τ the relaxation time and a the exponent.
         let small = magnitude.min(magnitude.recip());
         let square = 1.0 + small * (2.0 * cosine + small);
         let real = if magnitude <= 1.0 {
@@ -83,7 +84,8 @@ impl FractionalMaxwell {
         let continuous = ContinuousSpectrum {
             log_density: &|log_rate| self.log_density(log_rate),
             exact: &|omega| self.complex_modulus(omega),
-            // The density has its poles where r^a = −e^(±iπa).
+            // The half width follows from the poles of the density, which are where r^a = −e^(±iπa). Here r is the rate times the
+            // relaxation time, and a the exponent.
             strip_half_width: PI * (1.0 - exponent) / exponent,
             exponent,
             has_glass_modulus: true,
@@ -94,7 +96,8 @@ impl FractionalMaxwell {
     /// Logarithm of the spectral density H \[Pa] at the logarithm ln s of a relaxation rate \[1/s].
     fn log_density(&self, log_rate: f64) -> f64 {
         let given = self.parameters;
-        // r^a + r^(−a) + 2 cos(π a) without the cancellation at r = 1, a = 1.
+        // Compute r^a + r^(−a) + 2 cos(π a), with the rate r times the relaxation time and the exponent a, without cancellation
+        // at r = 1, a = 1.
         let half = (0.5 * given.exponent * (log_rate + given.relaxation_time.ln())).sinh();
         let cosine = (0.5 * PI * given.exponent).cos();
         let denominator = 4.0 * (half * half + cosine * cosine);

@@ -125,7 +125,7 @@ impl StandardSolid {
         if margin <= 0.0 {
             return None;
         }
-        // Discriminant 1 − 4 γ (1 + γ), factored against cancellation for a narrow window.
+        // Compute the discriminant 1 − 4 γ (1 + γ) with the stiffness ratio γ, factored against cancellation for a narrow window.
         let discriminant = 4.0 * margin * (margin + 2.0 * gamma + 1.0);
         let sum = 1.0 + discriminant.sqrt();
         let tau = self.relaxation_time();

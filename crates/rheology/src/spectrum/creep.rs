@@ -160,7 +160,7 @@ impl CreepSpectrum {
             compliance.loss = self.fluidity / omega;
         }
         for element in &self.elements {
-            // 1/(1 + Ω²) is Ω²/(1 + Ω²) at the inverse of Ω.
+            // The storage compliance has the factor 1/(1 + Ω²), which is Ω²/(1 + Ω²) at the inverse of Ω.
             let omega = omega * element.retardation_time;
             compliance.storage += element.compliance * debye(omega.recip())[0];
             compliance.loss += element.compliance * debye(omega)[1];
@@ -178,7 +178,7 @@ impl RetardationElement {
     /// Delayed compliance J_k (1 − e^(−t/λ_k)) at a time t \[s], \[1/Pa].
     pub(crate) fn delayed_compliance(&self, time: f64) -> f64 {
         let x = time / self.retardation_time;
-        // The limit t/η of a vanishing spring, because a subnormal x has lost its digits.
+        // Use the limit t/η of a vanishing spring with the viscosity η, because a subnormal x has lost its digits.
         if x < f64::EPSILON {
             return self.fluidity() * time;
         }
@@ -196,7 +196,7 @@ impl RetardationElement {
 /// Langevin function ℒ(y) = coth y − 1/y for y > 0, to rounding.
 fn langevin(y: f64) -> f64 {
     if y < 0.02 {
-        // Power series; the next term is below rounding.
+        // Use the power series for small y, whose next term is below rounding.
         let square = y * y;
         return y / 3.0 * (1.0 - square / 15.0 * (1.0 - 2.0 * square / 21.0));
     }

@@ -4,7 +4,7 @@ use crate::RheologyError;
 use crate::error::with_list_index;
 use numerics::{in_range, not_negative, positive};
 
-/// Relative difference below which two times are merged.
+/// Relative difference up to which two relaxation or retardation times are merged into their mean.
 ///
 /// Derived: the mean time in place of two times that differ by δ changes every response by less than δ²/8, here 1e-17.
 const MERGE_TOLERANCE: f64 = 1e-8;

@@ -161,7 +161,7 @@ impl RelaxationSpectrum {
     /// [`RheologyError::InvalidParameter`] when the frequency is not finite or below zero.
     pub fn loss_tangent(&self, angular_frequency: f64) -> Result<f64, RheologyError> {
         let modulus = self.complex_modulus(angular_frequency)?;
-        // A storage modulus near underflow has lost digits.
+        // Divide only by a storage modulus well above underflow, because a smaller one has lost digits.
         if modulus.storage > f64::MIN_POSITIVE / f64::EPSILON {
             return Ok(modulus.loss / modulus.storage);
         }

@@ -75,7 +75,8 @@ impl Secular<'_> {
             near: upper - 1,
             offset: half_gap,
         });
-        // Lower bound of the distance: the nearest term is at most the sum of the other sign, which is largest in the middle.
+        // Find a lower bound of the distance of the root from the nearer pole. The term of that pole is at most the sum of the
+        // other sign, which is largest in the middle.
         if middle.up <= middle.down {
             let least = (below.weight / middle.down).min(half_gap);
             return self.root_beside(upper - 1, 1.0, [least, half_gap]);
@@ -97,9 +98,9 @@ impl Secular<'_> {
     /// Newton's method for ln(up/down) = 0 in the logarithm of the distance, in which the function is nearly linear.
     /// Bisection replaces a step that leaves the bracket or is longer than half of the previous one.
     fn root_beside(&self, near: usize, side: f64, [mut low, mut high]: [f64; 2]) -> RootPosition {
-        /// Relative tolerance of the distance: a few roundings.
+        /// Relative tolerance with which the distance of a root from its pole is found: a few roundings.
         const TOLERANCE: f64 = 4.0 * f64::EPSILON;
-        // Geometric mean as low √(high/low), which scales exactly with the unit.
+        // Compute the geometric mean as low √(high/low), which scales exactly with the unit.
         let middle = |low: f64, high: f64| match high / low {
             ratio if ratio.is_finite() => low * ratio.sqrt(),
             _ => low.sqrt() * high.sqrt(),
@@ -112,7 +113,7 @@ impl Secular<'_> {
         let mut last_step = f64::INFINITY;
         while high > low * (1.0 + TOLERANCE) {
             let Balance { up, down, slopes } = self.balance(place(distance));
-            // Positive if the root is farther from the pole.
+            // The excess is positive if the root is farther from the pole than this place.
             let excess = side * (up / down).ln();
             let step = excess / (slopes[0] / up + slopes[1] / down);
             if step.abs() <= TOLERANCE {
@@ -146,7 +147,7 @@ impl Secular<'_> {
         for (index, pole) in self.poles.iter().enumerate() {
             let difference = self.above_pole(place, index);
             let term = (pole.weight / difference).abs();
-            // A ratio of lengths, because the square of a difference may underflow.
+            // Compute the slope with a ratio of lengths, because the square of a difference may underflow.
             let slope = term * (place.offset / difference).abs();
             if difference > 0.0 {
                 balance.up += term;

@@ -8,7 +8,7 @@ use super::shifts::ShiftEffects;
 use crate::RelaxationSpectrum;
 use crate::fit::system::Measurement;
 
-/// Smallest ridge of the normal equations, relative to the trace of XᵀX (chosen: above rounding).
+/// Smallest ratio of the ridge to the trace of the matrix XᵀX of the normal equations. Chosen, above rounding.
 const TRACE_ROUNDING: f64 = 1e-12;
 
 /// Weighted data, linearised around the series; data are in the order of the measured numbers, moduli begin with that of the
@@ -53,12 +53,13 @@ impl Linear {
             row.weight * parts.sum::<f64>()
         };
         let slopes = DVector::from_iterator(rows.len(), rows.iter().map(slope));
-        // Least squares with a ridge give A = (XᵀX + λ)⁻¹ Xᵀ.
+        // Least squares with a ridge λ turn changes of the weighted data into relative changes of the moduli by the matrix A =
+        // (XᵀX + λ)⁻¹ Xᵀ. The columns of X are the contributions of the moduli to the weighted fit.
         let values = rows.iter().map(|row| row.weight * row.value);
         let residuals = DVector::from_iterator(rows.len(), values) - columns.column_sum();
         let normal = columns.tr_mul(&columns);
         let degrees = rows.len().saturating_sub(n_columns).max(1) as f64;
-        // Prior of a modulus that is not negative: its relative change is 0 ± 1.
+        // The ridge represents the prior knowledge that a modulus is not negative: its relative change is 0 ± 1.
         let scatter = residuals.norm_squared() / degrees;
         let ridge = scatter.max(TRACE_ROUNDING * normal.trace());
         let regularised = normal + DMatrix::identity(n_columns, n_columns) * ridge;
@@ -83,7 +84,7 @@ impl Linear {
             + outer_square(&scatter.scaled(&gain))
             + outer_square(&of_factors) * scatter.factor
             + outer_square(&of_temperatures) * scatter.temperature
-            // An undecided vertical shift is present with the probability 1/2.
+            // A vertical shift that the data do not decide is present with the probability 1/2, so its square counts half.
             + outer_square(&of_undecided) * 0.5
     }
 }

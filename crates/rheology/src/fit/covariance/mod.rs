@@ -101,7 +101,7 @@ pub(super) fn covariance(
     let residuals = Residuals::new(&fit, &joined);
     let scatter = Scatter::new(&fit, rows, &joined, &residuals);
     let found = fit.covariance(&joined, &scatter);
-    // Insert rows and columns of zeros for moduli of 0.
+    // A modulus of 0 is not part of the linear fit; its row and column of the covariance are zero.
     let moduli = linear::moduli(spectrum);
     let mut places = moduli.iter().scan(0, |next, modulus| {
         let place = (*modulus > 0.0).then_some(*next);

@@ -10,11 +10,11 @@ use super::outer_square;
 use super::shifts::ShiftEffects;
 use crate::fit::system::{Measurement, Quantity};
 
-/// Prior scale of the relative factor of an isotherm (chosen): geometry, clamps and gauges of one instrument. It is the standard
-/// deviation as far as the isotherms do not determine it.
+/// Scale of the prior of the relative factor of an isotherm. Chosen: geometry, clamps and gauges of one instrument. It is the
+/// standard deviation as far as the isotherms do not determine it.
 pub(super) const FACTOR_SCALE: f64 = 0.01;
-/// Prior scale of the temperature error of an isotherm, \[K] (chosen): the standard deviation as far as the isotherms do not
-/// determine it.
+/// Scale of the prior of the temperature error of an isotherm, \[K]. Chosen. It is the standard deviation as far as the isotherms
+/// do not determine it.
 pub(super) const TEMPERATURE_SCALE: f64 = 0.5;
 
 /// Variance components.
@@ -43,15 +43,16 @@ impl Scatter {
             factor: 0.0,
             temperature: 0.0,
         };
-        // Scatter of single points.
+        // Estimate the scatter of single points, because the other two estimates are relative to it.
         scatter.set_noise(fit, rows, effects, residuals);
-        // Scatter of the factors of isotherms.
+        // If there are several isotherms, estimate the scatter of their factors from the residuals.
         if effects.factors.ncols() > 1 {
             let in_residuals =
                 EffectInResiduals::new(&effects.factors, fit, effects, residuals, &scatter);
             scatter.factor = in_residuals.mean_square(FACTOR_SCALE);
         }
-        // Scatter of the temperatures, from deviations of the shifts from a law, or from the residuals.
+        // Estimate the scatter of the temperatures from the deviations of the shifts from a law, if there is one, else from the
+        // residuals.
         scatter.temperature = match &effects.law {
             Some(law) => {
                 let by_temperature = &law.left * &law.by_temperature;
@@ -105,7 +106,7 @@ impl Scatter {
                 .get(isotherm)
                 .map_or(0.0, |all| effects.factors[(row, isotherm)].powi(2) / all)
         };
-        // Variance and correlation of each quantity.
+        // For each measured quantity, estimate the variance and the correlation of neighbouring residuals of its points.
         for quantity in [Quantity::Storage, Quantity::Loss, Quantity::Relaxation] {
             let own: Vec<usize> = (0..rows.len())
                 .filter(|row| rows[*row].quantity == quantity)
@@ -167,7 +168,7 @@ fn correlation(rows: &[Measurement], own: &[usize], residuals: &DVector<f64>) ->
     }
 }
 
-/// Largest correlation (chosen): beyond it the residuals are a misfit of the series, not scatter.
+/// Largest correlation of neighbouring residuals that counts as scatter. Chosen: beyond it they are a misfit of the series.
 const MAX_CORRELATION: f64 = 0.9;
 
 /// Sums of residuals to which an effect of unknown scale s contributes: their covariance is `others` + s² `own`.
@@ -224,7 +225,7 @@ impl EffectInResiduals {
                     + (s / scale).powi(2)),
             )
         };
-        // Weight s² by the posterior density, relative to its maximum against underflow.
+        // Average s² over the posterior density of the scale s, which is divided by its maximum against underflow.
         let places = (0..INTEGRATION_POINTS)
             .map(|k| (f64::from(k) + 0.5) / f64::from(INTEGRATION_POINTS) * MAX_SCALES * scale);
         let known: Vec<[f64; 2]> = places
@@ -249,9 +250,9 @@ impl EffectInResiduals {
     }
 }
 
-/// Ridge of a covariance, relative to its trace (chosen: above rounding).
+/// Ratio of the ridge of a covariance to its trace. Chosen, above rounding.
 const COVARIANCE_ROUNDING: f64 = 1e-9;
-/// Number of points of the integral over s (chosen).
+/// Number of points of the integral over the scale s of a factor or temperature error. Chosen.
 const INTEGRATION_POINTS: u32 = 200;
-/// Upper limit of the integral over s in units of the scale, where the prior is below 1e-5 of its maximum.
+/// Ratio of the upper limit of the integral over the scale s to the scale of its prior, which is below 1e-5 of its maximum there.
 const MAX_SCALES: f64 = 5.0;

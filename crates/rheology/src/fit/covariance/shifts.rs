@@ -48,7 +48,7 @@ impl ShiftEffects {
         isotherms: Option<&JoinedIsotherms>,
     ) -> Self {
         let n = isotherms.map_or(0, |joined| joined.temperatures.len());
-        // Effects on the data by the factors of the isotherms, and by their shifts.
+        // Compute how the data change with the factor of each isotherm, and with its shift.
         let of_isotherm = |value: &dyn Fn(usize) -> f64| {
             DMatrix::from_fn(rows.len(), n, |row, isotherm| {
                 let is_own = rows[row].isotherm == isotherm;
@@ -69,7 +69,7 @@ impl ShiftEffects {
             undecided: DMatrix::zeros(rows.len(), 0),
             law: None,
         };
-        // Effects of the data on the shifts, of the temperatures, and of undecided factors.
+        // Compute how the shifts change with the data and with the temperatures, and the effect of undecided vertical shifts.
         if let Some(isotherms) = isotherms {
             joined.set_shift_gain(fit, rows, &isotherms.links);
             joined.set_temperature_effects(fit, isotherms);
@@ -122,7 +122,7 @@ impl ShiftEffects {
     fn set_temperature_effects(&mut self, fit: &Linear, isotherms: &JoinedIsotherms) {
         let n = self.factors.ncols();
         let Some(reference) = isotherms.reference() else {
-            // Given shifts: each isotherm has the error of its own temperature.
+            // If the shifts are given, each isotherm has the error of its own temperature.
             let slopes = DMatrix::from_diagonal(&DVector::from_vec(isotherms.secants()));
             if n > 1 {
                 self.by_temperature = self.slopes.columns(0, n) * slopes;
@@ -149,7 +149,7 @@ impl ShiftEffects {
             column += self.by_temperature.column(0);
             self.by_temperature = all;
         }
-        // The constants of the law absorb a part of the deviations.
+        // Remove the part of the deviations that the constants of the fitted law absorb.
         let constants = constants.select_rows(&others);
         let n_others = others.len();
         let Some(inverse) = constants
@@ -184,7 +184,8 @@ fn temperature_effect_on_shifts(
 ) -> DMatrix<f64> {
     let n = isotherms.temperatures.len();
     let mut shifts = DMatrix::zeros(n, n);
-    // The observed shift of a pair belongs to the true temperatures of its isotherms.
+    // The observed shift of a pair belongs to the true temperatures of its isotherms, so an error of either enters by the slope
+    // of the law.
     let observed = |link: &Link| {
         let mut row = RowDVector::zeros(n);
         row[link.moved] += slopes[link.moved];
@@ -262,7 +263,7 @@ impl LeastSquares {
         other: &[usize],
         weight: f64,
     ) {
-        // Interpolate the line in ln ω.
+        // Find the two neighbouring points of the other isotherm, between which it is interpolated linearly in ln ω.
         let next = other.partition_point(|place| rows[*place].at < rows[row].at);
         let neighbours = next
             .checked_sub(1)

@@ -8,19 +8,20 @@ use crate::RheologyError;
 use crate::fit::curve::MeasuredCurve;
 use crate::fit::system::Quantity;
 
-/// Largest root mean square relative error of |G*|, G' or G(t) for a relaxing material (chosen).
+/// Root mean square relative error of |G*|, G' or G(t) above which the data are refused as those of no relaxing material. Chosen.
 const MAX_RMS_ERROR: f64 = 0.2;
-/// Largest root mean square relative error of G'' (chosen); G'' of a stiff material is mostly noise.
+/// Root mean square relative error of G'' above which the data are refused. Chosen; G'' of a stiff material is mostly noise.
 const MAX_LOSS_RMS_ERROR: f64 = 0.5;
-/// Smallest ratio of the errors of the moduli as given and exchanged that shows a swap (chosen).
+/// Smallest ratio of the error with the moduli as given to the error with exchanged moduli, which shows that they are swapped.
+/// Chosen.
 const SWAP_IMPROVEMENT: f64 = 3.0;
-/// Smallest number of points of a significant trend (chosen).
+/// Smallest number of points with which a trend counts as significant. Chosen.
 const MIN_TREND_POINTS: usize = 5;
-/// Smallest slope of a significant trend, in standard errors (chosen).
+/// Smallest slope with which a trend counts as significant, in standard errors. Chosen.
 const TREND_STANDARD_ERRORS: f64 = 4.0;
-/// Smallest change over the curve of a significant trend, relative to the mean modulus (chosen).
+/// Smallest ratio of the change over the curve to the mean modulus with which a trend counts as significant. Chosen.
 const MIN_RELATIVE_TREND: f64 = 0.05;
-/// Largest relative variation of constant moduli (chosen).
+/// Largest relative variation with which moduli count as constant. Chosen.
 const CONSTANCY_TOLERANCE: f64 = 1e-6;
 
 /// Refuses moduli that no series of any number of branches describes.
