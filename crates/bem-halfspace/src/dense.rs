@@ -28,7 +28,7 @@ pub(crate) fn solve(
     let mut memory = MemBuffer::new(for_factors.or(for_solution));
     let stack = MemStack::new(&mut memory);
 
-    // L without its unit diagonal, and U, in place of the matrix.
+    // The factorisation overwrites the matrix by L, without its unit diagonal, and by U.
     let mut matrix = Mat::from_fn(n, n, entry);
     let (_, permutation) = factor::lu_in_place(
         matrix.as_mut(),

@@ -23,14 +23,14 @@
 //!
 //! let (cone, fluid) = (PowerProfile::cone(0.1)?, Viscous::new(1.0e4)?);
 //! let friction = steady(&cone, &fluid, &SlidingLoad::new(1.0, 0.01)?, 1e-3)?.friction_coefficient;
-//! // The paper finds 0.55 of the friction (π/2) 0.1 of the one-dimensional model.
+//! // Kürschner (2014) finds 0.55 of the friction coefficient (π/2) 0.1 of the one-dimensional model.
 //! let scaling_factor = friction.value / (0.05 * std::f64::consts::PI);
 //! assert!((scaling_factor - 0.55).abs() < 0.025, "s_1 = {scaling_factor}");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 #![cfg_attr(not(test), warn(unused_crate_dependencies))]
 
-// Factorises where the feature `dense` is off.
+// The crate nalgebra factorises matrices where the feature `dense` is off; otherwise it has no use here.
 #[cfg(feature = "dense")]
 use nalgebra as _;
 

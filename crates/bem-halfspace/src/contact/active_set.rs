@@ -132,7 +132,7 @@ impl ActiveSet {
 
     /// The inactive elements of a row block as ranges, in increasing order.
     pub(crate) fn inactive_ranges(&self, row_block: usize) -> impl Iterator<Item = Range<usize>> {
-        // The gaps between runs; a gap may be empty.
+        // The inactive elements are those in the gaps between the runs; a gap may be empty.
         let Range { start, end } = self.row_blocks.elements(row_block);
         let runs = self.runs(row_block).iter().map(Run::elements);
         let starts = std::iter::once(start).chain(runs.clone().map(|run| run.end));
@@ -262,7 +262,7 @@ pub(crate) fn sum_blocks<const EDGE: usize>(
         let mut packed = run.packed_range().start;
         while column < end {
             let block = column / EDGE;
-            // Part of the run in one block of elements.
+            // Add the terms of that part of the run that lies in one block of elements.
             let length = ((block + 1) * EDGE).min(end) - column;
             sums[block] += (packed..packed + length).map(&term).sum::<f64>();
             (column, packed) = (column + length, packed + length);

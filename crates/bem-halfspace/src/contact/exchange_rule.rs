@@ -1,4 +1,5 @@
-//! Exchange rule of active sets: which elements that violate the KKT conditions change sides.
+//! Exchange rule of active sets: which elements that violate the contact conditions (Karush–Kuhn–Tucker or KKT conditions) change
+//! sides.
 //!
 //! Elements in tension leave the active set, penetrating elements enter it (block principal pivoting, Júdice & Pires 1994). The set of
 //! saturated elements changes alike. An update is *non-improving* if there are at least as many violations as in an earlier one, or if
@@ -83,7 +84,8 @@ pub(crate) struct ExchangeRule {
 impl ExchangeRule {
     /// The rule on a grid with a number of rows and columns, before the first update of its active set.
     pub(crate) fn new(shape: [usize; 2]) -> Self {
-        // Doublings of the radius until it exceeds half the longer edge: then every neighbourhood is the whole grid.
+        // Count the doublings of the radius until it exceeds half the longer edge, because every neighbourhood is then the whole
+        // grid.
         let largest_radius = shape[0].max(shape[1]) / 2;
         let doublings = (1..).find(|doublings| 1_usize << doublings > largest_radius);
         Self {
@@ -128,7 +130,7 @@ impl ExchangeRule {
         let mut by_size = violations.to_vec();
         by_size.sort_by(|one, other| other.size.total_cmp(&one.size));
         let [rows, columns] = self.shape;
-        // Indices within the radius around `index`, on an axis of `count` elements that wraps around.
+        // This closure lists the indices within the radius around `index`, on an axis of `count` elements that wraps around.
         let around = |index: usize, count: usize| {
             let reach = (radius - 1).min(count / 2);
             (count + index - reach..=count + index + reach).map(move |near| near % count)

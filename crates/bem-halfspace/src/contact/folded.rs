@@ -69,7 +69,7 @@ fn find_mirrors(convolution: &Convolution, fields: [&[f64]; 2]) -> [Mirror; 2] {
     let shape = convolution.grid().shape();
     let [rows, columns] = shape;
     let lines = |row: usize| fields.map(|field| &field[row * columns..][..columns]);
-    // Compare each row with its image, and with its reverse.
+    // Find the symmetries: about a mirror along x each row equals its image, about one along y each row equals its reverse.
     let row_blocks = RowBlocks::new(shape);
     let in_row_block = |row_block| {
         let mut rows_of_block = row_blocks.rows(row_block);
@@ -116,7 +116,7 @@ impl ContactBox {
                 for (column, weight) in weights.row_weights(part) {
                     loads[front + column] /= weight;
                 }
-                // Mirror it to the half behind.
+                // Fill the half behind the mirror with the image of the half in front.
                 mirror_behind(displacements, columns);
                 mirror_behind(loads, columns);
             }

@@ -89,7 +89,7 @@ impl<'a> SaturatedSet<'a> {
             separation: vec![0.0; n],
         };
         saturated.update_loads();
-        // A set that bears more than the whole force is no start.
+        // If the set bears the whole force or more, begin with an empty one, because no force is left for the other elements.
         if matches!(problem.control, Control::NormalForce(total) if saturated.total >= total) {
             saturated.is_saturated.fill(false);
             saturated.update_loads();
@@ -146,7 +146,8 @@ impl<'a> SaturatedSet<'a> {
                 });
             }
 
-            // Exchange. For an element that leaves the set its load is the first guess.
+            // Exchange elements between the saturated set and its complement. An element that leaves the set keeps its load as
+            // the first guess.
             for element in rule.select(&violations, false) {
                 self.is_saturated[element] ^= true;
                 state.load[element] = self.load[element];
@@ -157,7 +158,7 @@ impl<'a> SaturatedSet<'a> {
 
     /// Recomputes loads, displacement and initial gap from the flags of the saturated set.
     fn update_loads(&mut self) {
-        // Load the saturated elements.
+        // Give each saturated element the largest load, times its weight on a mirror, and the others no load.
         let flags = self.is_saturated.iter();
         for (element, (load, is_saturated)) in self.load.iter_mut().zip(flags).enumerate() {
             let weight = f64::from(*is_saturated) * self.weights.of_element(element);
@@ -168,7 +169,7 @@ impl<'a> SaturatedSet<'a> {
             };
         }
         self.total = self.load.iter().sum();
-        // Find their displacements, and the separation that the other elements see.
+        // Find the displacements by these loads, and the separation that the other elements see.
         let convolution = self.problem.convolution;
         convolution.apply(&mut self.workspace, &self.load, &mut self.displacement);
         let heights = self.problem.separation.iter().zip(&self.displacement);

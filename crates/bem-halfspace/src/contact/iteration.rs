@@ -112,7 +112,8 @@ impl<'a> Iteration<'a> {
                 self.tolerance = criterion.target_residual(residual);
             }
 
-            // Converged, if that also holds for a displacement without the rounding of many updates.
+            // The iteration has converged if that also holds for a displacement computed anew, without the rounding of many
+            // updates.
             if residual <= self.tolerance && violations.tension <= 0.0 {
                 if !self.displacement_is_exact {
                     self.recompute_displacement();
@@ -156,7 +157,7 @@ impl<'a> Iteration<'a> {
     /// Sets the active set and its loads from the first guess. Without a guess the set has the elements below a given depth, without
     /// load, or all elements under a given force, with equal loads.
     fn initialise(&mut self) {
-        // Active set: the guess if there is one, else all candidates.
+        // Begin with the loaded elements of the guess if there is one, else with all candidates.
         let mut elements = self.load.iter().zip(self.separation);
         let loaded = elements.any(|(load, separation)| *load > 0.0 && separation.is_finite());
         let (below, uniform) = match self.control {
@@ -171,7 +172,7 @@ impl<'a> Iteration<'a> {
             let guessed = load[element] > 0.0 && separation[element].is_finite();
             !vanishes && (guessed || (!loaded && separation[element] < below))
         });
-        // Loads: those of the guess, or uniform; zero outside the set.
+        // Take the loads of the guess, or equal ones without a guess, and clear all loads outside the set.
         let weights = MirrorWeights::new(self.convolution);
         let row_blocks = active.row_blocks;
         row_blocks.for_each(
@@ -197,7 +198,7 @@ impl<'a> Iteration<'a> {
         self.scatter_load();
         let lowest = self.indentation_depth - self.tolerance * violations.deflection;
         let (load, separation, displacement) = (&*self.load, self.separation, &*self.displacement);
-        // Inside: under tension. Outside: penetrating by more than the tolerance.
+        // An element inside the set is violating under tension, one outside if it penetrates by more than the tolerance.
         let is_violating = |element: usize, inside: bool| {
             if inside {
                 load[element] < 0.0
@@ -206,7 +207,7 @@ impl<'a> Iteration<'a> {
             }
         };
 
-        // Exchange all of them, or only the last one when their number has stagnated.
+        // Exchange all violating elements, or only the last one when their number has stagnated.
         let active = &mut self.fields.active;
         let violating = active.find_matches(is_violating);
         let first = if self.stagnation.allows_block_updates() {
@@ -231,7 +232,7 @@ impl<'a> Iteration<'a> {
             }
         });
 
-        // Restart from the remaining load.
+        // Restart the conjugate gradients from the remaining load, scaled to the given force, with a displacement computed anew.
         self.gather_active();
         self.has_stepped = false;
         self.scale_to_force();
@@ -255,7 +256,7 @@ impl<'a> Iteration<'a> {
         preconditioner.apply(active, residual, scattered, output);
         let preconditioned = &*output;
 
-        // Inner product (r, z) of the residual r and of z without its mean.
+        // Compute the inner product (r, z) of the residual r and of z = S r without its mean.
         let sums_in_row_block = |row_block| {
             let [r, z] =
                 [residual, preconditioned].map(|vector| &vector[active.packed_range(row_block)]);
@@ -273,7 +274,8 @@ impl<'a> Iteration<'a> {
         };
         let product = sum_rz - mean * sum_r;
 
-        // Conjugate direction p = z + β p with β = (r, z)/(r, z) of the previous step (Fletcher & Reeves), packed and on the grid.
+        // Form the conjugate direction p = z + β p, packed and on the grid. The factor β is the ratio of (r, z) to its value in
+        // the previous step (Fletcher & Reeves).
         let conjugation = if self.previous_product > 0.0 {
             product / self.previous_product
         } else {
@@ -306,7 +308,7 @@ impl<'a> Iteration<'a> {
             },
             |left, right| left + right,
         );
-        // Zero for a single element at a given force, whose load is the force.
+        // The energy is zero for a single element at a given force, whose load is the force already.
         let length = if energy == 0.0 {
             0.0
         } else {
@@ -332,7 +334,7 @@ impl<'a> Iteration<'a> {
         let load = [active.packed(&mut vectors.load)];
         active.row_blocks.for_each_part(load, |_, [load]| {
             for load in load {
-                // Multiplied last, because the quotient of extreme forces may overflow.
+                // The given force is multiplied last, because the quotient of extreme forces may overflow.
                 *load = if sum > 0.0 { *load / sum * total } else { 0.0 };
             }
         });

@@ -4,10 +4,10 @@
 //! gap = separation + α/(4π) K P − d,        0 ≤ P ≤ P_max,        gap ≥ 0 where P = 0,  gap = 0 between,  gap ≤ 0 where P = P_max
 //! ```
 //!
-//! The separation is the height of the rigid surface plus the displacement of the half space before the step. The compliance α
-//! of the step is `1/G` for an elastic half space and `Δt/η` for a viscous one (implicit over the step). Either the normal
-//! force `Σ P ΔA` or the depth d is given. P_max is the hardness; if it is infinite, the gap vanishes wherever there is
-//! pressure.
+//! P is the pressure and K the operator of the influence coefficients. The separation is the height of the rigid surface plus the
+//! displacement of the half space before the step. The compliance α of the step is `1/G` for an elastic half space and `Δt/η` for
+//! a viscous one (implicit over the step). Either the normal force `Σ P ΔA` or the depth d is given. P_max is the hardness; if it
+//! is infinite, the gap vanishes wherever there is pressure.
 //!
 //! Theory: docs/theory/contact.md.
 
@@ -187,7 +187,7 @@ impl ContactOptions {
 /// Checks the parameters, fields and control of a problem, and the length of the first guess.
 fn validate(problem: &ContactProblem, state: &ContactState) -> Result<(), BemError> {
     let (grid, heights) = (problem.convolution.grid(), problem.separation);
-    // Scalars and fields.
+    // Check compliance, largest pressure and control, and the lengths and values of the fields.
     positive("compliance", problem.compliance)?;
     let limit = problem.largest_pressure;
     in_range("largest_pressure", limit, limit > 0.0, "greater than 0")?;

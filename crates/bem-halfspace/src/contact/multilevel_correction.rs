@@ -105,14 +105,14 @@ impl MultilevelCorrection {
 
     /// Sums the conductances over the blocks of all levels, from small blocks to large ones.
     fn sum_conductances(&mut self, active: &ActiveSet) {
-        // The smallest blocks sum over their elements.
+        // The conductance of a block of the smallest size is the sum over its active elements.
         let (conductances, levels) = (&self.conductances, &mut self.levels);
         let sums = [active.blocks(FINEST_BLOCK_EDGE, &mut levels[0].conductance)];
         active.row_blocks.for_each_part(sums, |row_block, [sums]| {
             let conductances = &conductances[active.packed_range(row_block)];
             sum_blocks::<FINEST_BLOCK_EDGE>(active, row_block, |index| conductances[index], sums);
         });
-        // Larger blocks sum what their children pass on.
+        // The conductance of a larger block is the sum of W / (1 + W k) over its children (head of this file).
         levels[0].update_local_fraction();
         for_each_parent(levels, |smaller, level| {
             let load =
@@ -172,7 +172,8 @@ impl Level {
             let length = edge.min(elements.shape()[axis]) as f64;
             length * elements.spacing()[axis]
         });
-        // Mean displacement of a block under its own unit pressure; an incompressible layer may rise in the middle of a large block.
+        // Find the displacement of a block under its own unit load. Negative values are cut off: an incompressible layer may rise
+        // in the middle of a large block.
         let total_influence = convolution.base.influence([0.0; 2], edges).max(0.0);
         let self_influence = total_influence / (edges[0] * edges[1]);
         Self {

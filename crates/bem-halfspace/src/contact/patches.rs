@@ -63,7 +63,7 @@ impl ContactProblem<'_> {
 
     /// Flood fill: indices of all unassigned elements in contact that are connected to one, increasing; marks them as assigned.
     fn flood_patch(&self, element: usize, is_unassigned: &mut [bool]) -> Vec<usize> {
-        // Breadth-first: the list is also the queue of elements whose neighbours are still to be visited.
+        // Search breadth-first: the list is also the queue of elements whose neighbours are still to be visited.
         is_unassigned[element] = false;
         let mut elements = vec![element];
         let mut n_visited = 0;

@@ -76,7 +76,7 @@ impl Preconditioner {
     /// Preconditioner for the operator of a convolution, on an empty active set.
     pub(super) fn new(convolution: &Convolution, parameters: PreconditionerParameters) -> Self {
         let grid = convolution.grid();
-        // Weights of the stencil for short waves, and what it lacks for long ones.
+        // Set up the stencil s(q) for short waves, and the convolution with the remainder |q| − s(q) that it lacks for long ones.
         let stencil = grid.spacing().map(|dx| parameters.neighbour_weight / dx);
         let long_wave_inverse = convolution.on_blocks(|q| {
             let difference =
@@ -161,7 +161,7 @@ impl Preconditioner {
         );
         self.correction.solve_block_displacements();
 
-        // Prolong both to the elements, and add the short waves.
+        // Prolong the loads of the long waves and the displacements of the blocks to the elements, and add the short waves.
         let (this, field) = (&*self, &*field);
         let (conductances, displacements) = this.correction.conductances_and_displacements();
         row_blocks.for_each_part([active.packed(result)], |row_block, [result]| {
@@ -198,16 +198,16 @@ impl Preconditioner {
         let along_y = self.stencil[1] * self.mirror_weights.of_row(run.elements().start);
         let Range { start, end } = run.elements();
         let row = start / columns;
-        // Diagonal.
+        // Add the diagonal of the five-point stencil, twice the weight of each axis.
         add_scaled(result, 2.0 * (along_x + along_y), residual);
-        // Neighbours along y. At the ends of a run the residual is zero. Behind a mirror stands the element itself, or the image of
-        // the next one, whose share belongs to the other half of this one.
+        // Subtract the neighbours along y. Beyond the ends of a run the residual is zero. Behind a mirror stands the element
+        // itself, or the image of the next one, whose share belongs to the other half of this one.
         add_scaled(&mut result[1..], -along_y, residual);
         add_scaled(result, -along_y, &residual[1..]);
         if !mirrors[1].is_none() && start == row * columns {
             result[0] -= along_y * residual[0];
         }
-        // Neighbours along x, in the rows behind and ahead of the run.
+        // Find the neighbours along x, which lie in the rows behind and ahead of the run, to subtract them below.
         let behind = if row > 0 {
             Some(&field[start - columns..end - columns])
         } else {
@@ -305,7 +305,7 @@ mod tests {
                 check(&Convolution::periodic(&grid).folded(mirrors), |_| true);
             }
         }
-        // Over several row blocks.
+        // Check grids that are divided into several row blocks, at the border of two of these.
         let whole = Convolution::new(&Grid::new([2000, 9], [1.0, 0.7])?);
         for convolution in [&whole, &whole.folded([Mirror::None, Mirror::Centre])] {
             let row_blocks = ActiveSet::new(convolution.grid().shape()).row_blocks;

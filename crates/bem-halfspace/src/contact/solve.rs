@@ -49,7 +49,7 @@ fn solve_around(
 ) -> Result<LoadSolution, BemError> {
     let convolution = problem.convolution;
     let grid = convolution.grid();
-    // The whole grid, unless a box with a margin is much smaller.
+    // Iterate on the whole grid, unless a box with a margin is much smaller.
     let saves_time = |bounds: &Bounds| {
         let part = bounds.n_elements() as f64 / grid.n_elements() as f64;
         convolution.surroundings == Surroundings::Free && part < MAX_BOX_FRACTION
@@ -173,7 +173,7 @@ fn prolong_coarse_solution(problem: LoadProblem, state: &mut LoadState) {
 /// Restriction of row-major heights \[m] to elements of twice the edges: mean of the finite heights of two by two elements, `+∞` if
 /// there are none.
 fn restrict_heights(heights: &[f64], [rows, columns]: [usize; 2]) -> Vec<f64> {
-    // Mean of the finite heights of a block.
+    // This closure returns the mean of the finite heights of a block of two by two elements.
     let mean = |row: usize, column: usize| {
         let (mut sum, mut count) = (0.0, 0.0);
         for row in row..(row + 2).min(rows) {
@@ -191,7 +191,7 @@ fn restrict_heights(heights: &[f64], [rows, columns]: [usize; 2]) -> Vec<f64> {
             f64::INFINITY
         }
     };
-    // Take the means of all blocks.
+    // Compute this mean for all blocks, which are the elements of the coarser grid.
     let shape = [rows, columns].map(|n| n.div_ceil(2));
     let mut means = vec![0.0; shape[0] * shape[1]];
     for_each_row(&mut means, shape[1], |row, means| {

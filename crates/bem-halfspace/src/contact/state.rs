@@ -117,7 +117,7 @@ impl ContactState {
             self.buffers_for = needed;
             self.loads = LoadState::new(convolution.grid().n_elements());
         }
-        // From pressures to loads, in place.
+        // Convert the pressures of the first guess to loads, in place.
         self.loads.load = std::mem::take(&mut self.pressure);
         self.loads.map_loads(columns, |pressure| {
             let load = pressure * load_per_pressure;
@@ -125,7 +125,7 @@ impl ContactState {
             if is_load { load } else { 0.0 }
         });
         let solved = solve(&mut self.loads);
-        // Back to pressures, and list the elements in contact.
+        // Convert the loads of the solution back to pressures, and list the elements in contact.
         self.loads.map_loads(columns, to_pressure);
         self.pressure = std::mem::take(&mut self.loads.load);
         self.contact.clear();

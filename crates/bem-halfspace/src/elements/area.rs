@@ -61,14 +61,15 @@ pub(crate) fn area_in_elements(loads: &[f64], bounds: &Bounds, mirrors: [Mirror;
         if !has_load(row, column) {
             continue;
         }
-        // Number of images of the element along each axis, itself included.
+        // Count the images of the element along each axis, the element itself included.
         let is_first = [bounds.lower[0] + row == 0, bounds.lower[1] + column == 0];
         let images = [0, 1].map(|axis| match mirrors[axis] {
             Mirror::Centre if is_first[axis] => 1,
             other => multiplicity(other),
         });
         count += images[0] * images[1];
-        // Edges to elements outside. Behind the first element in front of a mirror lies its image or itself.
+        // Count the edges to elements without load. Behind the first element in front of a mirror lies its image or the element
+        // itself.
         let before = [
             has_load(row.wrapping_sub(1), column),
             has_load(row, column.wrapping_sub(1)),
@@ -88,8 +89,8 @@ const fn multiplicity(mirror: Mirror) -> usize {
     if mirror.is_none() { 1 } else { 2 }
 }
 
-/// Measure of the singularity of the pressure at the contact boundary: the mean square of the loads of the outermost elements, over
-/// that under a flat punch with the same force and area; at most 1, and 0 if no element is at the boundary.
+/// Measure of the singularity of the pressure at the contact boundary: the ratio of the mean square load of the outermost
+/// elements to that under a flat punch with the same force and area. It is at most 1, and 0 if no element is at the boundary.
 ///
 /// Elements at the edge of a punch with a radius of a elements have √(a/2) times the mean load, from p = F/(2π a √(a² − r²)). Where the
 /// pressure vanishes like a root they have √(1/a) times the mean load, so that the ratio is of the order 1/a². Loads are those of the
@@ -104,7 +105,7 @@ pub(crate) fn edge_singularity(loads: &[f64], bounds: &Bounds, mirrors: [Mirror;
         }
     };
     let at_mirror = [0, 1].map(|axis| bounds.lower[axis] == 0 && !mirrors[axis].is_none());
-    // Sums over all loaded elements, and over those with a neighbour without load.
+    // Add up the loads of all loaded elements, and the squared loads of those with a neighbour without load.
     let [mut count, mut sum] = [0.0; 2];
     let [mut edge_count, mut edge_squares] = [0.0; 2];
     for (row, column) in (0..loads.len()).map(|index| (index / columns, index % columns)) {
@@ -126,7 +127,7 @@ pub(crate) fn edge_singularity(loads: &[f64], bounds: &Bounds, mirrors: [Mirror;
     if edge_count == 0.0 {
         return 0.0;
     }
-    // Mean square under a flat punch of the same force and area, whose radius is in elements.
+    // Compute the mean square load at the edge of a flat punch of the same force and area, with its radius in elements.
     let images = mirrors.iter().filter(|mirror| !mirror.is_none()).count();
     let radius = (count * f64::from(1_u32 << images) / PI).sqrt();
     let square_under_punch = 0.5 * radius * (sum / count).powi(2);
@@ -165,13 +166,13 @@ pub(crate) fn boundary_runs(
     let lower = bounds.lower.map(usize::cast_signed);
     let shape = bounds.shape();
     let upper = [0, 1].map(|axis| lower[axis] + shape[axis].cast_signed());
-    // The whole field, whose rows and columns behind a mirror have negative numbers.
+    // This closure gives the range of the whole field along an axis. Rows and columns behind a mirror have negative numbers.
     let range = |axis: usize| match mirrors[axis] {
         Mirror::None => lower[axis]..upper[axis],
         Mirror::Centre => 1 - upper[axis]..upper[axis],
         Mirror::Edge => -upper[axis]..upper[axis],
     };
-    // Index in the box of a loaded element, or of the element that it is the image of.
+    // This closure returns the index in the box of a loaded element, or of the element that it is the image of.
     let loaded = |index: [isize; 2]| {
         let [row, column] = [0, 1].map(|axis| {
             let folded = match mirrors[axis] {
@@ -179,7 +180,7 @@ pub(crate) fn boundary_runs(
                 Mirror::Edge if index[axis] < 0 => -1 - index[axis],
                 _ => index[axis],
             };
-            // Beyond either end of the box this is no index.
+            // Beyond either end of the box the difference is no index, and is rejected below.
             (folded - lower[axis]).cast_unsigned()
         });
         let index = (row < shape[0] && column < shape[1]).then(|| row * shape[1] + column);
@@ -253,14 +254,14 @@ mod tests {
             };
             let area = area_in_elements(&loads, &bounds, mirrors);
             assert!((area - expected).abs() < 1e-12, "{mirrors:?}: {area}");
-            // Two sides of 5 and of 7 edges, and four edges of the hole.
+            // The boundary has two sides of 5 edges, two of 7 edges, and four single edges at the hole.
             let uncertainty = boundary_uncertainty(&loads, &bounds, mirrors);
             assert!(
                 (uncertainty - 152_f64.sqrt()).abs() < 1e-12,
                 "{mirrors:?}: {uncertainty}"
             );
         }
-        // About edges, in a box that does not begin at the mirror along y: two bars of 8 × 2 elements.
+        // Test mirrors about edges in a box that does not begin at the mirror along y: two bars of 8 × 2 elements.
         let bounds = Bounds {
             lower: [0, 1],
             upper: [4, 3],

@@ -103,7 +103,8 @@ impl ContactBoundary {
         };
         for pair in field.boundary_pairs() {
             let ratio = field.load_gap_ratio(pair);
-            // Load with which the element inside leaves the boundary; negative gaps are errors of the solution.
+            // Compute the load x + κ g with which the element inside leaves the boundary. Skip pairs where it is not positive,
+            // because negative gaps are errors of the solution.
             let leaving_load = field.values[pair.inside] + ratio * field.values[pair.outside];
             if leaving_load <= 0.0 {
                 continue;
@@ -137,7 +138,8 @@ impl BoundaryField {
 
     /// The ratio κ of load to gap at a pair: from the responses to depth where these are known and positive, else [`LOAD_GAP_RATIO`].
     fn load_gap_ratio(&self, pair: BoundaryPair) -> f64 {
-        // A gap that grows with the depth has no ratio.
+        // Compute the ratio of the responses to depth. A gap that grows with the depth has none, so that the constant replaces
+        // it.
         let response = self.unit_depth_response.as_ref();
         let ratio_of_responses =
             response.map(|response| response[pair.inside] / response[pair.outside]);
@@ -165,7 +167,8 @@ impl BoundaryField {
     /// The normal is the gradient of a field that is the load inside the contact and −κ times the gap outside, with κ = `ratio`;
     /// `leaving_load` is the change of the field across the pair.
     fn squared_normal(&self, pair: BoundaryPair, ratio: f64, leaving_load: f64) -> f64 {
-        // Derivative along the boundary at an element: central, one-sided next to an unknown gap.
+        // This closure returns the derivative along the boundary at an element: a central difference, or a one-sided one next to
+        // an unknown gap.
         let derivative = |element: usize| {
             let value = |element: usize| match self.values[element] {
                 value if self.inside[element] => value,
@@ -183,7 +186,7 @@ impl BoundaryField {
             }
         };
         let tangent = 0.5 * (derivative(pair.inside) + derivative(pair.outside));
-        // Derivatives per length, in units of Δx.
+        // Square the derivatives along both axes, per length in units of Δx. The normal is their direction.
         let spacing = [1.0, self.aspect];
         let squares = [
             (leaving_load / spacing[pair.axis]).powi(2),

@@ -56,7 +56,7 @@ impl Footprint {
             Control::IndentationDepth(depth) => return reached(depth),
             Control::NormalForce(_) => depth_scale_of_surface(surface, elastomer, load)?,
         };
-        // Largest height in contact: less for bodies of revolution without a sharp cusp.
+        // Choose the largest height that may be in contact. It is smaller for bodies of revolution without a sharp cusp.
         let Some(body) = surface.as_axisymmetric() else {
             return reached(MAX_HEIGHT_IN_DEPTH_SCALES * depth);
         };
@@ -91,12 +91,13 @@ impl Footprint {
         elastomer: &dyn Elastomer,
         height: f64,
     ) -> Result<f64, BemError> {
-        // A half space nowhere rises to meet the body.
+        // A half space nowhere rises to meet the body, so that the height stays as it is.
         let base = elastomer.base();
         if base.is_half_space() {
             return Ok(height);
         }
-        // Half length of the contact, and the exponent p of a body h ∼ r^p from its doubling.
+        // Find the half length of the contact below a height. Its growth when the height doubles gives the exponent p of a body h
+        // ∼ r^p.
         let half_length = |height| -> Result<f64, BemError> {
             let distances = Self::below(surface, height)?.edge_distances()?;
             Ok(distances.concat().into_iter().fold(0.0, f64::max))

@@ -4,7 +4,8 @@ use crate::BemError;
 use crate::elements::mirror::Mirror;
 use numerics::{positive, whole_part};
 
-/// Largest number of elements of a grid, 2^28: a limit of the memory. With 150 bytes for an element they take 37.5 GiB.
+/// Largest number of elements of a grid, 2^28. Larger grids are refused with [`BemError::GridTooLarge`], to limit the memory.
+/// Chosen: with 150 bytes for an element the largest grid takes 37.5 GiB.
 pub(crate) const MAX_ELEMENTS: f64 = (1_u64 << 28) as f64;
 /// Smallest number of elements along an edge of the coarsest grid: of a nested iteration, and of a refinement along an edge of a period
 /// with waves.

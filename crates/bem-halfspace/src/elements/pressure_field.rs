@@ -73,7 +73,8 @@ impl PressureField {
     fn overlaps(&self, axis: usize, grid: &Grid, origin: f64) -> Vec<(usize, usize, f64)> {
         let [old, new] = [&self.grid, grid].map(|grid| grid.spacing()[axis]);
         let n_old = self.grid.shape()[axis];
-        // Ends of element `index`, in edges of old elements behind the rear end of the first one.
+        // Find the old elements that each new element overlaps. Its ends are measured in edges of old elements, from the rear end
+        // of the first one.
         let start = (origin - self.origin[axis] - 0.5 * new) / old + 0.5;
         let ratio = new / old;
         let pairs = (0..grid.shape()[axis]).flat_map(|index| {
@@ -121,11 +122,11 @@ impl PressureField {
             return 0.0;
         }
         let slopes = self.slopes(surface);
-        // Mean slope under the load, which is the friction coefficient.
+        // Compute the mean slope under the load, which is the friction coefficient.
         let force: f64 = self.pressure.iter().sum();
         let weighted = self.pressure.iter().zip(&slopes);
         let mean_slope = weighted.map(|(p, slope)| p * slope).sum::<f64>() / force;
-        // Errors of the runs, which are independent of each other.
+        // Add up the squared errors S of the runs at extrema, which are independent of each other.
         let bounds = Bounds {
             lower: [0; 2],
             upper: self.grid.shape(),
@@ -159,7 +160,7 @@ impl PressureField {
 
     /// Pressure of the element at a `position` \[m] relative to the lowest point, \[Pa]; zero outside the field.
     pub fn pressure_at(&self, position: [f64; 2]) -> f64 {
-        // The element whose edges enclose the position.
+        // Find the element whose edges enclose the position.
         let [rows, columns] = self.grid.shape();
         let index =
             |axis: usize| (position[axis] - self.origin[axis]) / self.grid.spacing()[axis] + 0.5;
@@ -195,7 +196,7 @@ mod tests {
     fn resampling_keeps_the_force() {
         let field = field();
         assert_eq!(field.resampled(&field.grid, field.origin), field, "itself");
-        // Grids that are finer, coarser and neither, all of which cover the field.
+        // Resample on grids that are finer, coarser and neither, all of which cover the field.
         for (shape, spacing, origin) in [
             ([23, 41], [0.13, 0.031], [-1.2, -0.66]),
             ([3, 2], [1.1, 0.9], [-0.6, -0.3]),

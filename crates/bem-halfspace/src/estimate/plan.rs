@@ -24,7 +24,8 @@ const MAX_VISIBLE_CELLS: f64 = 8.0;
 /// Smallest jump of the slope between two cells of a height map that counts as an edge, as a fraction of the slope at the end of the
 /// contact. Chosen (case of `evidence tuning`).
 const MIN_EDGE_JUMP: f64 = 0.3;
-/// Largest number of refinements by √2: a limit of the time. Most end earlier at the limit of unknowns.
+/// Largest number of refinements of the coarsest grid by √2. Chosen: the refinement stops there, so that its time is limited.
+/// Most refinements end earlier at the limit of unknowns.
 pub(crate) const MAX_REFINEMENTS: i32 = 24;
 /// Ratio of the contact length of a paraboloid in the one-dimensional model to the length on which it lies below the depth: 1/√2.
 const CONTACT_OVER_INTERSECTION_LENGTH: f64 = std::f64::consts::FRAC_1_SQRT_2;
@@ -103,7 +104,8 @@ impl GridPlan {
         depth: f64,
         plan: impl Fn(f64) -> Result<Self, BemError>,
     ) -> Result<Self, BemError> {
-        // The spacing for the contact without pile-up, and that with it, limited by the thickness.
+        // Take the longer one of two spacings: that for the contact without pile-up, and that with it, which the thickness
+        // limits.
         let mut shortest = plan(depth)?;
         let with_pile_up =
             plan(Footprint::with_pile_up(surface, elastomer, depth)?)?.coarsest_spacing;
@@ -223,7 +225,8 @@ pub(crate) fn kinks(
     let Some(body) = surface.as_axisymmetric() else {
         return Ok(0.0);
     };
-    // Squared jumps of the slope inside the footprint, relative to the squared slope at the end of the contact.
+    // Add up the squared jumps of the slope inside the footprint, to compare them with the squared slope at the end of the
+    // contact.
     let jumps: f64 = body
         .kinks()
         .into_iter()

@@ -25,30 +25,31 @@ pub(crate) struct RefinementLimits {
     selection_factor: f64,
 }
 
-/// A contact under a constant control; minutes on the finest grid.
+/// Limits for a contact under a constant force or depth. The finest grid takes minutes.
 pub(crate) const PRESS: RefinementLimits = RefinementLimits {
     initial_elements: FIRST_ELEMENTS,
     max_elements: 512,
     work_exponent: CONTACT_WORK_EXPONENT,
     selection_factor: SELECTION_FACTOR,
 };
-/// A history of a pressed contact, which takes many contacts on each grid.
+/// Limits for a history of a pressed contact. The finest grid is coarser than that of [`PRESS`], because each grid takes many
+/// contacts.
 pub(crate) const HISTORY: RefinementLimits = RefinementLimits {
     max_elements: 256,
     ..PRESS
 };
-/// A stationary state on a given number of elements.
+/// Limits for a stationary state on a given number of elements, which has no largest value.
 pub(crate) const STATIONARY: RefinementLimits = RefinementLimits {
     max_elements: usize::MAX,
     ..PRESS
 };
-/// A march from first touch; about a minute on the finest grid.
+/// Limits for a march from first touch. The finest grid takes about a minute.
 pub(crate) const SLIDE: RefinementLimits = RefinementLimits {
     max_elements: 32,
     work_exponent: MARCH_WORK_EXPONENT,
     ..PRESS
 };
-/// Any motion; a cycle takes about a minute on the finest grid. Most strokes reach 2 % on the first one
+/// Limits for any motion. A cycle takes about a minute on the finest grid. Most strokes reach an error of 2 % on the first grid
 /// (docs/theory/transient-half-space.md, "Linear loads").
 pub(crate) const MOTION: RefinementLimits = RefinementLimits {
     initial_elements: 8,

@@ -4,9 +4,11 @@
 //! u_new = 2 (1 − ν) α w + H,        w = K P / (4π)        at the end of a step
 //! gap = h + u_new − d ≥ 0,   P ≥ 0,   P · gap = 0
 //! ```
-//! α is the compliance of the step and H the displacement that its end would have without load, both exact for any Δt
-//! ([`rheology::ExponentialStep`]). H follows from the history variables of each element. Every step is an elastic contact of
-//! compliance 2 (1 − ν) α under an indenter of height h + H, after which the history variables are advanced by w.
+//! P is the pressure, K the operator of the influence coefficients, w the load potential and ν the Poisson ratio; h is the height
+//! of the indenter and d its depth. α is the compliance of the step and H the displacement at its end without load; both are
+//! exact for any duration Δt of the step ([`rheology::ExponentialStep`]). H follows from the history variables of each element.
+//! Every step is an elastic contact of compliance 2 (1 − ν) α under an indenter of height h + H, after which the history
+//! variables are advanced by w.
 //!
 //! Free bodies ([`free`]) and periodic surfaces ([`periodic`]) differ in the elements that are followed, and in how the heights
 //! and slopes of the surface are found at the end of a step.
@@ -22,7 +24,8 @@ use rheology::CreepSpectrum;
 use crate::GridOptions;
 pub use free::{March, Motion, MotionRow};
 
-/// Number of steps above which a march, or one cycle of it, is refused: a limit of the time.
+/// Largest number of steps of a march, or of one cycle of it. Chosen: a march of more steps is refused, because it would take too
+/// long.
 pub(crate) const MAX_STEPS: f64 = 1e5;
 /// Upper bound of the memory per followed element without its history variables, \[bytes]. Tests compare the bound of a march with the
 /// memory it takes (tests/it/memory.rs).
@@ -46,7 +49,7 @@ impl MarchExtent {
         let ([dx, dy], footprint) = (options.spacing, &options.footprint);
         let across = (footprint.y[1] - footprint.y[0]) / dy;
         let n_elements = footprint.n_elements([dx, dy]) + self.passed_length / dx * across;
-        // Only the half in front of a mirror is followed.
+        // If the surface is its own mirror image about y = 0, only the half in front of this mirror is followed.
         let followed = if surface.mirrors()[1] { 0.5 } else { 1.0 };
         let history = (self.numbers_per_element * size_of::<f64>()) as f64;
         (BYTES_PER_FOLLOWED_ELEMENT + history) * (followed * n_elements)

@@ -7,7 +7,9 @@
 //! u = 2 (1 − ν) α w + H,        w = K p / (4π)        at the end of the step
 //! ```
 //!
-//! A wave with the frequency ω = q_x v therefore has the complex compliance J_Δ of piecewise constant inputs instead of J. The
+//! Here u is the displacement and H its value without load, α the compliance of the step, ν the Poisson ratio, p the pressure and
+//! K the operator of the influence coefficients. A wave with the wave number q_x along x has the frequency ω = q_x v at the
+//! velocity v. Because of the constant pressure it has the complex compliance J_Δ of piecewise constant inputs instead of J. The
 //! march takes a surface whose waves are multiplied by J_Δ/J, a shift by about half a step if the material flows much; in full
 //! contact the pressure of the stationary state is then exact. The first step is shorter, so that the last one ends at the
 //! distance. Between whole elements the waves of the surface are shifted.
@@ -106,11 +108,12 @@ pub(crate) fn slide_with(
     let ((mean_pressure, distance), velocity) = (load.require_march()?, load.velocity());
     let (steps_per_element, edge) = (steps.per_element, grid.spacing()[0]);
     let whole_step = edge / steps_per_element;
-    // The march over the whole distance.
+    // Prepare the march: the number of steps over the whole distance, the motion, and the elements of one period before the first
+    // step.
     let n_steps = elements_along(distance, whole_step)?;
     let sliding = Sliding::new(elastomer, velocity)?;
     let mut march = PeriodicMarch::new(grid, heights, elastomer, edge / velocity)?;
-    // Steps end at whole numbers of steps before the end of the distance, so that the first one is the shorter one.
+    // Count the steps from the end of the distance, so that the last one ends there and the first one is the shorter one.
     let rows = (0..n_steps).rev().map(|left| {
         let (steps_after, is_first) = (left as f64, left + 1 == n_steps);
         let slid = distance - steps_after * whole_step;
@@ -185,7 +188,7 @@ impl<'a> PeriodicMarch<'a> {
         let n = grid.n_elements();
         check_spectra(&elastomer.material())?;
         let creep = elastomer.material().creep();
-        // Discretise the material, and the half space or layer.
+        // Discretise the creep law of the material in time, and the influence of the half space or layer in space.
         let step = ExponentialStep::creep(&creep, time_step)?;
         let convolution = Convolution::periodic_for_elastomer(elastomer, grid);
         Ok(Self {
@@ -239,7 +242,8 @@ impl<'a> PeriodicMarch<'a> {
     ) -> Result<(), BemError> {
         let time_step = length / sliding.velocity();
         let step = ExponentialStep::creep(&self.creep, time_step)?;
-        // The symbols of each row: J_Δ/J and the phase of the lag.
+        // Find the symbols of the waves in each row: the phase factor of the lag times J_Δ/J (head of this file) for the heights,
+        // and times i q_x for the slopes.
         let (along_x, factor) = (&self.waves.along_x, sliding.factor);
         let rows = along_x.len();
         let compliances = sliding.compliances(along_x)?.into_iter();
@@ -276,11 +280,12 @@ impl<'a> PeriodicMarch<'a> {
         options: &ContactOptions,
     ) -> Result<PeriodicRow, BemError> {
         let (n, columns) = (self.heights.len(), self.convolution.grid().shape()[1]);
-        // Height and displacement without load at the end of the step.
+        // Compute the initial gap h + H: the height of the surface plus the displacement without load, both at the end of the
+        // step.
         self.step.history(&self.history, &mut self.initial_gap);
         add_scaled(&mut self.initial_gap, 1.0, &self.heights);
 
-        // The contact of an elastic half space of compliance 2 (1 − ν) α on this gap.
+        // Solve the contact of the step, which is that of an elastic half space of the compliance 2 (1 − ν) α on this gap.
         let area = n as f64 * self.convolution.grid().element_area();
         let problem = ContactProblem {
             convolution: &self.convolution,
@@ -291,7 +296,8 @@ impl<'a> PeriodicMarch<'a> {
         };
         let contact = solve_contact(&problem, &mut self.state, options)?;
 
-        // The material to the end of the step.
+        // Advance the history variables to the end of the step with the input 2 (1 − ν) w, where w = K p/(4π) follows from the
+        // new pressure.
         let pressure = self.state.pressure();
         self.convolution
             .apply(&mut self.workspace, pressure, &mut self.input);

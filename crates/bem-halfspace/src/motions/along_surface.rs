@@ -31,7 +31,8 @@ const STEPS_PER_ELEMENT: usize = 3;
 /// orders from 1.2 to 2. An extrapolation with 1.5 to 2 halves them and removes their common sign
 /// (docs/theory/transient-half-space.md, "Linear loads").
 const CYCLE_EXTRAPOLATION_ORDER: f64 = 1.75;
-/// Time after which a pressed body counts as at rest, over the largest retardation time: e^−30, or 1e-13, of the creep remains.
+/// Ratio to the largest retardation time of the time after which a pressed body counts as at rest. Derived: the fraction e^−30,
+/// or 1e-13, of the creep is still to come then.
 const REST_OVER_RETARDATION_TIME: f64 = 30.0;
 
 /// Moves `surface` over an undeformed half space or layer, through the points of a motion or reciprocating until the limit cycle.
@@ -73,7 +74,8 @@ pub fn move_along<'w>(
     let order = order_of_friction(problem.plan.apex_exponent, MARCH_ORDER);
     let goal = MOTION.goal(request, order);
     let is_elastic = problem.creep.is_elastic();
-    // Cusps sharper than a cone converge with an order of their own.
+    // Extrapolate only cycles on viscoelastic materials, and not under cusps sharper than a cone, which converge with an order of
+    // their own.
     let has_known_order = load.is_cycle() && !is_elastic && order >= MARCH_ORDER;
     let view = MotionView {
         load,
@@ -143,7 +145,8 @@ impl<'a> MovingBody<'a> {
     ) -> Result<Self, BemError> {
         let creep = elastomer.material().creep();
         let limit_cycle = LimitCycle::new(load, &creep, accuracy)?;
-        // The grid of sliding at the largest load and speed; under a force the body may sink deeper while it dwells.
+        // Plan the grid for sliding at the largest load and speed. Under a force the footprint is extended, because the body may
+        // sink deeper while it dwells.
         let control = load.largest_control();
         let fastest = SlidingLoad::with(control, load.fastest())?;
         let mut plan = GridPlan::sliding(surface, elastomer, &fastest)?;
@@ -187,7 +190,8 @@ impl<'a> MovingBody<'a> {
             .load
             .steps(STEPS_PER_ELEMENT * elements, max_step_length, MAX_STEPS)?;
 
-        // A first touch at rest, then the steps of the motion or of one cycle.
+        // Begin with a first touch at rest, in which the body is pressed only. The steps of the motion, or of one cycle, follow
+        // it.
         let start = self.load.stages()[0].start;
         let touch = TOUCH_DURATION_RATIO * steps[0].duration;
         let ends = steps.iter().map(|step| (step.end, step.duration));
@@ -206,13 +210,13 @@ impl<'a> MovingBody<'a> {
             return Ok(record(&steps, &march.run(report)?, spacing));
         };
 
-        // Cycles follow the first touch.
+        // Solve the first touch. The first cycle begins with the history variables that it leaves.
         march.step()?;
         let touched = march.history_variables();
         let cycle = |from: &[f64], report: &dyn Fn(f64)| {
             march.restart_with(from);
             let mut rows = march.run(report)?;
-            // A cycle begins with the state in which it ends.
+            // The limit cycle begins with the state in which it ends, so that the last row is repeated in front of the first one.
             rows.insert(0, rows[rows.len() - 1]);
             Ok((record(&steps, &rows, spacing), march.history_variables()))
         };
@@ -227,7 +231,7 @@ fn record(steps: &[MovingStep], rows: &[MotionRow], spacing: f64) -> MotionRecor
         ..MotionRecord::default()
     };
     for (step, ends) in steps.iter().zip(rows.windows(2)) {
-        // Add the work of the step, and its state.
+        // Add the work of the step to the record, and append the state at the end of the step.
         let (before, row) = (&ends[0], &ends[1]);
         add_work(&mut record, step, [before, row]);
         record.steps.push(MotionStep {
@@ -253,9 +257,10 @@ fn add_work(record: &mut MotionRecord, step: &MovingStep, [before, now]: [&Motio
     let time_level = now.time_level;
     let distance = now.position - before.position;
     let mean = |[from, to]: [f64; 2]| to + (0.5 - time_level) * (from - to);
-    // Values of a quantity at the beginning and at the end.
+    // This closure returns the values of a quantity at the beginning and at the end of the step.
     let of_both = |of: fn(&MotionRow) -> f64| [before, now].map(of);
-    // Distances at the initial and at the final velocity of the step minus the distance that the body moves, \[m].
+    // Compute by how much the distances at the initial and at the final velocity of the step exceed the distance that the body
+    // moves, \[m].
     let excess = step
         .velocities
         .map(|velocity| velocity * step.duration - distance);

@@ -17,12 +17,14 @@ use crate::BemError;
 use crate::estimate::bars::reached_or_error;
 use crate::march::largest_retardation_time;
 
-/// Duration of the first touch, a step in which the body is pressed without moving, over that of the first step of the motion.
-/// Chosen; from 1e-6 to 1 no answer changes by more than 2e-4 of its bar.
+/// Ratio of the duration of the first touch, a step in which the body is pressed without moving, to that of the first step of the
+/// motion. Chosen; from 1e-6 to 1 no answer changes by more than 2e-4 of its bar.
 pub(super) const TOUCH_DURATION_RATIO: f64 = 1e-3;
-/// Number of cycles after which the search for the limit cycle is given up: a limit of the time.
+/// Largest number of cycles in the search for the limit cycle. Chosen: the search fails with [`BemError::NotPeriodic`] after this
+/// number, so that its time is limited.
 const MAX_CYCLES: usize = 100;
-/// Relative change per cycle below which rounding hides it: some tens of units in the last place, the rounding of hundreds of steps.
+/// Smallest relative change per cycle that rounding does not hide: some tens of units in the last place, the rounding of hundreds
+/// of steps.
 const CYCLE_ROUNDING: f64 = 1e-14;
 /// Remaining relative change of the limit cycle if a number of elements is asked for instead of an error. Chosen;
 /// from 1e-5 to 1e-2 bars change by at most 4 %, with 0.1 the remaining change prevails.
@@ -41,7 +43,7 @@ pub(super) fn refine_motion(
     solve: impl Fn(usize, &dyn Fn(f64)) -> Result<MotionRecord, BemError>,
     other_errors: impl Fn(&MotionRecord) -> Vec<ErrorParts>,
 ) -> Result<Moved, BemError> {
-    // Refine elements and steps.
+    // Follow the motion on finer and finer elements and steps until the error asked for is reached.
     let refined = refine(
         goal,
         solve,
@@ -103,7 +105,8 @@ impl LimitCycle {
         mut follow_cycle: impl FnMut(&[f64], &dyn Fn(f64)) -> Result<(MotionRecord, Vec<f64>), BemError>,
         report: &dyn Fn(f64),
     ) -> Result<MotionRecord, BemError> {
-        // 1/(1 − e^(−T/λ)): total remaining change over the change by one cycle, for the slowest retardation time λ.
+        // The total remaining change is the change in one cycle times 1/(1 − e^(−T/λ)), for the duration T of a cycle and the
+        // largest retardation time λ.
         let slowness = -(-self.period / self.slowest).exp_m1().recip();
         if slowness * CYCLE_ROUNDING > self.tolerance {
             let (period, slowest) = (self.period, self.slowest);

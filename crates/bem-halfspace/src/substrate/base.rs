@@ -14,7 +14,8 @@
 //! 1/r + c(r/t)/t,        c(ρ) = ∫_0^∞ [M(s) − 1] J₀(sρ) ds.
 //! ```
 //!
-//! c is analytic for |Im ρ| < 2. On a rigid base the sum decays like e^(−0.7 ρ) or faster.
+//! s/t is the wave number, ρ = r/t the distance in thicknesses and J₀ a Bessel function. c is analytic for |Im ρ| < 2. On a rigid
+//! base the whole potential decays like e^(−0.7 ρ) or faster.
 //!
 //! Theory: docs/layers.md, "How it is computed" and "Other substrates".
 
@@ -259,7 +260,7 @@ impl Base {
     pub(crate) fn pile_up_factor(&self, half_length: f64, exponent: f64) -> f64 {
         self.0.as_ref().map_or(1.0, |layered| {
             let slenderness = (half_length / layered.thickness / THIN_LAYER_RATIO).min(1.0);
-            // Weight of the compressible limit without pile-up, from 0 at ν = 0.5 to 1 at ν ≤ 0.4; chosen.
+            // The weight of the compressible limit, which has no pile-up, rises from 0 at ν = 0.5 to 1 at ν ≤ 0.4. Chosen.
             let compressibility = (10.0 * (0.5 - layered.shared.poisson_ratio)).clamp(0.0, 1.0);
             1.0 + slenderness * (PILE_UP_MARGIN + 0.5 * exponent * (1.0 - compressibility))
         })
@@ -277,7 +278,7 @@ impl Base {
         let Some(layered) = &self.0 else {
             return influence(offset, edges);
         };
-        // Cut the rectangle at the influence radius.
+        // Cut off the parts of the rectangle beyond the influence radius, because their loads displace the surface negligibly.
         let radius = self.influence_radius();
         let [mut centre, mut cut_edges] = [offset, edges];
         for axis in 0..2 {
@@ -294,7 +295,7 @@ impl Base {
             }
         }
 
-        // Love's integral of 1/r plus the integral of the smooth correction c(r/t)/t.
+        // Add Love's integral of 1/r over the rectangle and the integral of the smooth correction c(r/t)/t.
         let unit = layered.thickness;
         let TabulatedSubstrate {
             substrate,
@@ -311,11 +312,11 @@ impl Base {
     }
 }
 
-/// Largest edge of an element over the thickness of the layer, a limit of the validity: a thinner layer acts as a Winkler
-/// foundation or, if it is incompressible, as a film.
+/// Largest ratio of the edge of an element to the thickness of the layer. Thinner layers are refused, because they act as a
+/// Winkler foundation or, if they are incompressible, as a film. Chosen.
 pub(crate) const MAX_EDGE_OVER_THICKNESS: f64 = 32.0;
-/// Half length of the contact over the thickness from which on a layer piles up fully in [`Base::pile_up_factor`]. Measured by
-/// `evidence tuning`.
+/// Ratio of the half length of the contact to the thickness from which on a layer piles up fully in [`Base::pile_up_factor`].
+/// Measured by `evidence tuning`.
 const THIN_LAYER_RATIO: f64 = 5.0;
 /// Margin that [`Base::pile_up_factor`] adds on a thin layer beyond the pile-up itself, as a fraction of the height. Measured by
 /// `evidence tuning`.

@@ -36,8 +36,8 @@ const NEAR_WAVE_PANELS: u8 = 8;
 /// Number of Lobatto points per panel of the integrals over s and u = sρ. A panel has up to 21 waves of J₀(sρ), with more than four
 /// points each.
 const POINTS_PER_WAVE_PANEL: usize = 96;
-/// Length of a long panel of ρ over the distance |ρ ± 2i| from its start to the singularities of c. Chosen together with
-/// [`LONG_PANEL_TERMS`], whose number decides the error.
+/// Ratio of the length of a long panel of ρ to the distance |ρ ± 2i| from its start to the singularities of c. Chosen together
+/// with [`LONG_PANEL_TERMS`], whose number decides the error.
 const PANEL_OVER_SINGULARITY_DISTANCE: f64 = 0.5;
 /// Number of polynomial coefficients on a long panel, with which the correction c(ρ) has an error of 1e-12.
 const LONG_PANEL_TERMS: usize = 16;
@@ -75,7 +75,7 @@ pub(super) struct Correction {
 impl Correction {
     /// Tabulates c(ρ) for a substrate under a material with a Poisson ratio.
     pub(super) fn new(substrate: &dyn Substrate, poisson_ratio: f64) -> Self {
-        // Quadrature of the integral over s.
+        // Set up the quadrature of the integral over s: points, and weights times the excess M(s) − 1.
         let waves: Vec<[f64; 2]> = wave_rule(NEAR_WAVE_PANELS, MAX_WAVE_NUMBER)
             .map(|[s, weight]| [s, weight * substrate.compliance_excess(s, poisson_ratio)])
             .collect();
@@ -85,7 +85,8 @@ impl Correction {
                 .map(|[s, weight]| weight * libm::j0(s * rho))
                 .sum()
         };
-        // The integral on few long panels, then cheap short ones, which are found by a division.
+        // Compute the integral on few long panels. From these follow short panels, which are cheap to evaluate and found by a
+        // division.
         let panels = growing_panels([0.0, RIGID_BASE_INFLUENCE_RADIUS], integral);
         let value = |rho: f64| {
             let panel = panels.partition_point(|panel| panel.start <= rho);
@@ -178,7 +179,7 @@ impl<const N: usize> Panel<N> {
     fn new([start, length]: [f64; 2], function: impl Fn(f64) -> f64) -> Self {
         let angle = |index: usize| PI * (index as f64 + 0.5) / N as f64;
         let value = |index| function(start + 0.5 * length * (1.0 + angle(index).cos()));
-        // Values at the Chebyshev points, and their Chebyshev coefficients.
+        // Evaluate the function at the Chebyshev points, and compute its Chebyshev coefficients from these values.
         let values: [f64; N] = std::array::from_fn(value);
         let coefficient = |order: usize| {
             let terms = values
@@ -187,7 +188,8 @@ impl<const N: usize> Panel<N> {
                 .map(|(index, value)| value * (order as f64 * angle(index)).cos());
             terms.sum::<f64>() / N as f64
         };
-        // Clenshaw's recurrence b_k = c_k + 2 x b_(k+1) − b_(k+2) on polynomials instead of numbers.
+        // Apply Clenshaw's recurrence b_k = c_k + 2 x b_(k+1) − b_(k+2) to polynomials instead of numbers, with the coefficients
+        // c_k.
         let [mut last, mut coefficients] = [[0.0; N]; 2];
         for order in (0..N).rev() {
             let factor = if order == 0 { 1.0 } else { 2.0 };

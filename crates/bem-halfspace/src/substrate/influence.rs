@@ -21,7 +21,7 @@ pub fn influence(offset: [f64; 2], edges: [f64; 2]) -> f64 {
     // Lengths in units of the longer edge neither overflow nor underflow when they are squared.
     let unit = edges[0].max(edges[1]);
     let [offset, edges] = [offset, edges].map(|lengths| lengths.map(|length| length.abs() / unit));
-    // Far away the multipole expansion, near the rectangle closed form or Gauss rule.
+    // Take the multipole expansion far away, and the closed form or a Gauss rule near the rectangle.
     let [x, y] = offset;
     if x * x + y * y >= MULTIPOLE_DISTANCE * MULTIPOLE_DISTANCE {
         return unit * multipoles(offset, edges);
@@ -33,7 +33,7 @@ pub fn influence(offset: [f64; 2], edges: [f64; 2]) -> f64 {
 /// of one length. Its terms are means over the rectangle of Legendre polynomials of the angle between field point and source point.
 fn multipoles([x, y]: [f64; 2], [a, b]: [f64; 2]) -> f64 {
     let square = x * x + y * y;
-    // Squares of the direction cosines, and mean moments of the rectangle of the orders 2 and 4.
+    // Compute the squares of the direction cosines, and the mean moments of the rectangle of the orders 2 and 4.
     let [p, q] = [x * x / square, y * y / square];
     let [x2, y2] = [a * a / 12.0, b * b / 12.0];
     let [x4, x2y2, y4] = [1.8 * x2 * x2, x2 * y2, 1.8 * y2 * y2];
@@ -74,7 +74,7 @@ impl PlaneKernel for Reciprocal {
 fn strip_integral(x: f64, edge: f64, height: f64) -> f64 {
     let (lower, upper) = (x - 0.5 * edge, x + 0.5 * edge);
     if lower > 0.0 {
-        // The logarithm in a form that also holds for a height of 0.
+        // This form of the logarithm also holds for a height of 0.
         return ((upper + distance(upper, height)) / (lower + distance(lower, height))).ln();
     }
     (upper / height.abs()).asinh() - (lower / height.abs()).asinh()

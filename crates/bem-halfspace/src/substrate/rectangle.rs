@@ -91,7 +91,7 @@ pub(crate) trait PlaneKernel {
 
 /// Integral ∬ k(x − x', y − y') dA' over the rectangle with edges [a, b] around the origin, for y ≥ 0; lengths in any one unit.
 pub(crate) fn integrate<K: PlaneKernel>([x, y]: [f64; 2], [a, b]: [f64; 2]) -> f64 {
-    // Distance from the rectangle to the singularities of the integrand along x, and along y.
+    // Find the distances from the rectangle to the singularities of the integrands along x and along y.
     let distances = [
         distance(x, (y - 0.5 * b).max(0.0)),
         distance(y, (x - 0.5 * a).max(0.0)),
@@ -100,13 +100,13 @@ pub(crate) fn integrate<K: PlaneKernel>([x, y]: [f64; 2], [a, b]: [f64; 2]) -> f
         fewest_points(&SINGULAR_KERNEL_RULES, distances[0], a),
         fewest_points(&SINGULAR_KERNEL_RULES, distances[1], b),
     ) {
-        // Far in at least one direction: quadrature along it.
+        // If the singularities are far in at least one direction, integrate along it by a Gauss rule.
         (Some(along_x), Some(along_y)) => {
             gauss(along_x, x, a, |x| gauss(along_y, y, b, |y| K::value(x, y)))
         }
         (Some(along_x), None) => gauss(along_x, x, a, |x| K::strip_along_y(x, y, b)),
         (None, Some(along_y)) => gauss(along_y, y, b, |y| K::strip_along_x(x, a, y)),
-        // Near in both directions: the closed form.
+        // If the singularities are near in both directions, take the closed form, a second difference between the corners.
         (None, None) => {
             let [left, right, lower, upper] = [x - 0.5 * a, x + 0.5 * a, y - 0.5 * b, y + 0.5 * b];
             K::corner(right, upper) - K::corner(left, upper) - K::corner(right, lower)
@@ -123,7 +123,7 @@ pub(crate) fn integrate_smooth(
     [a, b]: [f64; 2],
     function: &impl Fn(f64, f64) -> f64,
 ) -> f64 {
-    // Distance from the rectangle to the singularities.
+    // Find the distance from the rectangle to the singularities at r = ±i `singular`.
     let [beside, above] = [x.abs() - 0.5 * a, y.abs() - 0.5 * b].map(|gap| gap.max(0.0));
     let to_singularity = (beside * beside + above * above + singular * singular).sqrt();
     let half = |centre, edges| integrate_smooth(singular, centre, edges, function);
@@ -134,7 +134,7 @@ pub(crate) fn integrate_smooth(
         (Some(along_x), Some(along_y)) => {
             gauss(along_x, x, a, |x| gauss(along_y, y, b, |y| function(x, y)))
         }
-        // Too long for all rules: halve along x, and then along y.
+        // A rectangle that is too long for all rules is halved along x, and then along y.
         (None, _) => {
             let halves = [x - 0.25 * a, x + 0.25 * a];
             halves.into_iter().map(|x| half([x, y], [0.5 * a, b])).sum()

@@ -16,9 +16,9 @@ use crate::transform::fast_length::fast_length;
 use crate::transform::plane_transform::{PlaneTransform, ZERO};
 use crate::{Elastomer, PressureField};
 
-/// Period along x and y that replaces the unbounded surface, over the edges of the contact's bounding box. A factor of 2 is enough
-/// for the square of the transform. Chosen: with 8 along x, bands are an eighth of the contact's own wave number wide, which
-/// is the resolution of the dissipation over frequency.
+/// Ratios along x and y of the period that replaces the unbounded surface to the edges of the contact's bounding box. A ratio of
+/// 2 is enough for the square of the transform. Chosen: with 8 along x, bands are an eighth of the contact's own wave number
+/// wide, which is the resolution of the dissipation over frequency.
 const PERIOD_OVER_CONTACT: [usize; 2] = [8, 4];
 
 /// Frequency bands of a line contact that slides at a `velocity` \[m/s]; `pressure` has [position \[m], pressure] at increasing
@@ -61,7 +61,7 @@ impl PressureField {
         let period = self.grid.shape();
         let wave_step = self.wave_steps(period)[0];
         let weights = self.dissipation_weights(period, elastomer);
-        // Waves with crests along x do not oscillate.
+        // Leave out the waves with crests along x, which do not oscillate in the material.
         let moving = weights.into_iter().enumerate().skip(1);
         let line = |(index, weight)| StressBand {
             band: [index as f64 * wave_step * velocity; 2],

@@ -26,7 +26,7 @@ impl Heights {
         inside: [&[f64]; 2],
         depth: f64,
     ) -> Self {
-        // The minimum over the elements between the runs, and the sum over the runs.
+        // Find the lowest height of the inactive elements between the runs, and the sum of the heights over the runs.
         let first = active.row_blocks.elements(row_block).start;
         let height = |[separation, displacement]: [f64; 2]| separation + displacement;
         let lowest_in = |gap: Range<usize>| {
@@ -54,11 +54,11 @@ impl Heights {
 impl Iteration<'_> {
     /// Computes the displacement K x anew from the load, and restarts the search directions.
     pub(super) fn recompute_displacement(&mut self) {
-        // Find the displacement on the whole grid.
+        // Compute the displacement K x under the present load on the whole grid.
         self.scatter_load();
         self.convolution
             .apply(self.workspace, self.load, self.displacement);
-        // Gather it on the active set, with the height statistics.
+        // Gather the displacement on the active set, and find minimum and sum of the heights in the same pass.
         let (active, vectors) = (&self.fields.active, &mut self.fields.vectors);
         let (fields, depth) = ([self.separation, self.displacement], self.indentation_depth);
         let separation = &vectors.separation;
@@ -141,7 +141,7 @@ impl Iteration<'_> {
             (&vectors.separation, &vectors.displacement, &vectors.load);
         let self_influence = self.convolution.self_influence;
         let depth = self.indentation_depth;
-        // Residual and violations inside each row block.
+        // Compute the residual on the active elements of each row block, and the largest violations there.
         let in_row_block = |row_block, [residual]: [&mut [f64]; 1]| {
             let [separation, displacement, load] = [separation, displacement, load]
                 .map(|vector| &vector[active.packed_range(row_block)]);
@@ -214,7 +214,7 @@ impl Violations {
         displacement: &[f64],
         self_influence: f64,
     ) -> Self {
-        // Zero if all residuals are finite, else NaN: comparisons would skip a NaN, a sum does not.
+        // This sum is zero if all residuals are finite, else NaN. The comparisons below would skip a NaN, a sum does not.
         let zero_or_nan = sum([residual], |[residual]| 0.0 * residual);
         let lowest_load = reduce([load], 0.0, |[load]| load, smaller);
         let own_part = self_influence * reduce([load], 0.0, |[load]| load, larger);

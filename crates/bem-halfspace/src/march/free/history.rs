@@ -3,7 +3,8 @@
 //! ```text
 //! u = H + 2 (1 − ν) α w,   w = K P / (4π)        at the end of a step
 //! ```
-//! H is the displacement at the end of the step if the pressure P of the step were zero, and α the compliance of the step.
+//! P is the pressure of the step, K the operator of the influence coefficients, w the load potential and ν the Poisson ratio. H
+//! is the displacement at the end of the step if P were zero, and α the compliance of the step.
 //!
 //! Every element has one history variable per retardation element of the material, one for free flow, and the last load
 //! if loads are linear over a step. An elastic material has none, and needs no more elements than the footprint.
@@ -99,7 +100,8 @@ impl MaterialHistory {
         footprint_rows: Range<usize>,
         wanted: Range<usize>,
     ) {
-        // Place the loads on the path; other rows of the buffer are not read.
+        // Write the loads of the footprint into the load field of the path. Other rows need not be cleared, because the
+        // convolution does not read them.
         let columns = self.columns();
         let path_rows = footprint_rows.start + first_row..footprint_rows.end + first_row;
         self.load[path_rows.start * columns..path_rows.end * columns].fill(0.0);
@@ -129,12 +131,13 @@ impl MaterialHistory {
         let columns = self.columns();
         let per_row = self.n_fields * columns;
         let compliance = step.response();
-        // Row by row, because the fields of a row are contiguous.
+        // Advance the history variables row by row, because `variables` stores all fields of a row next to each other.
         let increments = self.increment[wanted.start * columns..wanted.end * columns]
             .chunks_exact_mut(columns)
             .zip(self.variables[wanted.start * per_row..].chunks_exact_mut(per_row));
         for (increment, variables) in increments {
-            // The input of the creep law is the load potential, here times 2 (1 − ν): u = α · input.
+            // The input of the creep law is 2 (1 − ν) times the load potential w (head of this file): the displacement over the
+            // compliance α of the step.
             for value in &mut *increment {
                 *value /= compliance;
             }

@@ -133,7 +133,7 @@ impl<'a> March<'a> {
         let [along_x, along_y] = surface.mirrors();
         let layout = options.layout([along_x && schedule.is_at_rest(), along_y])?;
         let [dx, dy] = options.spacing;
-        // Material, and its coefficients for the first step.
+        // Find the creep spectrum of the material, and the coefficients of its creep law over the first step.
         check_spectra(&elastomer.material())?;
         let creep = elastomer.material().creep();
         let time_step = schedule.steps[0].time_step;
@@ -143,7 +143,7 @@ impl<'a> March<'a> {
             0 => schedule.without_history(),
             _ => schedule,
         };
-        // Elements along the path, with lengths in Δx.
+        // Set up the history of all elements that the footprint passes, the path. Lengths of the base are in units of Δx.
         let base = elastomer.base().in_units_of(dx)?;
         base.check_flow(creep.fluidity())?;
         let sinks_without_limit = creep.fluidity() > 0.0 && base.is_half_space();
@@ -168,7 +168,7 @@ impl<'a> March<'a> {
             history,
             slopes: MeanSlopes::default(),
         };
-        // Heights are sampled in the scale; the first box surrounds the lowest point.
+        // Sample the heights of the body in units of the height scale, and place the first contact box around the lowest point.
         march.height_scale = march.find_height_scale()?;
         march.sample_heights(march.schedule.steps[0].offset)?;
         march.contact_box = march.box_at_lowest_point(&march.heights)?;
@@ -213,7 +213,7 @@ impl<'a> March<'a> {
     /// # Errors
     /// None after a step that succeeded.
     pub fn pressure(&self) -> Result<PressureField, BemError> {
-        // From scaled loads α P/(4π), in units of the height scale over Δx, to pressure.
+        // The factor `unit` converts loads 2 (1 − ν) α P/(4π), in units of the height scale over Δx, to pressures.
         let unit = 4.0 * PI * self.height_scale / self.options.spacing[0] / self.compliance();
         let bounds = self.contact_bounds();
         let spacing = self.options.spacing;
@@ -336,16 +336,16 @@ impl<'a> March<'a> {
     /// Solves one step in time: the contact at its end, then the history variables of the rows that later steps need. Time level and
     /// tangential forces of the row are 0.
     fn solve_step(&mut self, step: &ScheduledStep) -> Result<MotionRow, BemError> {
-        // Height and displacement without load at the end of the step.
+        // Find the initial gap at the end of the step: the height of the body plus the displacement of the surface without load.
         self.set_time_step(step.time_step)?;
         self.sample_heights(step.offset)?;
         self.update_initial_gap(step.row);
-        // The contact of an elastic half space of compliance 2 (1 − ν) α on this gap.
+        // Solve the contact of the step, which is that of an elastic half space of the compliance 2 (1 − ν) α on this gap.
         let row = match self.depth_without_contact(step.end.control) {
             Some(depth) => self.step_without_contact(step, depth)?,
             None => self.solve_contact(step)?,
         };
-        // The material to the end of the step.
+        // Advance the history variables to the end of the step, in the rows that later steps need.
         self.history
             .advance(&self.creep_step, self.rows_needed(self.steps_done));
         self.steps_done += 1;
@@ -393,7 +393,8 @@ impl<'a> March<'a> {
         let before = self.creep_step.response();
         self.creep_step = (self.schedule.step_rule)(&self.creep, time_step)?;
         self.time_step = time_step;
-        // Loads are α P / (4π), so the same pressure has another load.
+        // Loads are pressures times the compliance of the step, so that they change with it while the pressure of the first guess
+        // stays the same.
         let ratio = self.creep_step.response() / before;
         for load in &mut self.contact_box.state.load {
             *load *= ratio;
@@ -431,7 +432,7 @@ impl<'a> March<'a> {
                     .push(self.surface.height([x, self.y_of_column(column)]) / self.height_scale);
             }
         }
-        // Check and store the heights.
+        // Refuse heights that are NaN or −∞, and keep the sampled ones with their offset.
         let first = [first_row, first_column];
         check_heights(
             "height of the surface",
@@ -500,10 +501,11 @@ impl<'a> March<'a> {
         })
     }
 
-    /// Unit of heights \[m], the largest over all steps of these: 2 (1 − ν) α F_N/(4 Δx) under a force, which is F_N/(4ηv) on an
-    /// incompressible dashpot that moves by Δx per step; the modulus of a given depth. It is Δx if all of these are 0.
+    /// Unit of heights \[m], the largest scale of all steps. Under a force the scale of a step is 2 (1 − ν) α F_N/(4 Δx), which
+    /// is F_N/(4ηv) on an incompressible dashpot that moves by Δx per step. At a given depth it is the modulus of the depth. If
+    /// all scales are 0, the unit is Δx.
     fn find_height_scale(&self) -> Result<f64, BemError> {
-        // The largest scale of all steps, so that no height of the march is large in this unit.
+        // Take the largest scale of all steps, so that no height of the march is large in this unit.
         let spacing = self.options.spacing[0];
         let mut scale = 0.0_f64;
         for step in &self.schedule.steps {

@@ -59,7 +59,7 @@ pub(crate) struct Schedule {
 impl Schedule {
     /// The steps through `motions`, with loads that are held over each; `spacing` is Δx \[m].
     pub(super) fn from_motions(motions: &[Motion], spacing: f64) -> Result<Self, BemError> {
-        // Durations are differences of the times.
+        // The duration of a step is the difference between its time and that of the step before.
         let mut previous_time = 0.0;
         let timed = motions.iter().map(|&end| {
             let duration = end.time - previous_time;
@@ -127,7 +127,7 @@ impl Schedule {
         let (mut cell_before, mut offset_before) = (0.0, 0.0);
         for TimedMotion { end, duration } in motions {
             let time_step = positive("time step", duration)?;
-            // Position on the grid, as an element and the offset from its centre.
+            // Express the position on the grid by the nearest element and the offset from its centre.
             let [cell, offset] = nearest_element(end.position, spacing)?;
             check_control(end.control)?;
             steps.push(ScheduledStep {
@@ -141,7 +141,7 @@ impl Schedule {
             (cell_before, offset_before) = (cell, offset);
         }
         positive("number of steps", steps.len() as f64)?;
-        // Count the rows from the rearmost one.
+        // Count the rows from the rearmost one of all steps, so that no number is negative.
         let lowest = cells.iter().copied().fold(f64::INFINITY, f64::min);
         for (step, cell) in steps.iter_mut().zip(cells) {
             step.row = whole_elements(cell - lowest)?;
@@ -186,7 +186,7 @@ fn divide_into_steps(distance: f64, length: f64) -> Result<(usize, f64), BemErro
             limit: MAX_STEPS,
         });
     }
-    // The last step takes up the remainder of half an element to one and a half.
+    // The last step takes up the remainder, so that it is 0.5 to 1.5 times as long as the others.
     let before = (steps - 0.5).ceil().max(1.0) - 1.0;
     let fraction = steps - before;
     // A whole step must not become another one by rounding, or results would depend on the unit of length.

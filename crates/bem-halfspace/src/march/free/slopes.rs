@@ -4,6 +4,9 @@
 //! F_h = Σ P ∂h/∂x ΔA,      ∂h/∂x at x + θ v Δt,      θ = ½ (1 − E G'(ω)),      ω = 2πv/L
 //! E = J₀ + Σ J_k (1 − 2 m_k)/(1 + ω²λ_k²),      m_k = λ_k/Δt − 1/(e^(Δt/λ_k) − 1)
 //! ```
+//! J₀ is the instantaneous compliance, J_k and λ_k are the compliance and the retardation time of element k, G' is the storage
+//! modulus, v the velocity and Δt the duration of the step.
+//!
 //! The pressure on a dashpot belongs to the motion during the step (θ = ½). The pressure on a spring, or on a retardation
 //! element that relaxes within the step, belongs to the end of the step (θ = 0). In between, θ follows from the moduli at the
 //! frequency ω with which a contact of length L passes. A load that is linear over the step belongs to its end.
@@ -42,9 +45,9 @@ impl MeanSlopes {
             time_level,
             ..Self::default()
         };
-        // Sums over the loaded elements, weighted with their loads.
+        // Add up the slopes of the loaded elements, weighted with their loads, for the means over the total load.
         let mut total_load = 0.0;
-        // Images fore and aft have the opposite slope.
+        // If x = 0 is a mirror, each element has an image of the opposite slope, so that the mean slopes vanish.
         let has_image = !march.layout.mirrors[0].is_none();
         for (element, load) in march.loaded_elements() {
             let [slope, end] = slopes_at(march, time_level, step, element)?;
@@ -112,7 +115,7 @@ fn time_level(march: &March<'_>, step: &ScheduledStep) -> Result<f64, BemError> 
 fn elastic_share(march: &March<'_>, step: &ScheduledStep) -> Result<f64, BemError> {
     let (creep, advance, time_step) = (&march.creep, step.advance, step.time_step);
     let mut elastic = creep.instantaneous_compliance();
-    // ω = 2πv/L with the length L of the present contact, and E as the sum over retardation elements.
+    // Compute ω = 2πv/L for the length L of the present contact, and E as a sum over retardation elements (head of this file).
     let n_rows = march.contact_bounds().shape()[0];
     let frequency = 2.0 * PI * (advance.abs() / time_step / n_rows as f64);
     for element in creep.elements() {
@@ -124,7 +127,7 @@ fn elastic_share(march: &March<'_>, step: &ScheduledStep) -> Result<f64, BemErro
         return Ok(0.0);
     }
     let compliance = creep.complex_compliance(frequency)?;
-    // G' = J'/(J'² + J''²), relative to E because squares of compliances may underflow.
+    // The storage modulus is G' = J'/(J'² + J''²). The compliances are divided by E first, because their squares may underflow.
     let [storage, loss] = [compliance.storage, compliance.loss].map(|part| part / elastic);
     Ok(storage / (storage * storage + loss * loss))
 }

@@ -11,12 +11,12 @@ use crate::BemError;
 use crate::elements::bounds::Bounds;
 use crate::elements::mirror::n_images;
 
-/// Area of the needed contact box over that of the present one below which the box shrinks. It exceeds the ratio 0.6 at which the
-/// contact solver would iterate on a smaller box of its own. Chosen; from 0 to 0.99 no answer changes by more than 1e-8 of
-/// its bar.
+/// Ratio of the area of the contact box that is needed to that of the present one, below which the box shrinks. It exceeds the
+/// ratio 0.6 at which the contact solver would iterate on a smaller box of its own. Chosen; from 0 to 0.99 no answer changes by
+/// more than 1e-8 of its bar.
 const SHRINKING_AREA_RATIO: f64 = 0.75;
-/// Penetration outside the box that is allowed, over the tolerance of the contact on the box: once for the contact,
-/// and once for the transforms of box and footprint, which round differently.
+/// Factor on the tolerance of the contact in the penetration that is allowed outside the box. Derived: the tolerance counts once
+/// for the contact, and once for the transforms of box and footprint, which round differently.
 const OUTSIDE_TOLERANCE_RATIO: f64 = 2.0;
 
 impl March<'_> {
@@ -24,7 +24,7 @@ impl March<'_> {
     pub(super) fn solve_contact(&mut self, step: &ScheduledStep) -> Result<MotionRow, BemError> {
         let mut enlarged = false;
         loop {
-            // Solve the elastic contact on the box, from the pressure of the last step.
+            // Solve the elastic contact on the box, with the pressure of the last step as first guess.
             let columns = self.layout.folded_shape()[1];
             let bounds = self.contact_box.bounds;
             bounds.extract(&self.initial_gap, columns, &mut self.contact_box.separation);
@@ -32,7 +32,7 @@ impl March<'_> {
             let accuracy = (&self.options.contact).into();
             let solved = self.contact_box.solve(control, &accuracy)?;
 
-            // Enlarge the box by penetrating elements, and solve again.
+            // If the indenter penetrates elements outside the box, enlarge the box by these and solve again.
             self.update_increment(step.row);
             let contact = self.loaded_bounds();
             if let Some(outside) = self.penetration_outside_box(step.row, solved.indentation_depth)
@@ -47,7 +47,7 @@ impl March<'_> {
                 continue;
             }
 
-            // Stop at the boundary of the footprint; shrink a box that the contact has left.
+            // Fail if the contact reaches the boundary of the footprint, and shrink a box that is much larger than the contact.
             if let Some(contact) = contact {
                 self.check_footprint(&self.layout.unfolded(&contact), step.end.position)?;
                 self.shrink_box(&contact)?;
@@ -86,7 +86,7 @@ impl March<'_> {
     /// Computes the displacement by the load of the contact box in all rows of the path that this and later steps read. The footprint
     /// begins at row `first_row` of the path.
     fn update_increment(&mut self, first_row: usize) {
-        // Without load no transform is needed.
+        // Without load the displacement of the step is zero, and no transform is needed.
         let wanted = self.rows_needed(self.steps_done);
         if self.loaded_bounds().is_none() {
             self.history.clear_increment(wanted);

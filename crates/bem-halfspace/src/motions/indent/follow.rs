@@ -17,14 +17,14 @@ use crate::estimate::refinement_limits::HISTORY;
 use crate::march::n_history_variables;
 use crate::{BemError, Elastomer, GridOptions};
 
-/// Largest number of time steps of a history on one grid, a limit of the time. [`MIN_STEPS_PER_INTERVAL`] takes precedence for
-/// histories of many points.
+/// Largest number of time steps of a history on one grid. Chosen: steps are not halved beyond it, even if they miss the error
+/// asked for, so that the time is limited. [`MIN_STEPS_PER_INTERVAL`] takes precedence for histories of many points.
 const MAX_HISTORY_STEPS: usize = 4096;
 /// Number of steps between two points that is always allowed: three halvings of one step give two successive changes of the
 /// extrapolated values, and so their ratio.
 const MIN_STEPS_PER_INTERVAL: usize = 8;
-/// Duration of a jump, as a fraction of that of the history. Chosen: short compared with any interval, and far above the rounding of
-/// times.
+/// Duration of a jump of force or depth, as a fraction of the duration of the history. Chosen: short compared with any interval,
+/// and far above the rounding of times.
 const JUMP_DURATION_FRACTION: f64 = 1e-9;
 
 /// The contact at one point of a history; an error of 0 says that a quantity is given.
@@ -59,9 +59,9 @@ pub struct IndentCurve {
     pub options: GridOptions,
 }
 
-/// Follows a force or a depth that is straight between the points of a history, to an error relative to the largest depth
-/// or force, whichever is not given; or with a number of elements along the largest contact, about, and whatever error that
-/// has.
+/// Follows a history of forces or depths that is linear between its points, and returns the contact at each point. The accuracy
+/// is an error relative to the largest depth if forces are given, or to the largest force if depths are given. It may also be an
+/// approximate number of elements along the largest contact.
 ///
 /// The half space is undeformed before the first point. Two points of the same time are a jump, and so is a first one at
 /// which the body is pressed already; a jump takes one part in 10⁹ of the history.
@@ -101,7 +101,7 @@ pub fn indent_along<'w>(
         .bounding_spring(elastomer)?
         .plan(surface, path.largest())?;
     let times: Vec<f64> = path.points[1..].iter().map(|[time, _]| *time).collect();
-    // Solve on one grid, with steps for half the error.
+    // Follow the history on one grid. If an error is asked for, the steps may cause half of it.
     let solve = |elements: usize, _: &dyn Fn(f64)| {
         let mut options = HistoryOptions::new(pressed_grid(&plan, elements));
         let max_steps = MAX_HISTORY_STEPS / times.len();
@@ -118,7 +118,7 @@ pub fn indent_along<'w>(
         };
         Ok::<_, BemError>((found?, options.grid))
     };
-    // Errors of the steps, which all grids share.
+    // Find the errors by the steps in time, which finer elements do not reduce, for each quantity of the history.
     let step_errors = |(found, _): &(IndentHistory, GridOptions), _: &dyn Fn(f64)| {
         let of_steps = |quantity: Quantity| ErrorParts {
             time_stepping: Some(found.time_error * quantity.scale),
@@ -133,7 +133,7 @@ pub fn indent_along<'w>(
         |(found, _)| path.quantities(found),
         step_errors,
     )?;
-    // The largest error of a quantity at any point is that of all.
+    // Take the largest error of a quantity at any point of the history as its error at all points.
     let worst = |name: Name| {
         let parts = fine.parts.iter().skip(name.index());
         let parts_of_rows = parts.step_by(Name::ALL.len());
@@ -215,7 +215,8 @@ impl Path {
             let [last, _] = points[points.len() - 1];
             let time = step.time - first.time;
             if time < last + shortest && !is_forced && !has_instantaneous_compliance {
-                // A lone dashpot holds against a jump with any force.
+                // A material without instantaneous compliance resists a jump of the depth with an infinite force, so that a jump
+                // is refused.
                 positive("time between two depths", time - last)?;
             }
             points.push([time.max(last + shortest), value]);
@@ -255,7 +256,7 @@ impl Path {
 
     /// Control at a `time` \[s] since the first point, linear between two points.
     fn control_at(&self, time: f64) -> Control {
-        // The two points around the time.
+        // Find the two points between which the time lies, and interpolate between them.
         let next = self.points.partition_point(|[before, _]| *before < time);
         let index = next.clamp(1, self.points.len() - 1);
         let [[start, from], [end, to]] = [self.points[index - 1], self.points[index]];
@@ -275,7 +276,7 @@ impl Path {
     /// Quantities of all rows, one row after the other, for the refinement. The sought quantity controls it; errors are relative to the
     /// largest value of a quantity in the history.
     fn quantities(&self, found: &IndentHistory) -> Vec<Quantity> {
-        // Scale of each quantity: its largest value in the history.
+        // Find the scale of each quantity, its largest value in the history, to which its errors are relative.
         let largest = |name| {
             let values = found
                 .rows
@@ -284,7 +285,7 @@ impl Path {
             values.fold(0.0, f64::max)
         };
         let (sizes, [sought, _]) = (Name::ALL.map(largest), self.sought_and_given());
-        // Quantities of one row; the sought one controls the refinement.
+        // Collect the quantities of one row. The sought one, force or depth, controls the refinement.
         let of_one_row = |row: &MotionRow| {
             let area_uncertainty = row.contact_area_uncertainty;
             let quantity = move |(name, value): (Name, f64)| {

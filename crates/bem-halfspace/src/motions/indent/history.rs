@@ -99,7 +99,7 @@ pub(super) fn refine_time_steps(
         Ok(rows.into_iter().skip(n - 1).step_by(n).collect())
     };
     let creep = elastomer.material().creep();
-    // The rows on n/2 steps, and those extrapolated from n/2 and n/4.
+    // Keep the rows of the run with n/2 steps, and the rows extrapolated from the runs with n/4 and n/2 steps.
     let (mut coarse, mut before): (Option<Vec<MotionRow>>, Option<Vec<MotionRow>>) = (None, None);
     let (mut n, mut error, mut change_before) = (1, 1.0, None);
     loop {
@@ -116,7 +116,7 @@ pub(super) fn refine_time_steps(
                 }
                 (before, coarse) = (rows, Some(fine));
             }
-            // A force that is held over long steps presses too deep.
+            // A force that is held over long steps presses too deep, so that the next run has shorter steps.
             Err(BemError::ContactReachesBoundary { .. }) if !last => {}
             Err(refused) => return Err(refused),
         }
@@ -179,7 +179,7 @@ fn extrapolated(coarse: &[MotionRow], fine: &[MotionRow]) -> Vec<MotionRow> {
 /// each: retardation time over interval, times the element's fraction of the compliance. Halving the steps does not reveal this error
 /// while they are longer than the retardation time.
 fn unresolved_relaxation(creep: &CreepSpectrum, times: &[f64], n: usize) -> Result<f64, BemError> {
-    // Only elements that relax within one of the steps count.
+    // Only retardation elements that relax within one of the steps cause this error.
     let mut largest = 0.0_f64;
     for [start, end] in intervals(times) {
         let interval = end - start;

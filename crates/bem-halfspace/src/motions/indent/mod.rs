@@ -1,9 +1,10 @@
 //! Normal indentation without sliding, on any linear viscoelastic half space: constant force, or any history of force
 //! or depth.
 //!
-//! While the contact grows, w at every moment is a sum of elastic contacts at the depths so far (Lee & Radok 1960), on
-//! any grid and in any steps. Hence under a constant force steps in time cause no error, on any material; with another
-//! history the error is of first order in their lengths, because force and load are held over a step.
+//! While the contact grows, the load potential w = K P/(4π) at every moment is a sum of elastic contacts at the depths so far
+//! (Lee & Radok 1960), on any grid and in any steps. P is the pressure and K the operator of the influence coefficients. Hence
+//! under a constant force steps in time cause no error, on any material; with another history the error is of first order in the
+//! lengths of the steps, because force and load are held over a step.
 
 mod follow;
 mod history;
@@ -20,8 +21,8 @@ pub use history::{HistoryOptions, IndentHistory, indent_history};
 pub(crate) use press::footprint_after;
 pub use press::{PressEstimate, PressSolution, indent, indent_memory, press};
 
-/// Presses `surface` into an undeformed half space and lets it go again, step by step, on one grid; what controls the end of
-/// a step holds from the step before, so that a change of it is a jump.
+/// Presses `surface` into an undeformed half space and lets it go again, step by step, on one grid, and returns the state at the
+/// end of each step. The force or depth of a step holds during the whole step, so that a change is a jump between two steps.
 ///
 /// # Errors
 /// [`BemError::InvalidParameter`] for no steps, times that do not increase from above zero, or numbers out of range;
@@ -34,7 +35,7 @@ pub fn indent_history_on_grid(
     steps: &[HistoryPoint],
     options: &GridOptions,
 ) -> Result<Vec<MotionRow>, BemError> {
-    // A motion that stays over the same element.
+    // Describe each step as a motion that stays over the same element, because the body does not slide.
     let motion = |step: &HistoryPoint| Motion {
         time: step.time,
         position: 0.0,

@@ -1,4 +1,4 @@
-//! One control, constant in time.
+//! Pressing with a force or depth that is constant in time.
 //!
 //! While the contact does not shrink, a constant force F acts on every material like the force 2 (1 − ν) J(t) F on an elastic half
 //! space of unit compliance, the *spring*. A constant depth causes G(t)/(2 (1 − ν)) times the force of the spring (Lee & Radok
@@ -24,7 +24,7 @@ pub(super) const PRESSED_ORDER: f64 = 1.0;
 /// Convergence order of the counted contact area without sliding. The longest straight runs of a smooth outline of n elements have √n
 /// edges and are displaced by up to half an element: an error of √n/2 elements in an area of about n² elements.
 pub(super) const PRESSED_AREA_ORDER: f64 = 1.5;
-/// Smallest relative error of depth or force on n elements in contact, times n^(3/4).
+/// Factor on n^(−3/4) in the smallest relative error of depth or force, for n elements in contact.
 ///
 /// Near the outline the pressure grows like the root of the distance, so that the outermost elements carry a part n^(−3/4) of the
 /// force. Each of them is in contact or not as a whole, which different grids may have in common by chance. Measured: twice the
@@ -74,8 +74,9 @@ pub struct PressSolution {
 /// A contact under a control that was constant, with its error bars.
 pub type PressEstimate = ContactEstimate<PressSolution, GridOptions>;
 
-/// Presses `surface` into a half space and waits until the material has come to rest, to a relative error of depth or
-/// force, whichever is not given; or with a number of elements along the contact, about, and whatever error that has.
+/// Presses `surface` into a half space and waits until the material has come to rest. The accuracy is a relative error of the
+/// depth if the force is given, or of the force if the depth is given. It may also be an approximate number of elements along the
+/// contact.
 ///
 /// ```
 /// use bem_halfspace::indenters::PowerProfile;
@@ -105,8 +106,9 @@ pub fn press<'w>(
     refine_press(surface, &spring, control, request.into())
 }
 
-/// Presses `surface` into a half space for a time, with a control that is constant from first touch on, to a relative error
-/// of depth or force, whichever is not given; or with a number of elements along the contact, about.
+/// Presses `surface` into a half space for a time, with a force or depth that is constant from first touch on. The accuracy is a
+/// relative error of the depth if the force is given, or of the force if the depth is given. It may also be an approximate number
+/// of elements along the contact.
 ///
 /// ```
 /// use bem_halfspace::indenters::PowerProfile;
@@ -277,7 +279,7 @@ impl Spring {
         let mut march = March::new(surface, &self.layer(), &[motion], options)?;
         let row = march.solve_first_step()?;
         check_contact_elements(march.elements_across())?;
-        // Back from the spring to the material.
+        // Convert the contact of the spring to that of the material, whose pressures are those of the spring over the compliance.
         let [contact_x, contact_y] = march.contact_edges();
         let mut pressure = march.pressure()?;
         for value in &mut pressure.pressure {
@@ -361,13 +363,15 @@ fn radius_of_punch(body: &dyn Axisymmetric) -> Option<f64> {
 /// The spacing is such that the elements with their centres in the disc have exactly its area. On other spacings the two areas differ
 /// by about the root of the number of elements.
 fn disc_of_elements(radius: f64, elements: usize) -> [f64; 2] {
-    // Number of elements whose centres lie within a radius, given by its square in elements (Gauss circle problem).
+    // This closure counts the elements whose centres lie within a radius (Gauss circle problem). Its argument is the square of
+    // the radius in elements.
     let within = |square: f64| {
         let row = |place: u32| (square - f64::from(place).powi(2)).sqrt().floor();
         let rows = (1_u32..).map(row).take_while(|half| *half >= 0.0);
         2.0 * row(0) + 1.0 + rows.map(|half| 2.0 * (2.0 * half + 1.0)).sum::<f64>()
     };
-    // The first radius whose disc has the area of its elements; centres lie at integer squares only.
+    // Search for the first radius at which the disc has the area of its elements. Squared distances of centres are integers, so
+    // that the count is constant between two integers.
     let mut square = (0.5 * elements as f64).powi(2).ceil();
     loop {
         let squared_radius = within(square) * FRAC_1_PI;
@@ -396,8 +400,8 @@ impl PressSolution {
             Control::IndentationDepth(_) => (self.normal_force, elements as f64),
         };
         let n_contact = self.n_contact as f64;
-        // Where the pressure is singular, the outline is that of the elements: it is too narrow by the widening of a punch, and their
-        // number scatters. The perimeter correction of the area holds for pressures that vanish like a root only.
+        // Where the pressure is singular, the outline is that of the elements: it is too narrow by the widening of a punch, and
+        // the number of elements scatters. The perimeter correction of the area holds only for pressures that vanish like a root.
         let excess = n_contact * options.spacing.iter().product::<f64>() - self.contact_area;
         let edge_error = self.edge_singularity
             * (PUNCH_WIDENING * (PI / n_contact).sqrt()

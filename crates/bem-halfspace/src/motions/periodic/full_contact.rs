@@ -4,8 +4,9 @@
 //! p(q, t) = p̄ δ_q0 − |q| ĥ(q) σ(q_x, t)/((1 − ν) M),      force/area = Σ_q |q| |ĥ|² Re(i q_x σ u*)/((1 − ν) M)
 //! ```
 //!
-//! for the mean pressure p̄ and a surface of the heights h = Σ ĥ(q) e^(iq·r), which is shifted by the motion: u is the displacement
-//! of a unit wave and σ its stress (`stresses.rs`). M is the compliance ratio of a layer, 1 on a half space.
+//! for the mean pressure p̄ and a surface of the heights h = Σ ĥ(q) e^(iq·r), which is shifted by the motion: u is the
+//! displacement of a unit wave and σ its stress (`stresses.rs`). ν is the Poisson ratio and M the compliance ratio of a layer, 1
+//! on a half space.
 
 use std::f64::consts::PI;
 
@@ -42,7 +43,8 @@ pub(super) struct FullContact {
 }
 
 impl FullContactSurface<'_> {
-    /// Lower bound of the largest value at the centres of the elements over the maximum of a band-limited field, without unit.
+    /// Lower bound, without unit, of the ratio of the largest value of a band-limited field at the centres of the elements to its
+    /// maximum everywhere.
     ///
     /// It is cos(πn/N) for n waves along N elements (Ehlich & Zeller 1964), and once more along x, because steps are as long as an
     /// element.
@@ -75,7 +77,8 @@ impl FullContactSurface<'_> {
         let n = self.grid.n_elements() as f64;
         let rows = self.grid.shape()[0];
         let mut field = vec![0.0; self.heights.len()];
-        // Σ |q| |ĥ|²/((1 − ν) M) over the waves with the same number along x.
+        // Compute the weight of each number of waves along x: the sum of |q| |ĥ|²/((1 − ν) M) over all waves with this number
+        // (head of this file).
         let weights: Vec<f64> = (0..wave_numbers.len())
             .map(|number| {
                 let is_own = |row: usize| row.min(rows - row) == number;
@@ -86,7 +89,7 @@ impl FullContactSurface<'_> {
                 dot(&field, self.heights) / n
             })
             .collect();
-        // Sum over the waves along x.
+        // The force over the area at the end of a step is a sum over the waves along x with these weights (head of this file).
         let stress = |state: &super::stresses::WaveStates| {
             let pairs = state.stress.iter().zip(&state.displacement);
             let waves = pairs.zip(wave_numbers.iter().zip(&weights));

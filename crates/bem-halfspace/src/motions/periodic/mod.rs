@@ -32,7 +32,8 @@ const BYTES_PER_WAVE: f64 = 80.0;
 /// Moves a sum of waves over a material at rest, along a path through points, or reciprocating up to the limit cycle.
 ///
 /// The relative error of the request is that of the mean friction coefficient of a cycle, or that of the friction force of a path
-/// relative to its largest value. A number of elements is that along the edge of the period that has more of them.
+/// relative to its largest value. If a number of elements is asked for instead, it is the number along the edge of the period
+/// with more elements.
 ///
 /// Forces and energies are those of one period, and so is the normal force of the load, the mean pressure times the area. At the
 /// beginning the surface is pressed instantaneously. The depth is that of the mean plane, as in
@@ -84,7 +85,7 @@ pub fn move_along<'w>(
         extra_work: 0.0,
         selection_factor: 1.0,
     };
-    // Refine elements and steps.
+    // Refine elements and steps together until the error asked for is reached.
     let view = MotionView {
         load,
         is_elastic: problem.spectra.creep.is_elastic(),
@@ -113,7 +114,7 @@ pub fn move_along_memory(
     let shape = problem.shape(elements);
     let n_steps = problem.n_steps(elements, shape)?;
     let n_fields = n_history_variables(&problem.spectra.creep);
-    // One more state is that of the coarser grid.
+    // Besides the states of the fixed-point iteration, the limit cycle of the coarser grid is stored.
     let copies = if problem.limit_cycle.is_some() {
         MAX_STORED_STATES + 1
     } else {

@@ -26,7 +26,8 @@ use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
 use crate::stationary::periodic::nested::interpolated;
 use crate::{BemError, ContactOptions, Elastomer, Grid};
 
-/// Largest number of elements times steps of a cycle or path: a limit of the time, to a few minutes.
+/// Largest product of the number of elements and the number of steps of a cycle or path. Chosen: grids with a larger product are
+/// not used, so that a march takes at most a few minutes.
 const MAX_ELEMENT_STEPS: f64 = 6e7;
 
 /// The problem of a moving periodic surface, which can be solved on any number of elements.
@@ -81,7 +82,7 @@ impl<'a> MovingSurface<'a> {
         load: &'a MovingLoad,
         accuracy: Accuracy,
     ) -> Result<Self, BemError> {
-        // Spectra of the material; refuse what has no limit cycle, or is not supported.
+        // Find the spectra of the material. Refuse a reciprocating motion without a limit cycle, and what is not supported.
         let (relaxation, creep) = {
             let material = elastomer.material();
             check_spectra(&material)?;
@@ -92,7 +93,7 @@ impl<'a> MovingSurface<'a> {
             return Err(BemError::DepthFromRest);
         }
         elastomer.base().check_flow(creep.fluidity())?;
-        // Wave numbers of all waves along x.
+        // List the wave numbers of all waves along x, which are multiples of 2π over the period.
         let unit = TAU / surface.period()[0];
         let numbers = 0..=surface.largest_numbers()[0];
         let problem = Self {
@@ -242,7 +243,7 @@ impl<'a> MovingSurface<'a> {
             depth,
             n_contact: on_grid.grid.n_elements(),
         };
-        // A cycle begins with the state in which it ends.
+        // The limit cycle begins with the state in which it ends, so that the last state is repeated in front of the first one.
         let last = found.stresses.last();
         let ends: Vec<StepEnd> = last.into_iter().chain(&found.stresses).map(end).collect();
         let mut record = self.record(&ends, &on_grid.steps);
@@ -267,12 +268,14 @@ impl<'a> MovingSurface<'a> {
             return Ok(self.record(&ends, steps));
         };
 
-        // Cycles follow the first touch.
+        // The first cycle begins with the history variables after the first touch, or with those of the limit cycle on the
+        // previous grid.
         let first = self.before_cycles(&march.history, grid.shape());
         let cycle = |from: &[f64], report: &dyn Fn(f64)| {
             march.history.copy_from_slice(from);
             let mut ends = self.solve_steps(&mut march, on_grid, report)?;
-            // A cycle begins with the state in which it ends.
+            // The limit cycle begins with the state in which it ends, so that the last state is repeated in front of the first
+            // one.
             ends.insert(0, ends[ends.len() - 1]);
             Ok((self.record(&ends, steps), march.history.clone()))
         };
@@ -317,14 +320,15 @@ impl<'a> MovingSurface<'a> {
         control: Control,
         state: &WaveStates,
     ) -> Result<StepEnd, BemError> {
-        // Set the step, with the displacements and slopes of its waves.
+        // Set the duration of the step, and the factors by which the waves of the given heights become those of heights and
+        // slopes at its end.
         let rows = march.rows();
         let waves = state.displacement.iter().zip(&self.wave_numbers);
         let slopes: Vec<Complex<f64>> = waves.map(|(u, q)| Complex::i() * q * u).collect();
         march.set_step(duration, |row| {
             [&state.held, &slopes].map(|values| value_of_row(values, row, rows))
         })?;
-        // Solve the contact under the force.
+        // Solve the contact under the normal force, which the march needs as a mean pressure.
         let options = ContactOptions {
             tolerance: CONTACT_TOLERANCE,
             ..ContactOptions::default()
@@ -346,7 +350,7 @@ impl<'a> MovingSurface<'a> {
 
     /// Record of a motion with the mean of each step, from the states `ends` before the first step and after each step.
     fn record(&self, ends: &[StepEnd], steps: &[MovingStep]) -> MotionRecord {
-        // Means over a step belong to its middle.
+        // Record each step with the means of the states at its ends.
         let mut record = MotionRecord::default();
         let mut begin = self.load.stages()[0].start.position;
         for (step, ends) in steps.iter().zip(ends.windows(2)) {
@@ -471,7 +475,8 @@ mod tests {
                 for (element, springs) in creep.elements().iter().zip(&mut springs) {
                     let pairs = pressure.iter().zip(springs.iter());
                     let dashpot: Vec<f64> = pairs.map(|(all, spring)| all - spring).collect();
-                    // Displaced as an incompressible half space of the modulus 1.
+                    // Find the displacement that the pressures of the dashpot cause on an incompressible half space of the
+                    // modulus 1.
                     kernel.apply(&dashpot, &mut moved, |_, [_, q]| (0.5 / q).into());
                     let work: f64 = dashpot.iter().zip(&moved).map(|(p, u)| p * u).sum();
                     let times = step.duration / element.retardation_time;

@@ -20,11 +20,11 @@ use rustfft::num_complex::Complex;
 use crate::BemError;
 use crate::transform::plane_transform::ZERO;
 
-/// Time samples of a cycle per radian of the phase of the shortest wave: its harmonics reach to about the phase in
-/// radians, which takes two samples per radian (Nyquist), and twice as many suppress those beyond. From 0.4 to 40 no
-/// answer changes by more than 1e-12 of its bar.
+/// Number of time samples of a cycle per radian of the largest phase of the shortest wave. Derived: the harmonics of this wave
+/// reach to about its phase in radians, which takes two samples per radian (Nyquist). Twice as many suppress the harmonics
+/// beyond. From 0.4 to 40 no answer changes by more than 1e-12 of its bar.
 const SAMPLES_PER_RADIAN: f64 = 4.0;
-/// Time samples of a cycle in addition to those per radian, for the harmonics beyond the largest phase, which fall
+/// Number of time samples of a cycle in addition to those per radian, for the harmonics beyond the largest phase, which fall
 /// faster than exponentially. Chosen; from 10 to 1000 no answer changes by more than 1e-12 of its bar.
 const ADDITIONAL_SAMPLES: f64 = 96.0;
 
@@ -128,14 +128,16 @@ impl WaveMotion {
         let n_fields = step_of(&legs[0])?.n_fields();
         let mut memory = vec![0.0; n_fields * n_values];
         let elements = creep.elements();
-        // History variables at the start: those of the limit cycle, or of a surface that has always been at its beginning.
+        // Find the history variables at the start: those of the limit cycle, or those of a surface that has always been at the
+        // beginning of its path.
         if load.is_cycle() {
             for (leg, state) in legs.iter().zip(&self.states[1..]) {
                 step_of(leg)?.advance(&real_and_imaginary_parts(&state.stress), &mut memory);
             }
             let period = load.duration();
             for (element, field) in elements.iter().zip(memory.chunks_exact_mut(n_values)) {
-                // From one cycle at rest to the limit cycle: sum of the geometric series with the ratio e^(−T/λ).
+                // All earlier cycles contribute to the limit cycle. Their sum is a geometric series with the ratio e^(−T/λ), for
+                // the duration T of a cycle and the retardation time λ.
                 let left = -(-period / element.retardation_time).exp_m1();
                 field.iter_mut().for_each(|value| *value /= left);
             }
@@ -155,7 +157,8 @@ impl WaveMotion {
             }
         }
         self.states[0].held = self.states[0].displacement.clone();
-        // March over the steps.
+        // March over the steps: the displacement at the end of each follows from the history and from the stress, which is held
+        // during the step.
         let mut displaced = vec![0.0; n_values];
         for (leg, state) in legs.iter().zip(&mut self.states[1..]) {
             let (step, stress) = (step_of(leg)?, real_and_imaginary_parts(&state.stress));
@@ -212,7 +215,8 @@ fn piecewise_linear_response(
     let mut work = 0.0;
     let mut stresses = vec![first];
     for leg in legs {
-        // Spring and dashpot; the work on the spring vanishes over a cycle.
+        // Add the stresses of spring and dashpot at the end of the step, and the work on the dashpot. The work on the spring
+        // vanishes over a cycle.
         let frequency = q * leg.velocity;
         let modulus = Complex::new(
             relaxation.equilibrium_modulus(),
@@ -221,7 +225,8 @@ fn piecewise_linear_response(
         stresses.push(modulus * at(leg.ends[1]));
         work += relaxation.viscosity() * frequency * frequency * leg.duration;
     }
-    // Add the branches; in a limit cycle each begins with the stress in which it ends.
+    // Add the stresses of the relaxation branches and the work on them. In a limit cycle each branch begins with the stress in
+    // which it ends.
     for branch in relaxation.branches() {
         let mut start = ZERO;
         if let Some(period) = period {
@@ -251,7 +256,7 @@ fn branch_stress(
 ) -> (Complex<f64>, f64) {
     let (mut stress, mut work) = (start, 0.0);
     for (index, leg) in legs.iter().enumerate() {
-        // Displacements of the wave at both ends, and the exponent of its change in time.
+        // Compute the displacements of the wave at both ends of the step, and the exponent with which it changes in time.
         let [from, to] = leg.ends.map(|x| Complex::from_polar(1.0, -q * x));
         let turning = Complex::new(0.0, -q * leg.velocity);
         let rate = turning + branch.relaxation_time.recip();
@@ -283,14 +288,14 @@ fn harmonic_responses(
     wave_numbers: &[f64],
     relaxation: &RelaxationSpectrum,
 ) -> Result<Vec<WaveResponse>, BemError> {
-    // Number of time samples: a multiple of the steps, and enough for the shortest wave.
+    // Choose the number of time samples: a multiple of the number of steps, and enough for the shortest wave.
     let [rear, front] = load.range();
     let (half, period) = (0.5 * (front - rear), load.duration());
     let shortest = wave_numbers.iter().copied().fold(0.0, f64::max);
     let needed = SAMPLES_PER_RADIAN * shortest * half + ADDITIONAL_SAMPLES;
     let finer = whole_part((needed / n_steps as f64).ceil()).max(1);
     let count = finer * n_steps;
-    // Complex modulus at the frequency of each harmonic, conjugate for negative ones.
+    // This closure returns the complex modulus at the frequency of a harmonic, and its conjugate for a negative frequency.
     let order = |index: usize| index.min(count - index);
     let frequency = |order: usize| TAU * order as f64 / period;
     let modulus = |index: usize| {
@@ -300,7 +305,8 @@ fn harmonic_responses(
     };
     let moduli: Vec<Complex<f64>> = (0..count).map(modulus).collect::<Result<_, BemError>>()?;
     let (forward, inverse) = (f64::forward(count), f64::inverse(count));
-    // Response of a wave: transform, multiply by the moduli, and transform back.
+    // The response of a wave follows from its harmonics: transform the displacements of a cycle, multiply by the moduli, and
+    // transform back.
     let of_wave = |q: &f64| {
         let at = |index: usize| {
             let quarter = (0.5 * TAU * index as f64 / count as f64).sin();

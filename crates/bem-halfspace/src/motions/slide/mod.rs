@@ -7,8 +7,9 @@
 //! u(t + Δt) = H + 2 (1 − ν) α/(4π) K P,        α = Δt/η and H = u(t) on a dashpot.
 //! ```
 //!
-//! [`slide_on_grid`] advances the indenter by one element per step, so that its motion is exact on the grid. [`slide_along`] moves
-//! it by any amount, stops it and takes it back. Both are a [`March`].
+//! P is the pressure, K the operator of the influence coefficients, ν the Poisson ratio, α the compliance of the step and H the
+//! displacement at its end without load. [`slide_on_grid`] advances the indenter by one element per step, so that its motion is
+//! exact on the grid. [`slide_along`] moves it by any amount, stops it and takes it back. Both are a [`March`].
 //!
 //! Theory: docs/theory/transient-half-space.md, "Motions", "Friction" and "Finite sliding distance".
 

@@ -20,23 +20,24 @@ use crate::motions::slide::{
 };
 use crate::{BemError, ContactOptions, Elastomer, GridOptions};
 
-/// Sliding distance to the stationary state in contact lengths of the one-dimensional model, if only flow is slow; measured by
-/// `evidence tuning`.
+/// Longest sliding distance to the stationary state, in contact lengths of the one-dimensional model, if flow alone is slow. A
+/// memory of the material adds to it ([`MAX_DISTANCE_OVER_MEMORY`]). Measured by `evidence tuning`.
 const FLOW_CONTACT_LENGTHS: f64 = 24.0;
 /// Largest relative change of the friction coefficient over the second half of a march that is extrapolated to the stationary state;
 /// measured by `evidence tuning`.
 const MAX_DRIFT: f64 = 0.05;
-/// Longest sliding distance to the stationary state over the memory length v λ, beyond [`FLOW_CONTACT_LENGTHS`]: a
-/// limit of time and memory, since a march ends when the friction has settled. From 1.2 to 120 no answer changes by
-/// more than 1e-13 of its bar.
+/// Number of memory lengths v λ that [`FLOW_CONTACT_LENGTHS`] is extended by, for the velocity v and the largest retardation time
+/// λ. A march ends earlier if the friction has settled, and fails with [`BemError::NotStationary`] otherwise. Chosen; from 1.2 to
+/// 120 no answer changes by more than 1e-13 of its bar.
 const MAX_DISTANCE_OVER_MEMORY: f64 = 12.0;
 /// Smallest sliding distance, in contact lengths, to which the elements are fitted so that it is a whole number of them. Over a shorter
 /// distance the elements keep their length and the steps are shorter. Chosen: the fit changes their length by a factor of 2/3 to 3/2.
 const MIN_DISTANCE_FOR_WHOLE_ELEMENTS: f64 = 2.0 / 3.0;
-/// Longest march to the stationary state, in contact lengths: a limit of the time, beyond which the march is refused.
+/// Longest march to the stationary state, in contact lengths. Chosen: a longer one is refused with [`BemError::MemoryTooLong`],
+/// because it would take too long.
 const MAX_CONTACT_LENGTHS: f64 = 500.0;
-/// Largest change of the friction coefficient at which a march counts as stationary, over the error asked for; measured by
-/// `evidence tuning`.
+/// Ratio of the largest relative change of the friction coefficient at which a march counts as stationary to the relative error
+/// asked for; measured by `evidence tuning`.
 const CHANGE_OVER_ERROR: f64 = 0.1;
 
 /// State at the end of a march with error bars: after the sliding distance, or in the stationary state.
@@ -260,7 +261,7 @@ impl<'a> PlannedSlide<'a> {
             let step = self.planned.step / elements as f64;
             March::sliding_in_steps(self.surface, self.elastomer, load, &options, step)
         };
-        // Under a force without a distance to the stationary state, otherwise over the distance.
+        // Under a force without a sliding distance, march to the stationary state; otherwise march over the sliding distance.
         let end = match (control, distance) {
             (Control::NormalForce(_), None) => {
                 self.check_memory_length()?;
@@ -324,7 +325,8 @@ impl<'a> PlannedSlide<'a> {
     ) -> Result<MarchEnd, BemError> {
         let memory = memory_length(self.elastomer, load);
         if memory <= 0.0 {
-            // Elastic, or only flow is slow: the whole distance, and on a half space that flows the limit in 1/S.
+            // If the material is elastic or flow alone is slow, march over the whole distance S. On a half space that flows,
+            // extrapolate to 1/S = 0.
             let end = slide_over_distance(march, load, report)?;
             if self.creep.is_elastic() {
                 return Ok(end);
@@ -336,7 +338,7 @@ impl<'a> PlannedSlide<'a> {
                 ..end
             });
         }
-        // Until friction is settled over a distance longer than contact and memory.
+        // Otherwise march until the friction has settled over a distance that is longer than contact and memory.
         let stationary = StationaryOptions {
             tolerance: match self.request.accuracy {
                 Accuracy::RelativeError(error) => CHANGE_OVER_ERROR * error,
@@ -395,7 +397,7 @@ fn memory_length(elastomer: &dyn Elastomer, load: &SlidingLoad) -> f64 {
 /// A residual ε that alternates from element to element changes the pressure relatively by ε times the number of elements along the
 /// contact, and the friction by the same fraction of the mean modulus of the slope.
 fn iteration_error(surface: &dyn Surface, field: &PressureField) -> f64 {
-    // Pressure-weighted mean of |∂h/∂x|, by chords over elements.
+    // Compute the mean of |∂h/∂x|, weighted with the pressure, from chords over the elements.
     let weighted = field.pressure.iter().zip(field.slopes(surface));
     let rise: f64 = weighted
         .map(|(pressure, slope)| pressure * slope.abs())

@@ -67,10 +67,10 @@ impl Transient {
         if n < MIN_STEPS {
             return Err(not_stationary(1.0));
         }
-        // Change of the friction over the second half of the march.
+        // Compute the relative change of the friction coefficient over the second half of the march.
         let halfway = self.rows[n / 2 - 1].friction_coefficient;
         let drift = ((value - halfway) / value).abs();
-        // Extrapolate if it is small.
+        // If this change is within the tolerance, extrapolate the friction to an infinite distance.
         if drift <= drift_tolerance {
             return Ok(StationaryFriction {
                 friction_coefficient: extrapolated_limit(&self.rows),
@@ -176,7 +176,7 @@ pub(super) fn slide_until_stationary(
         limits.push(&rows, flows);
         change = limits.largest_change(stationary.over_distance, noise);
         if change <= stationary.tolerance {
-            // Stationary: the remaining change follows from that over the second half of the distance.
+            // The state is stationary. Estimate the remaining change from the change over the second half of the distance.
             let friction_coefficient = limits.last();
             let transient = Transient::from_march(&march, load, rows)?;
             return Ok(StationarySlide {
@@ -196,8 +196,8 @@ pub(super) fn slide_until_stationary(
     })
 }
 
-/// √e − 1: lower bound of the change of a quantity over the second half of a distance, over the change that remains at its end.
-/// Derived: the deviation from the limit falls at least e-fold over the distance, so at least √e-fold over the half.
+/// Lower bound √e − 1 of the ratio of two changes of a quantity: that over the second half of a distance, and that which remains
+/// at the end. Derived: the deviation from the limit falls at least e-fold over the distance, so at least √e-fold over the half.
 const CHANGE_OVER_REMAINDER: f64 = 0.648_721_270_700_128_1;
 
 /// Extrapolated friction coefficient after each step, as [sliding distance \[m], limit].

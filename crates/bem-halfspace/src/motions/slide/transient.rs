@@ -22,8 +22,8 @@ pub struct SlideRow {
     pub normal_force: f64,
     /// Friction coefficient with the slope at the time level of the pressure, which on a dashpot is the mean over the step.
     pub friction_coefficient: f64,
-    /// Friction coefficient with the slope at the end of the step, as the paper's wording suggests; on a dashpot it is low by a
-    /// first-order term in Δx.
+    /// Friction coefficient with the slope at the end of the step, as the wording of Kürschner (2014) suggests; on a dashpot it
+    /// is low by a first-order term in Δx.
     pub friction_coefficient_end_of_step: f64,
     /// [Area](crate::PressureField::contact_area) of the contact, \[m²].
     pub contact_area: f64,
@@ -94,7 +94,8 @@ impl Transient {
             let contact_length = length as f64 * pressure.grid.spacing()[0];
             let distance = load.sliding_distance().unwrap_or(f64::INFINITY);
             let time = contact_length.min(distance) / load.velocity();
-            // An element is under the contact for the time L/v, but at most for that of the whole path.
+            // An element is under the contact for the time L/v, with the contact length L and the velocity v, but at most for the
+            // time of the whole path.
             let depth_scale = march.depth_scale(force, contact_length, time)?;
             let rise = march.largest_rise();
             if rise > depth_scale {

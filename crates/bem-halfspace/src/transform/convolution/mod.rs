@@ -285,7 +285,7 @@ mod tests {
         let expected = in_front(&expected, &folded, shape[1], false);
         for (actual, expected) in actual.iter().zip(expected) {
             let error = (actual - expected).abs() / largest;
-            // Rounding of transforms of a few hundred values.
+            // The difference may be as large as the rounding of transforms of a few hundred values.
             assert!(error < 1e-14, "{shape:?}, {mirrors:?}: {error:e}");
         }
     }
@@ -294,7 +294,7 @@ mod tests {
     fn half_and_quarter_of_a_mirrored_field_convolve_like_all_of_it() -> Result<(), BemError> {
         let shapes = [[2, 6], [6, 10], [12, 14], [30, 18]];
         let odd = [[1, 1], [3, 2], [4, 5], [9, 7], [29, 17], [18, 31]];
-        // On both sides of the length up to which half a period about a centre is transformed as half.
+        // These shapes lie on both sides of the largest length for which half a period about a centre is transformed alone.
         let long = [[3, 45], [1, 375], [3, 511], [2, 1125], [1, 4095]];
         for shape in shapes.into_iter().chain(odd).chain(long) {
             let grid = Grid::new(shape, [1.0, 0.6])?;

@@ -140,7 +140,7 @@ impl Convolution {
 
     /// Influence coefficients at the offset of `row` elements along x and all offsets of the period along y.
     fn kernel_row(&self, row: usize) -> Vec<f64> {
-        // Even along y: each offset stands for its negative too, at the end of the period.
+        // The kernel is even along y, so that each offset also gives the value at its negative, at the end of the period.
         let [dx, dy] = self.grid.spacing();
         let period = self.transform.padded[1];
         let mut values = vec![0.0; period];

@@ -74,13 +74,13 @@ impl<T: Real> CosineTransform<T> {
         let (numbers, reals) = (&mut buffers.row, &mut buffers.folded);
         let (coefficients, scratch) = (&mut buffers.half_row, &mut buffers.scratch);
         if let Some(sines) = &self.sines {
-            // L numbers: the odd sums follow from differences and their known mean.
+            // Transform L numbers only. The odd sums follow from differences and their known mean.
             let mean = numbers[0] - numbers[reals.len()];
             sums_and_differences(sines, numbers, reals);
             forward_real(&*self.plan, reals, coefficients, scratch);
             cosine_sums(coefficients, mean, numbers);
         } else {
-            // The whole period of 2 L numbers, whose coefficients are real.
+            // Transform the whole period of 2 L numbers, whose coefficients are real.
             unfold(numbers, reals);
             forward_real(&*self.plan, reals, coefficients, scratch);
             for (number, coefficient) in numbers.iter_mut().zip(coefficients) {
@@ -106,7 +106,7 @@ fn sums_and_differences<T: Real>(sines: &[T], numbers: &[T], folded: &mut [T]) {
 
 /// Computes F_0 … F_L from Y_0 … Y_(L/2) and the `mean` of the F_k with odd k (head of this file).
 fn cosine_sums<T: Real>(coefficients: &[Complex<T>], mean: T, numbers: &mut [T]) {
-    // Even sums directly, odd ones by cumulative differences up to a constant.
+    // Take the even sums directly from the coefficients, and the odd ones from cumulative differences up to a constant.
     let (mut odd, mut total) = (T::default(), T::default());
     for (pair, coefficient) in numbers.chunks_mut(2).zip(coefficients) {
         odd -= coefficient.im;

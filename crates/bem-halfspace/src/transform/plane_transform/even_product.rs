@@ -85,7 +85,7 @@ fn multiply_about_edge(
         Complex::new(value.re * real, value.im * imaginary)
     };
     let pair = |twiddle: Complex<f64>, [here, there]: [Complex<f64>; 2], [one, other]: [_; 2]| {
-        // From V_k, V_(L−k) to U_k, U_(L−k), product, and back.
+        // Convert V_k and V_(L−k) to the cosine sums U_k and U_(L−k), multiply these by their factors, and convert them back.
         let [here, there] = [twiddle * here, twiddle.conj() * there];
         let sum = product(here + there, one);
         // U_(L−k) is i times the difference, and is transformed back with −i.
@@ -95,10 +95,10 @@ fn multiply_about_edge(
             twiddle * (sum + times_i(difference)),
         ]
     };
-    // U_0 has no opposite.
+    // The cosine sum U_0 has no opposite and is multiplied alone.
     values[0] = product(2.0 * values[0], (&real[0], &imaginary[0]));
     let (lower, upper) = values[1..].split_at_mut(length / 2);
-    // Factors of U_(L−k) for k = 1, 2, …
+    // List the factors of the opposite cosine sums U_(L−k) for k = 1, 2, …
     let opposite = factors.clone().rev().skip(real.len() - length);
     let opposite_values = lower.iter_mut().zip(upper.iter_mut().rev());
     let both = factors.skip(1).zip(opposite);

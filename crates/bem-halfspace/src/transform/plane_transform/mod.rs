@@ -191,7 +191,7 @@ impl<T: Real> PlaneTransform<T> {
         tile: usize,
         loaded: &Range<usize>,
     ) {
-        // Strip by strip, because its pieces of the tile are contiguous.
+        // Gather the columns strip by strip, because the pieces of a tile within one strip are contiguous.
         let stride = self.column_stride();
         buffers.columns.fill(Complex::default());
         for strip in loaded.start / ROWS_PER_STRIP..loaded.end.div_ceil(ROWS_PER_STRIP) {

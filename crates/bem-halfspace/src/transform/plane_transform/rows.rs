@@ -113,7 +113,7 @@ impl<T: Real> RowTransform<T> {
                     &mut buffers.scratch,
                 );
                 if let Some(twiddles) = twiddles {
-                    // From complex coefficients to real cosine sums, stored in pairs.
+                    // Convert the complex coefficients to real cosine sums, and store these in pairs.
                     about_edge::to_cosine_sums(twiddles, &buffers.half_row, &mut buffers.row);
                     store_in_pairs(&buffers.row, &mut buffers.half_row);
                 }
@@ -135,7 +135,7 @@ impl<T: Real> RowTransform<T> {
                 inverse, twiddles, ..
             } => {
                 if let Some(twiddles) = twiddles {
-                    // From real cosine sums in pairs to complex coefficients.
+                    // Split the pairs of real cosine sums, and convert these to complex coefficients.
                     split_pairs(&buffers.half_row, &mut buffers.row);
                     about_edge::from_cosine_sums(twiddles, &buffers.row, &mut buffers.half_row);
                 }

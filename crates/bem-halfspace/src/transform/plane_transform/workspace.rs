@@ -80,7 +80,7 @@ pub(super) fn for_each_chunk<R: Real, T: Send>(
     unit: usize,
     work: impl Fn(usize, &mut Buffers<R>, &mut [T]) + Sync,
 ) {
-    // As many units as make a chunk worth handing to another thread.
+    // Put as many units into a chunk as make it worth handing to another thread.
     let numbers_per_unit = unit * size_of::<T>() / size_of::<f64>();
     let units = MIN_ELEMENTS.div_ceil(numbers_per_unit);
     let n_chunks = values.len().div_ceil(units * unit);
