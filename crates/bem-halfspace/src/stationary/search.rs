@@ -32,8 +32,8 @@ const FAR_PENETRATION_THRESHOLD: f64 = 0.3;
 /// Ratio of the total tension to the force above which an update only removes elements, because the gaps outside then say little.
 /// Chosen.
 ///
-/// On dashpots of 128² elements whose moduli grow up to a million times with the frequency, one light contact in seven is not
-/// found in 3000 operator applications without this rule. Others then take three times as many. With 0.25 there are as many
+/// Measured on dashpots of 128² elements whose moduli grow up to a million times with the frequency. Without this rule one light
+/// contact in seven is not found in 3000 operator applications, and others take three times as many. With 0.25 there are as many
 /// applications as with this value.
 const MAX_TENSILE_FRACTION: f64 = 0.2;
 /// Largest residual of the inner solution, as a fraction of the largest gap that counts as closed: below 1, so that

@@ -62,7 +62,7 @@ const DIRECT_SOLVE_COST: f64 = if cfg!(feature = "dense") { 5e-4 } else { 5e-3 }
 /// Ratio of the operator applications on one grid so far to the cost of a direct solve, in the same unit, beyond which active sets are
 /// solved directly. Chosen.
 ///
-/// The test had more than 5000 contacts on some 700 elements each, with moduli that differ by up to a million. Without this rule
+/// Measured on more than 5000 contacts on some 700 elements each, with moduli that differ by up to a million. Without this rule
 /// one in 800 is not found in 2000 operator applications.
 const ITERATIONS_IN_DIRECT_SOLVES: f64 = 4.0;
 

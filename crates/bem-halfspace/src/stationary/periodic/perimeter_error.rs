@@ -14,9 +14,9 @@ use numerics::Estimate;
 use crate::elements::area::{self, EXCESS_PER_EDGE};
 use crate::{Grid, PressureField};
 
-/// Remaining error of the area of a rough contact, as a fraction of the perimeter correction. Measured:
+/// Remaining error of the area of a rough contact, as a fraction of the perimeter correction.
 ///
-/// The test had 821 contacts, with four to 16 elements per shortest wave on the coarsest of three grids. Two differ by more than
+/// Measured on 821 contacts, with four to 16 elements per shortest wave on the coarsest of three grids. Two differ by more than
 /// this error and the changes on refinement together, and 93 by more than the changes alone.
 const REMAINING_FRACTION: f64 = 0.15;
 /// Largest displacement of the boundary of grooves by other waves, in elements, up to which the boundary counts as straight.

@@ -9,8 +9,8 @@ use crate::stationary::steady::contact_equations::ContactEquations;
 use crate::stationary::steady::mesh::Mesh;
 use crate::stationary::steady::plans::Plans;
 
-/// Loosest RMS residual on an active set, over the increase of the gap over one element at the front. Chosen; from
-/// 1e-5 to 1e-2 no answer changes by more than 4 % of its bar.
+/// Largest allowed ratio of the RMS residual on an active set to the increase of the gap along one element at the front. Chosen;
+/// from 1e-5 to 1e-2 no answer changes by more than 4 % of its bar.
 const INNER_TOLERANCE_OVER_OPENING: f64 = 1e-3;
 
 /// A solved contact, in the units of the mesh.
@@ -36,9 +36,9 @@ pub(super) fn solve(
     plans: &mut Plans,
     guess: Vec<(usize, f64)>,
 ) -> Result<Solution, BemError> {
-    // Initial pressure on the mesh, and heights as initial gaps.
+    // The search starts from the loads of the guess and the heights of the body at the candidates.
     if guess.is_empty() {
-        // No element lies below the depth of the contact: refuse the grid.
+        // No candidate is in the initial active set, so that the grid is too coarse for the contact: refuse it.
         check_contact_elements(0)?;
     }
     let elements = 0..mesh.n_elements();
@@ -49,12 +49,12 @@ pub(super) fn solve(
         loads[element] = load;
     }
 
-    // Search the active set, then keep the loaded elements.
+    // Search the active set. The solution keeps only the elements that carry a load.
     let mut contact = ContactEquations::new(mesh, plans);
     let tolerance = mesh.options.tolerance;
     let mut search = Search::new(&mut contact, heights, inner_tolerance, tolerance, loads);
     search.run()?;
-    // The gaps next to the contact are part of the friction from dissipation.
+    // The friction from dissipation also contains the gaps next to the contact, weighted with the loads.
     let [residual, depth] = [search.residual, search.depth];
     let gap_difference = mesh.mean_gap_difference(&search.pressure, &search.gap);
     let loads = search.pressure.into_iter().enumerate();

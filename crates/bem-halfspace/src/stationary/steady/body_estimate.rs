@@ -18,18 +18,19 @@ use crate::stationary::steady::solution::SteadyEstimate;
 use crate::stationary::steady::{RefinementOptions, SteadyOptions, steady_on_grid};
 use crate::{BemError, Elastomer};
 
-/// Convergence order that is assumed under a smooth body. The front leaves 3/2, a boundary that follows the elements less. With 1.1 the
-/// error estimates hold in 98.8 of 100 random scenes (docs/calibration.md), with 3/2 in 90; with 1 they are wider.
+/// Convergence order that is assumed for the friction of a smooth body on a given number of elements. The front of the contact
+/// causes the order 3/2, a contact boundary that follows the elements a lower one. Chosen: with 1.1 the error estimates hold in
+/// 98.8 of 100 random scenes (docs/calibration.md), with 3/2 in 90. With 1 they are wider.
 const BODY_ORDER: f64 = 1.1;
 /// Ratio of the error of the friction from dissipation to that of the friction from slopes, on a given number of
 /// elements, below which the former replaces the latter. The smaller of two error estimates holds less often than
 /// either. Chosen (case of `evidence tuning`).
 const MAX_DISSIPATION_ERROR_RATIO_ON_ELEMENTS: f64 = 0.2;
-/// Largest number of footprints: a limit of the time. Each is 1.5 times as long as the one before, so that the last
-/// is 11 times as long as the first.
+/// Largest number of footprints that are tried. Chosen to limit the time: a contact that reaches the boundary of the last one is
+/// an error. Each is 1.5 times as long as the one before, so that the last is 11 times as long as the first.
 const MAX_FOOTPRINTS: usize = 7;
-/// Upper bound of the memory per footprint element that is solved for, most of it for kernel and transforms, \[bytes]. A test compares
-/// memory stated and taken (tests/it/memory.rs).
+/// Upper bound of the memory per element of the footprint that is solved for, most of it for kernel and transforms, \[bytes]. A
+/// test compares the memory that is stated with the memory that is taken (tests/it/memory.rs).
 const STEADY_BYTES_PER_ELEMENT: f64 = 1000.0;
 
 /// Largest memory of [`steady`] for a number of elements along the contact, \[bytes]. Where the contact is longer than expected, its
@@ -47,7 +48,7 @@ pub fn steady_memory(
 ) -> Result<f64, BemError> {
     let plan = plan_of_grids(surface, elastomer, load)?;
     let options = grid_of_plan(&plan, elements);
-    // A mirror symmetry halves the unknowns, and saves less of the kernel.
+    // With a mirror symmetry half of the elements are unknowns. The kernel is not halved, so that less memory is saved.
     let solved_fraction = if surface.mirrors()[1] { 0.5 } else { 0.7 };
     Ok(STEADY_BYTES_PER_ELEMENT * solved_fraction * options.footprint.n_elements(options.spacing))
 }
@@ -73,7 +74,7 @@ fn plan_of_grids(
     elastomer: &dyn Elastomer,
     load: &SlidingLoad,
 ) -> Result<GridPlan, BemError> {
-    // Drop the sliding distance, keep the track.
+    // Build the load anew without its sliding distance, but on its track.
     let without_distance = SlidingLoad::with(load.control(), load.velocity())?;
     let stationary = match load.track() {
         None => without_distance,
@@ -176,7 +177,7 @@ fn refine_state(
     let has_peak = peak_has_limit(surface, elastomer);
     let creep = SlidingCreep::for_load(elastomer, load)?;
     in_growing_footprint(plan_of_grids(surface, elastomer, load)?, |plan| {
-        // To a relative error, by refinement.
+        // A relative error is reached by refinement.
         if let Some(relative_error) = request.accuracy.relative_error() {
             let problem = SteadyProblem {
                 surface,
@@ -192,7 +193,8 @@ fn refine_state(
             return refine(&problem, &options, finish);
         }
 
-        // On given elements assume the order of the sharpest feature: an edge, the apex, or a smooth body.
+        // On a given number of elements the convergence order is assumed: that of the sharpest feature, an edge or the apex, or
+        // of a smooth body.
         let mut resolution = resolution(request, load.control(), has_peak);
         if plan.has_edges {
             resolution.goal.order = FLAT_END_ORDER;
@@ -269,7 +271,7 @@ fn remove_undefined_quantities(
     if let (Control::NormalForce(_), true) = (load.control(), depth.depth_per_e_fold > 0.0) {
         match load.sliding_distance() {
             None => estimate.indentation_depth = None,
-            // Only checks the distance.
+            // The depth is not needed here: the call only checks that the distance is long enough.
             Some(distance) => drop(depth.after(distance)?),
         }
     }

@@ -21,13 +21,16 @@ use crate::stationary::steady::plans::Plans;
 use crate::stationary::steady::region::Region;
 use crate::stationary::steady::wiener_hopf::WienerHopf;
 
-/// Largest n³/N for a direct solve of n unknowns in a box of N elements, on which the transforms of an iteration work. Measured:
-/// the limit is about 120 unknowns for a compact contact and far more for a thin crescent. Up to it the direct solve is faster, and
-/// exact to rounding. Beyond it the few steps from a good guess are faster: 0.1 to 0.3 ms against 0.4 ms at 145 unknowns, 0.4 to
-/// 0.7 ms against 7 ms at 557.
+/// Largest n³/N for which n unknowns are solved for directly, in a box of N elements on which the transforms of an iteration
+/// work. This is about 120 unknowns for a compact contact and far more for a thin crescent. Up to it the direct solve is faster,
+/// and exact to rounding.
+///
+/// Measured: beyond the limit the few steps from a good guess are faster. At 145 unknowns they take 0.1 to 0.3 ms against 0.4 ms,
+/// at 557 unknowns 0.4 to 0.7 ms against 7 ms.
 const DIRECT_SOLVE_WORK_PER_ELEMENT: f64 = 5e3;
-/// Largest number of GCR steps, and truncation depth of the basis: a limit of time and memory. A preconditioned
-/// contact needs some tens.
+/// Largest number of GCR steps on one active set, and of directions in the basis. Chosen to limit time and memory; a
+/// preconditioned contact needs some tens. Beyond it the search of a contact goes on with the loads so far. Adjoint equations are
+/// then solved directly, or fail if they are too large.
 pub(super) const MAX_GCR_STEPS: usize = 150;
 /// GCR without truncation: the basis keeps all directions.
 pub(super) const GCR_LIMITS: GcrLimits = GcrLimits {
@@ -60,8 +63,8 @@ pub(super) struct ContactEquations<'mesh> {
 impl FixedSetSolver for ContactEquations<'_> {
     /// A single body has ends along x.
     const PERIODIC_ALONG_X: bool = false;
-    /// With ten times these values there are 1.4 times as many active sets, which take a tenth longer in total. A third of them hardly
-    /// changes anything.
+    /// Chosen. With ten times these values there are 1.4 times as many active sets, which take a tenth longer in total. With a
+    /// third of these values hardly anything changes.
     const FORCING: ForcingTerms = ForcingTerms {
         usual: 0.02,
         after_growth: 0.006,
@@ -170,7 +173,8 @@ impl<'mesh> ContactEquations<'mesh> {
         let (mesh, active) = (self.mesh, &self.active);
         let n = active.len();
         let control = mesh.loading.control;
-        // Gaps of the active set, then the control.
+        // The first n equations close the gaps of the active set, and the last one prescribes force or depth. The last unknown is
+        // the depth.
         let entry = |row, column| match (row < n, column < n) {
             (true, true) => mesh.influence(active[row], active[column]),
             (true, false) => -1.0,
@@ -255,12 +259,12 @@ impl<'a> Directions<'a> {
     /// add. The change δ of the depth keeps the prescribed force or depth.
     fn write_direction(&mut self, gaps: &[f64], direction: &mut [f64], image: &mut [f64]) {
         let control = self.mesh.loading.control;
-        // Preconditioned loads, and the depth that restores the control.
+        // Apply the preconditioner to the gaps. The depth then changes so that the direction keeps the prescribed force or depth.
         let mut loads = self.preconditioner.approximate_loads(gaps, self.region);
         let stiffness = control.depth + control.load * self.total(&self.unit_depth_response);
         let depth = -control.load * self.total(&loads) / stiffness;
         add_scaled(&mut loads, depth, &self.unit_depth_response);
-        // The gaps that these loads add.
+        // Compute the gaps that these loads and the change of the depth add.
         let displacements = self.operator.apply(0, &loads, self.region);
         for (gap, displacement) in image.iter_mut().zip(displacements) {
             *gap = displacement - depth;

@@ -1,14 +1,15 @@
 //! The depth scale of sliding on any material.
 //!
-//! A body at the depth D has a contact of about the length a, the distance at which its height is D. The material stays in it for
-//! about the time a/v, and the one-dimensional model carries about the force 4 a D/J(a/v). Hence
+//! A body at the depth D has a contact of about the length a, the distance at which the height of the body is D. At the sliding
+//! speed v the material stays in the contact for about the time a/v. For the creep compliance J and the Poisson ratio ν, the
+//! force in the one-dimensional model is about 4 a D/(2 (1 − ν) J(a/v)). Hence the normal force F_N leads to
 //!
 //! ```text
 //! D = h(a) = 2 (1 − ν) F_N J(a/v)/(4 a)
 //! ```
 //!
-//! which is F_N/(4ηv) for the dashpot and any body, and has one solution for every body that rises, because
-//! J(t)/t never increases. A profile that is infinite along y presses with a force F' per length, and
+//! which is F_N/(4ηv) for any body on a dashpot of the viscosity η. The equation has one solution for every body that rises,
+//! because J(t)/t never increases. A profile that is infinite along y presses with a force F' per length, and
 //!
 //! ```text
 //! D = h(a) = 2 (1 − ν) F' J(a/v)/(2π)
@@ -26,13 +27,14 @@ use numerics::{in_range, positive};
 use crate::stationary::steady::sliding_creep::SlidingCreep;
 use crate::{BemError, Elastomer};
 
-/// Number of bisections of the logarithm of the length, enough for all digits of a number: 2⁻⁶⁰ of an octave.
+/// Number of bisections of the logarithm of the contact length, which begin with a factor of 2 between its bounds. They leave
+/// 2⁻⁶⁰ of an octave, which is enough for all digits of a number.
 const BISECTIONS: usize = 60;
-/// Largest number of doublings or halvings of the length in the search of an interval: beyond 2^±900 heights and
-/// forces leave the range of numbers.
+/// Largest number of doublings or halvings of the contact length in the search for its bounds. Beyond 2^±900 heights and forces
+/// leave the range of numbers.
 const MAX_DOUBLINGS: usize = 900;
-/// Number of directions in which the height of a surface is averaged, for a scale that need not be exact. From 4 to
-/// 32 no answer changes by more than 1e-10 of its bar.
+/// Number of directions in which the height of a surface is averaged, for a scale that need not be exact. Chosen; from 4 to 32 no
+/// answer changes by more than 1e-10 of its bar.
 const HEIGHT_DIRECTIONS: u8 = 8;
 
 /// Depth scale D of a body of the height `height(a)` at the distance a from its lowest point, \[m]. Contacts are at most as long as
@@ -44,7 +46,7 @@ pub(super) fn depth_scale(
     max_length: f64,
     sliding_distance: f64,
 ) -> Result<f64, BemError> {
-    // On a dashpot D does not depend on the body, unless the sliding distance is shorter than the contact.
+    // On a dashpot the depth scale D does not depend on the body, unless the sliding distance is shorter than the contact.
     if creep.only_flows() {
         let depth = 0.25 * normal_force * creep.flow_per_length();
         if sliding_distance >= max_length || height(sliding_distance) >= depth {
@@ -80,7 +82,7 @@ pub(super) fn profile_scale(
     let allowed =
         "0 under a line load: a surface that flows sinks the faster the longer the line is";
     in_range("fluidity", fluidity, fluidity <= 0.0, allowed)?;
-    // The length at which the mean height of both sides equals the depth.
+    // Find the half length at which the mean height of rear and front equals the depth of a contact of that length.
     let height = |distance: f64| {
         let [rear, front] = [-distance, distance].map(|x| profile.height([x, 0.0]));
         0.5 * (rear + front)
@@ -104,7 +106,8 @@ fn contact_length(
 ) -> Result<f64, BemError> {
     let is_too_long =
         |length: f64| -> Result<bool, BemError> { Ok(height(length) >= depth(length)?) };
-    // Find an interval that contains the root.
+    // Without a largest length double the upper bound until a contact of that length is too long. Then halve the lower bound
+    // until it is not.
     let mut upper = if max_length.is_finite() {
         max_length
     } else {
@@ -123,9 +126,9 @@ fn contact_length(
         }
         (lower, upper) = (0.5 * lower, lower);
     }
-    // Bisect its logarithm.
+    // Bisect the logarithm of the length between both bounds.
     for _ in 0..BISECTIONS {
-        // The square root of a ratio, so that rounding does not depend on the unit of length.
+        // The geometric mean is computed from the ratio of the bounds, so that rounding does not depend on the unit of length.
         let middle = lower * (upper / lower).sqrt();
         if is_too_long(middle)? {
             upper = middle;

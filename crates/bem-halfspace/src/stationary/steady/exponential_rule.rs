@@ -15,10 +15,10 @@ use numerics::{LobattoRule, legendre_values, lobatto_rule, whole_part};
 /// Largest number of points of a rule: that of the most accurate panels (`retarded_potential.rs`).
 pub(super) const MAX_POINTS: usize = 12;
 /// Argument z = rate/2 of the Bessel functions above which their recurrence runs upwards in the degree, stable for degrees up to z;
-/// up to it the recurrence runs downwards. From 30 to 120 no answer changes by more than 1e-10 of its bar.
+/// up to it the recurrence runs downwards. Chosen; from 30 to 120 no answer changes by more than 1e-10 of its bar.
 const UPWARD_RECURRENCE_ARGUMENT: f64 = 60.0;
 /// Degrees by which the downward recurrence starts above the largest degree plus 2 z, so that its truncation is below
-/// rounding error. From 20 to 80 no digit of an answer changes.
+/// rounding error. Chosen; from 20 to 80 no digit of an answer changes.
 const EXTRA_DEGREES: usize = 40;
 
 /// Points on [0, 1] or around it, and the projection of values at them onto Legendre polynomials.
@@ -36,7 +36,8 @@ impl ExponentialRule {
         let LobattoRule { nodes, weights } = lobatto_rule(n_points);
         let mut projection = vec![[0.0; MAX_POINTS]; n_points];
         for (index, (&x, weight)) in nodes.iter().zip(weights).enumerate() {
-            // Coefficients are (n + 1/2) ∫ f P_n, by the Gauss–Lobatto rule.
+            // The coefficient of the Legendre polynomial P_n in a function f is (n + 1/2) ∫ f P_n, which the Gauss–Lobatto rule
+            // integrates.
             let values: [f64; MAX_POINTS] = legendre_values(x);
             for (order, coefficients) in projection.iter_mut().enumerate() {
                 // The Gauss–Lobatto rule integrates the square of the highest Legendre polynomial wrongly; its discrete norm is used.
@@ -57,7 +58,8 @@ impl ExponentialRule {
     /// The rule of 2 to [`MAX_POINTS`] integer points around [0, 1], as many on either side, for functions that are smooth over all
     /// of them.
     pub(super) fn on_integers(n_points: usize) -> Self {
-        // Lagrange interpolation at the Gauss–Lobatto points, then their projection.
+        // Interpolate the values at the integers to the Gauss–Lobatto points (Lagrange), and project these onto Legendre
+        // polynomials.
         let lobatto = Self::new(n_points);
         let first = 1.0 - 0.5 * n_points as f64;
         let nodes: Vec<f64> = (0..n_points).map(|index| first + index as f64).collect();
@@ -99,7 +101,8 @@ fn legendre_moments(rate: f64, count: usize) -> [f64; MAX_POINTS] {
     let first = -(-rate).exp_m1();
     let mut moments = [0.0; MAX_POINTS];
     moments[0] = first;
-    // Upward recurrence, or Miller's downward recurrence of ratios.
+    // For large arguments the recurrence of the moments runs upwards. Otherwise the ratios of Bessel functions follow from
+    // Miller's downward recurrence.
     if z > UPWARD_RECURRENCE_ARGUMENT {
         moments[1] = 1.0 - z.recip();
         for n in 1..count - 1 {
@@ -107,7 +110,7 @@ fn legendre_moments(rate: f64, count: usize) -> [f64; MAX_POINTS] {
         }
     } else {
         let start = count + EXTRA_DEGREES + 2 * whole_part(z);
-        // Ratios i_n/i_(n−1) = z/(2n + 1 + z i_(n+1)/i_n), all positive.
+        // The ratios satisfy i_n/i_(n−1) = z/(2n + 1 + z i_(n+1)/i_n). All terms are positive, so that nothing cancels.
         let mut ratio = 0.0;
         let mut ratios = [0.0; MAX_POINTS];
         for n in (1..start).rev() {

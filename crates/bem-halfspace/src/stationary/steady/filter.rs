@@ -68,7 +68,7 @@ impl PlaneTransform {
         let mut values = vec![0.0; width];
         let mut transformed = vec![ZERO; n_columns];
         let mut spectrum = vec![ZERO; n_columns * length];
-        // Mirror each row along y, and transform it.
+        // The kernel is even along y. Mirror each of its rows, and transform it.
         for row in 0..length {
             for column in 0..n_columns {
                 let value = kernel(row, column);
@@ -80,7 +80,7 @@ impl PlaneTransform {
                 spectrum[column * length + row] = *value;
             }
         }
-        // Transform along x, and normalise.
+        // Transform each column along x, and multiply it by the normalisation of the transforms.
         let normalisation = self.normalisation();
         for column in spectrum.chunks_exact_mut(length) {
             self.column_forward(column);

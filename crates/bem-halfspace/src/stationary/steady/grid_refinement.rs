@@ -33,15 +33,15 @@ const BODY_PHASES: [[f64; 2]; 4] = [[0.0, 0.0], [0.5, 0.5], [0.5, 0.0], [0.0, 0.
 /// Shifts of the grid in plane strain, in elements. As a function of the shift the friction has a second harmonic, by which the means
 /// over the first two and over the last two differ. The mean of all four eliminates it.
 const STRIP_PHASES: [[f64; 2]; 4] = [[0.0, 0.0], [0.5, 0.0], [0.25, 0.0], [-0.25, 0.0]];
-/// Number of last refinements in plane strain whose largest scatter counts. On one of them it may be small by chance,
-/// and the extrapolated limit contains the scatter of all values that it eliminates. With 1 the bar of the cylinder
-/// is 0.15 times as wide.
+/// Number of refinements in plane strain, up to the last one, whose largest scatter is added to the error bar. On a single one
+/// the scatter may be small by chance, and the extrapolated limit contains that of all values that it uses. Chosen; with 1 the
+/// bar of the cylinder is 0.15 times as wide.
 const STRIP_SCATTER_WINDOW: usize = 4;
-/// Convergence order that is assumed for the area of the elements in contact in sliding: a boundary that follows the elements.
+/// Convergence order that is assumed for the contact area in sliding, because the boundary of the contact follows the elements.
 const AREA_ORDER: f64 = 1.0;
-/// Safety factor on the error of the friction on any material but a dashpot. There the whole contact boundary scatters, and the last
-/// refinement has a scatter that is small by chance. Without it 95.8 of 100 error estimates hold on random solids and cylinders, with
-/// it 98.6 (docs/calibration.md).
+/// Factor on the error of the friction on any material but a dashpot. There the whole contact boundary scatters, and the scatter
+/// of the last refinement may be small by chance. Chosen: with this factor 98.6 of 100 error estimates hold on random solids and
+/// cylinders, without it 95.8 (docs/calibration.md).
 const SAFETY_FACTOR_CREEPING: f64 = 1.5;
 /// Ratio of friction to mean slope below which the friction is a small difference of slopes, and higher orders are
 /// tried. A larger friction reaches the requested error without them. Chosen; from 0 to 0.2 no digit of an answer
@@ -49,16 +49,16 @@ const SAFETY_FACTOR_CREEPING: f64 = 1.5;
 const SMALL_FRICTION_RATIO: f64 = 0.2;
 /// Smallest number of refinements for an error estimate. An elimination uses two values, and the estimate needs three limits.
 const MIN_REFINEMENTS: i32 = 5;
-/// Largest number of footprint elements per allowed unknown pressure: a limit of memory and time. A steep body
-/// touches with a thin crescent.
+/// Largest ratio of the elements of a footprint to the allowed number of unknown pressures. Chosen to limit memory and time:
+/// refinement ends before a larger grid. The ratio is large because a steep body touches with a thin crescent.
 const ELEMENTS_PER_UNKNOWN: f64 = 50.0;
-/// Number of footprint elements from which [`LARGE_GRID_ELEMENTS_PER_UNKNOWN`] is the limit: a limit of the memory,
-/// some GB.
+/// Number of footprint elements above which [`LARGE_GRID_ELEMENTS_PER_UNKNOWN`] replaces [`ELEMENTS_PER_UNKNOWN`]. Chosen to
+/// limit the memory to some GB.
 const LARGE_GRID_ELEMENTS: f64 = 2e6;
-/// Largest number of footprint elements per allowed unknown pressure on large grids: a limit of memory and time.
+/// Largest ratio of the elements of a footprint of more than [`LARGE_GRID_ELEMENTS`] to the allowed number of unknown pressures.
+/// Chosen to limit memory and time: refinement ends before a larger grid.
 const LARGE_GRID_ELEMENTS_PER_UNKNOWN: f64 = 12.5;
-/// Number of footprint elements up to which a grid is never refused, because such grids take a fraction of a second:
-/// a limit of the time.
+/// Number of footprint elements up to which a grid is never refused, because such grids take a fraction of a second. Chosen.
 const MIN_GRID_LIMIT: f64 = 1e5;
 /// Aspect ratio Δy/Δx of the elements under a body unless another is asked for: the contact boundary is steeper
 /// across the sliding direction than along it, so that it moves less from row to row. Chosen.
@@ -66,16 +66,17 @@ pub(super) const DEFAULT_ASPECT: f64 = 0.5;
 /// Factors on the spacing that are tried in turn where the active set cycles. Chosen close to 1: another grid has
 /// another active set, and the spacing that is reported is that of the grid that was solved.
 const CYCLING_SPACING_FACTORS: [f64; 2] = [0.99, 0.98];
-/// Tolerance of a contact over the requested relative error and the ratio of friction to mean slope; measured by `evidence tuning`.
+/// Factor on the requested relative error, times the ratio of the friction to the mean slope, that gives the tolerance of a
+/// contact. Measured by `evidence tuning`.
 const RESIDUAL_SHARE: f64 = 1e-4;
-/// Tolerance of a contact in plane strain over the requested relative error and the ratio of friction to mean slope.
-/// It is larger than [`RESIDUAL_SHARE`], because the constant potential of the whole strip, which is absorbed in the
-/// depth, leaves more rounding error. Chosen; from 1e-4 to 1e-2 no answer changes by more than 0.3 % of its bar.
+/// The factor of the tolerance like [`RESIDUAL_SHARE`], but in plane strain. It is larger, because the constant potential of the
+/// whole strip, which is absorbed in the depth, leaves more rounding error. Chosen; from 1e-4 to 1e-2 no answer changes by more
+/// than 0.3 % of its bar.
 const STRIP_RESIDUAL_SHARE: f64 = 1e-2;
 /// Smallest tolerance of a contact, relative to the depth scale. Chosen above the rounding error of the transforms.
 const MIN_TOLERANCE: f64 = 1e-12;
-/// Error of the friction over the mean slope below which the friction of an elastic material counts as known: the
-/// tolerances of the contacts and their sums leave as much. Chosen.
+/// Ratio of the error of the friction to the mean slope below which the friction of an elastic material counts as known. The
+/// tolerances of the contacts and the rounding of sums leave about as much. Chosen.
 const ELASTIC_ROUNDING: f64 = 1e-9;
 
 /// Requested error, shape of the elements and limits of the work of a refinement.
@@ -128,7 +129,7 @@ pub(super) fn refine<E: Into<Reached>>(
 ) -> Result<E, BemError> {
     between_zero_and_one("relative_error", options.relative_error)?;
     positive("aspect", options.aspect)?;
-    // Start with no grid solved.
+    // Begin at level 0, before any grid is solved.
     let mut grids = ShiftedGrids {
         problem,
         options,
@@ -139,7 +140,7 @@ pub(super) fn refine<E: Into<Reached>>(
         subgrid_friction_fraction: 0.0,
         hides_edge: false,
     };
-    // Solve on finer and finer grids.
+    // Refine until the error is reached or a limit ends the refinement.
     let initial_work = (0..MIN_REFINEMENTS).map(work_of_level).sum();
     let finest = refine_levels(problem.watch, initial_work, |_, progress| {
         grids.solve_next(progress).map(Some)
@@ -304,7 +305,8 @@ impl ShiftedGrids<'_> {
     /// rest of the error.
     fn friction(&self) -> Estimate {
         let loading = &self.problem.loading;
-        // Choose the convergence orders that are tried.
+        // A small friction may converge faster under a smooth body of finite width, except on a dashpot: then higher orders are
+        // tried too.
         let is_small = self.reuse.solution.as_ref().is_some_and(|last| {
             last.friction_coefficient.abs() < SMALL_FRICTION_RATIO * last.mean_slope
         });
@@ -312,7 +314,8 @@ impl ShiftedGrids<'_> {
         let may_be_faster =
             is_small && !only_flows && loading.strip.is_none() && !loading.has_edges;
         let faster_orders: &[f64] = if may_be_faster { &CREEPING_ORDERS } else { &[] };
-        // Limit from slopes, then from dissipation.
+        // Extrapolate the friction from slopes, then that from dissipation. The latter replaces the former under edges, or if its
+        // error is much smaller.
         let limit = |quantity: fn(&Refinement) -> Average, scatter_window: usize| {
             let averages = Vec::from_iter(self.refinements.iter().map(quantity));
             self.limit_of(&averages, self.order, faster_orders, scatter_window)
@@ -425,7 +428,7 @@ impl ShiftedGrids<'_> {
         &mut self,
         progress: &mut WorkProgress,
     ) -> Result<(SteadySliding, SteadyOptions), BemError> {
-        // Solve the shifted grids.
+        // Solve on each shifted grid of this level, from the solution on the grid before.
         let (spacing, work) = (self.edges(self.next), work_of_level(self.next));
         let footprint = self.problem.plan.footprint.widened(spacing[0]);
         let mut options = SteadyOptions::new(spacing, footprint);
@@ -439,9 +442,9 @@ impl ShiftedGrids<'_> {
             self.reuse.solution = Some(state);
         }
 
-        // Average.
+        // Average all quantities over the shifted grids of the level.
         let loading = &self.problem.loading;
-        // A quantity of the state on one grid.
+        // The type of a function that reads one quantity from the state on one grid.
         type Quantity<'q> = &'q dyn Fn(&SteadySliding) -> f64;
         let over_pairs = |of: Quantity| Average::over_interleaved_shifts(&states, of);
         let average = |of: Quantity| Average::over_shifts(&states, of);
@@ -509,7 +512,7 @@ impl ShiftedGrids<'_> {
     /// friction to mean slope, which is 1 at most and assumed so on the first grid, because a small friction is a difference of
     /// large slopes.
     fn tolerance(&self) -> f64 {
-        // From the last solution, on another grid.
+        // The friction ratio is that of the last solution, which is on another grid.
         let last = self.reuse.solution.as_ref();
         let friction_ratio = last.map_or(1.0, |last| {
             last.friction_coefficient.abs() / last.mean_slope

@@ -1,7 +1,7 @@
 //! Line contact: a profile that is infinite along y slides in plane strain.
 //!
-//! One element along y is so long that its ends are beyond the influence radius. Up to a constant, its potential is that of a line
-//! load,
+//! One element along y is so long that its ends are beyond the influence radius. Up to a constant, the potential V of an element
+//! of the length Δx along x and L along y is that of a line load,
 //!
 //! ```text
 //! V(x) = 2 Δx ln(L/|x|) + O(x²/L²)
@@ -30,11 +30,13 @@ use crate::{BemError, Elastomer, Footprint};
 /// Number of elements of the coarsest grid along half the contact of a cylinder on an elastic half space. Chosen; from 2 to 12
 /// bars are 0.05 to 3.8 times as wide (case of `evidence tuning`).
 const COARSEST_PER_HALF_LENGTH: f64 = 4.0;
-/// Rear of the footprint, in half lengths of the contact of a cylinder on an elastic half space: no contact reaches
-/// further back than the elastic one, at 1. From 1 to 4 no answer changes by more than 1e-8 of its bar.
+/// Distance of the rear of the footprint behind the lowest point, in half lengths of the contact of a cylinder on an elastic half
+/// space. No contact reaches further back than the elastic one, at 1. Chosen; from 1 to 4 no answer changes by more than 1e-8 of
+/// its bar.
 const FOOTPRINT_REAR: f64 = 2.0;
-/// Front of the footprint, in half lengths of the contact of a cylinder on an elastic half space, without memory.
-/// Chosen; from 1 to 5 no answer changes by more than 2e-8 of its bar, because a footprint that is reached grows.
+/// Distance of the front of the footprint ahead of the lowest point on a material without memory. The unit is half the contact
+/// length of a cylinder on an elastic half space. Chosen; from 1 to 5 no answer changes by more than 2e-8 of its bar, because a
+/// footprint that is reached grows.
 const FOOTPRINT_FRONT: f64 = 2.5;
 /// Shift of the front of the footprint per e-fold of the memory length, in half lengths of the contact on an elastic
 /// half space: the distance ahead at which the surface still rises grows with the logarithm of the memory length.
@@ -45,7 +47,8 @@ const FOOTPRINT_FRONT_PER_LOG_MEMORY: f64 = 0.5;
 /// hold. It is higher than that of bodies, whose contact boundary follows the elements.
 const PROFILE_ORDER: f64 = 1.2;
 
-/// Largest number of unknown pressures in plane strain: a limit of the time, since systems of this size are solved directly.
+/// Largest number of unknown pressures in plane strain. Chosen to limit the time, since systems of this size are solved directly:
+/// refinement ends before a larger one.
 const MAX_UNKNOWNS_OF_LINE: usize = 2000;
 
 /// Solves the stationary sliding of a smooth `profile` that is infinite along y, under a load whose normal force is per length,
@@ -77,7 +80,7 @@ pub fn steady_line<'w>(
 ) -> Result<SteadyEstimate, BemError> {
     let (profile, request): (&dyn Surface, Request) = (&profile, request.into());
 
-    // The problem of a strip of finite length.
+    // Replace the infinite profile by a strip of finite length, and plan grids from a few elements along half the contact on.
     let force = load.require_normal_force()?;
     let LineScale {
         half_length,
@@ -95,7 +98,7 @@ pub fn steady_line<'w>(
         watch: request.watch,
     };
 
-    // An elastic material has no friction, a half space no depth.
+    // The result has no friction on an elastic material, and no depth on a half space.
     let has_depth = elastomer.base().is_rigid();
     let finish = |mut found: SteadyEstimate| {
         found.normal_force = Estimate::exact(force);

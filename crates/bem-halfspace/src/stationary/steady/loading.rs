@@ -47,9 +47,9 @@ pub(super) struct Loading {
     pub(super) may_have_patches: bool,
 }
 
-/// Length of a strip over the sum of its footprint and its memory length. The relative difference from an infinite
-/// strip is of the order of the square of its inverse, 1e-10. From 1e4 to 1e6 no answer changes by more than 3e-6 of
-/// its bar.
+/// Ratio of the length of a strip along y to the sum of the lengths of its footprint and of its memory along x. The relative
+/// difference from an infinite strip is of the order of the inverse square of this ratio, 1e-10. Chosen; from 1e4 to 1e6 no
+/// answer changes by more than 3e-6 of its bar.
 const STRIP_LENGTH_RATIO: f64 = 1e5;
 
 impl Loading {
@@ -62,7 +62,8 @@ impl Loading {
     ) -> Result<Self, BemError> {
         let creep = SlidingCreep::for_load(elastomer, load)?;
         let [rear, front] = footprint.x;
-        // The unit of heights, and the distance to which a depth belongs.
+        // Choose the unit of heights. A given depth is that unit itself, and belongs to a sliding distance on a material that
+        // flows.
         let (depth_scale, sliding_distance) = match load.control() {
             Control::NormalForce(force) => {
                 let max_length = footprint
@@ -102,7 +103,8 @@ impl Loading {
     ) -> Result<Self, BemError> {
         let creep = SlidingCreep::for_load(elastomer, load)?;
         let force = load.require_normal_force()?;
-        // A strip so long that its ends have no influence on the contact; it carries the force per length times its length.
+        // Choose a strip so long that its ends have no influence on the contact. It carries the force per length times its
+        // length.
         let depth_scale = profile_scale(profile, &creep, force)?.depth_scale;
         let length = STRIP_LENGTH_RATIO * (front - rear + creep.memory_length());
         let strip = positive("length of a strip", length)?;
@@ -126,14 +128,14 @@ impl Loading {
 
     /// The loading on a grid, with its units.
     pub(super) fn on_grid(&self, spacing: [f64; 2]) -> Result<GridLoading, BemError> {
-        // Units of the grid.
+        // Find the units of the grid: the creep over an element, and the force that belongs to the depth scale.
         let creep = self.creep.over_element(spacing[0])?;
         let compliance = self.creep.compliance(spacing[0])?;
         let force_scale = 4.0 * self.depth_scale / compliance * spacing[0];
         let force_scale = positive("4 D Δx / (2 (1 - ν) J(Δx/v))", force_scale)?;
         let aspect = spacing[1] / spacing[0];
 
-        // The control in these units. On a material that flows the depth depends on the load and the sliding distance.
+        // Write the control in these units. On a material that flows the depth depends on the load and the sliding distance.
         let control = match self.control {
             Control::NormalForce(force) => ControlEquation {
                 depth: 0.0,

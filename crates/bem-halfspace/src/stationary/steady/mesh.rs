@@ -1,8 +1,9 @@
 //! The stationary problem on a grid: the candidate elements, their heights, kernel and symmetry.
 //!
-//! On a dashpot the gap changes by ∫w/(ηv) minus the rise of the body between the rear edges of two neighbouring elements.
-//! Where the body does not rise, the gap is therefore larger at the rear than at the front, and no element can touch. Only elements
-//! over which the body rises are candidates. On any other material all elements that the body covers are.
+//! On a dashpot of the viscosity η, sliding at the speed v, the surface sinks by ∫w/(ηv) dx under the load potential w. Between
+//! the rear edges of two neighbouring elements the gap changes by this integral minus the rise of the body. Where the body does
+//! not rise, the gap is therefore larger at the rear than at the front, and no element can touch. Only elements over which the
+//! body rises are candidates. On any other material all elements that the body covers are.
 //!
 //! Theory: docs/theory/stationary-half-space.md, "Where the gap is evaluated".
 
@@ -84,7 +85,7 @@ impl Mesh {
             in_range("phase", value, is_allowed, "between -1/2 and 1/2")?;
         }
 
-        // Sample the footprint; with a mirror symmetry keep half of it.
+        // Sample the body on the whole footprint. With a mirror symmetry only half of the candidates are kept.
         let [x, y] = options.phase;
         let [[behind, ahead], [right, left]] = options.footprint.elements(options.spacing)?;
         let mut mesh = Self {
@@ -105,7 +106,7 @@ impl Mesh {
         if surface.mirrors()[1] {
             mesh.keep_half();
         }
-        // Refuse a footprint without candidates.
+        // A footprint without candidates has no contact, and is refused.
         let parameter = "number of elements of the footprint that may touch";
         positive(parameter, mesh.n_elements() as f64)?;
 
@@ -160,7 +161,7 @@ impl Mesh {
         let dx = self.options.spacing[0];
         for row in 0..self.shape[0] {
             for column in 0..self.shape[1] {
-                // Heights at rear edge, collocation point and front edge.
+                // Evaluate the heights at the rear edge, the collocation point and the front edge of the element.
                 let [x, y] = [self.centre(0, row), self.centre(1, column)];
                 let positions = [-0.5, self.loading.creep.collocation_shift, 0.5];
                 let heights = positions.map(|shift| surface.height([x + shift * dx, y]));
@@ -278,7 +279,7 @@ impl Mesh {
 
     /// The given candidates and those that have an edge or a corner in common with one of them, in increasing order.
     pub(super) fn with_neighbours(&self, elements: &[usize]) -> Vec<usize> {
-        // Neighbours in three rows, without duplicates.
+        // Collect the candidates among the nine elements around each given one; a set removes duplicates and sorts them.
         let neighbours = elements.iter().flat_map(|element| {
             let Element { row, column, .. } = self.elements[*element];
             let columns = column.saturating_sub(1)..=column + 1;
@@ -376,7 +377,7 @@ impl Mesh {
 
     /// Load-weighted mean of half the difference of the gaps ahead of and behind each element; gaps of loaded elements are 0.
     pub(super) fn mean_gap_difference(&self, loads: &[f64], gaps: &[f64]) -> f64 {
-        // Gap of a neighbour, 0 if it is loaded or no candidate.
+        // This closure returns the gap of a neighbour, which is 0 if the neighbour is loaded or no candidate.
         let gap = |row: usize, column: usize| {
             let neighbour = self.candidates_in_row(row, column..=column).next();
             let open = neighbour.filter(|one| loads[*one] <= 0.0);

@@ -6,10 +6,13 @@
 //! gap = h + u − d ≥ 0,  P ≥ 0,  P · gap = 0,  Σ P ΔA = F_N,      u(ξ) = J₀ w(ξ) + (1/v) ∫_ξ^∞ J'((s − ξ)/v) w(s) ds
 //! ```
 //!
-//! with the load potential w = (1/4π) ∬ P/r dA, whose kernel is translation-invariant and not symmetric. For a dashpot
-//! it is [`wake_influence()`]; each retardation element adds an exponential sweep of the potential from ahead. Where the
-//! material flows, the surface sinks like ln t, without limit. This constant is absorbed in d, which then has no meaning of
-//! its own; friction and contact do not depend on it.
+//! for the height h of the body, the displacement u of the surface, the depth d and the pressure P on elements of the area ΔA.
+//! F_N is the normal force, v the sliding speed, ξ the coordinate along x, and J the creep compliance, J₀ at first. The load
+//! potential is w = (1/4π) ∬ P/r dA.
+//!
+//! The kernel of u is translation-invariant and not symmetric. For a dashpot it is [`wake_influence()`]; each retardation element
+//! adds an exponential sweep of the potential from ahead. Where the material flows, the surface sinks like the logarithm of time,
+//! without limit. This constant is absorbed in d, which then has no meaning of its own; friction and contact do not depend on it.
 //!
 //! Friction is summed with the mean slope of each element. The gap is evaluated at a collocation point between the rear edge and the
 //! centre of the element. Its position is proportional to the loss angle at the wave length of two elements. A dashpot needs the rear
@@ -63,7 +66,7 @@ pub use wake_influence::wake_influence;
 /// Number of candidate elements of a mesh above which nested iteration is used: the solution on a coarser mesh is the
 /// initial guess. Chosen; with 500 or more, also with none at all, no answer changes by more than 1e-10 of its bar.
 const NESTED_ITERATION_MIN_ELEMENTS: usize = 500;
-/// Spacing of the coarser mesh of a nested iteration over that of the finer one.
+/// Ratio of the spacing of the coarser mesh of a nested iteration to that of the finer one. Chosen.
 const NESTED_ITERATION_SPACING_FACTOR: f64 = 2.0;
 
 /// One grid for a stationary solution. In plane strain its values along y have no effect.
@@ -154,7 +157,8 @@ fn solve_on_mesh(
     between_zero_and_one("tolerance", options.tolerance)?;
     let mesh = Mesh::new(surface, loading, options, &mut reuse.plans)?;
 
-    // Nested iteration, which ends at the latest with an element as long as the footprint.
+    // A large mesh starts from the solution on a coarser one (nested iteration). This ends at the latest with an element as long
+    // as the footprint.
     let coarse = SteadyOptions {
         spacing: loading.scaled(options.spacing, NESTED_ITERATION_SPACING_FACTOR),
         tolerance: options.tolerance.max(INITIAL_GUESS_TOLERANCE),

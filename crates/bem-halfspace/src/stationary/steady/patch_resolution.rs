@@ -6,8 +6,9 @@ use crate::BemError;
 use crate::elements::bounds::Bounds;
 use crate::error::check_contact_elements;
 
-/// Fraction of the load below which a patch needs not be resolved, because the error estimates of a contact contain
-/// it. Chosen; from 0 to 1 no digit of an answer changes: it decides which grids are refused as too coarse.
+/// Fraction of the total load that a patch must carry to be checked for its resolution. The error estimates of a contact contain
+/// the effect of smaller patches. Chosen; from 0 to 1 no digit of an answer changes: it decides which grids are refused as too
+/// coarse.
 const NEGLIGIBLE_LOAD_FRACTION: f64 = 0.01;
 /// Smallest number of elements across the sliding direction in the widest row of a patch. Chosen: on one to three of them, several
 /// grids may agree by chance.
@@ -28,7 +29,8 @@ pub(super) fn check_patches(loaded: &[Loaded], bounds: &Bounds) -> Result<(), Be
         if load < NEGLIGIBLE_LOAD_FRACTION * total {
             continue;
         }
-        // Count its elements along and across the motion.
+        // Count the loaded elements of the patch in each row and column. It needs enough rows, and enough elements in its widest
+        // row.
         let [mut per_row, mut per_column] = bounds.shape().map(|n| vec![0_usize; n]);
         for ([row, column], _) in &patch {
             per_row[row - bounds.lower[0]] += 1;
@@ -55,7 +57,7 @@ fn connected_patches(loaded: &[Loaded], bounds: &Bounds) -> Vec<Vec<Loaded>> {
     for (first, _) in loaded {
         let mut patch = Vec::new();
         move_to_patch(*first, &mut remaining, bounds, &mut patch);
-        // Flood fill.
+        // Add the loaded neighbours of each element of the patch, until no element of the patch is unvisited (flood fill).
         let mut n_visited = 0;
         while let Some(&([row, column], _)) = patch.get(n_visited) {
             n_visited += 1;

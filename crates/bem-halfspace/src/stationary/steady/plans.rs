@@ -9,8 +9,8 @@ use crate::stationary::steady::wiener_hopf;
 use crate::transform::fast_length::fast_length;
 use crate::transform::plane_transform::PlaneTransform;
 
-/// Number of periods that are cached: a limit of the memory. The boxes of successive active sets have about the same
-/// size.
+/// Number of transform periods whose spectra are kept. Chosen to limit the memory: beyond it the oldest spectra are dropped, and
+/// computed anew when they are needed. The boxes of successive active sets have about the same size.
 const MAX_CACHED_PERIODS: usize = 4;
 
 /// Kernel tables and spectra, which depend only on the creep over an element, the aspect ratio of the elements and the size of a box.

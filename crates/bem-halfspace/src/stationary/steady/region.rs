@@ -67,7 +67,7 @@ impl Region {
         for column in 0..columns {
             let mut row = 0;
             while row < rows {
-                // The run that begins here, which is empty outside the region.
+                // Find the run of contiguous elements that begins at this row. It is empty outside the region.
                 let outside = |row: &usize| !inside[row * columns + column];
                 let run = row..(row..rows).find(outside).unwrap_or(rows);
                 for (step, row) in run.clone().enumerate() {

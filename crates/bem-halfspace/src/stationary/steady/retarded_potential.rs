@@ -36,8 +36,8 @@ const fn from_distance(min_distance: f64, n_points: usize) -> DistanceRule {
     }
 }
 
-/// Gauss–Lobatto rules on a panel, from the fewest points on; distances are in panel lengths. The error is of the order ρ⁻ⁿ, see the
-/// module.
+/// Gauss–Lobatto rules on a panel, from the fewest points on; distances are in panel lengths. With n points the error is of the
+/// order ρ⁻ⁿ, with ρ as at the head of this file.
 const PANEL_RULES: [DistanceRule; 4] = [
     from_distance(256.0, 4),
     from_distance(24.0, 6),
@@ -53,14 +53,14 @@ const ROW_RULES: [DistanceRule; 3] = [
 ];
 /// Number of rows that are stored on either side of an element: half the points of the longest of [`ROW_RULES`].
 const ROWS_PER_SIDE: usize = 5;
-/// Shortest panel in Δx: a panel next to a singularity on its own line is not divided below this length, 2⁻²⁶, the
-/// root of rounding. With 1e-12 no answer changes by more than 1e-10 of its bar.
+/// Length, in Δx, below which a panel next to a singularity on its own line is not divided further. Chosen as 2⁻²⁶, the square
+/// root of the rounding error; with 1e-12 no answer changes by more than 1e-10 of its bar.
 const MIN_PANEL_LENGTH: f64 = 1.0 / (1_u64 << 26) as f64;
 /// Smallest distance ahead of the load, in Δx, at which the recursion along rows starts. Chosen; from 4 to 64 no
 /// answer changes by more than 2e-10 of its bar.
 const MIN_START_DISTANCE: f64 = 16.0;
 /// Ratio of the distances of the end and the start of a panel from the load, for panels further ahead than the start of the recursion.
-/// Derived: below 2 they are shorter than their distance from the load, as the rule of most points requires.
+/// Derived: below 2 the panels are shorter than their distance from the load, as the rule of most points requires.
 const PANEL_GROWTH: f64 = 1.9;
 
 /// An interval along x, with lengths in Δx.
@@ -114,7 +114,8 @@ pub(super) struct RetardedPotential {
 impl RetardedPotential {
     /// Starts at the row one element ahead of the position `first`.
     pub(super) fn new(creep: &ElementCreep, first: f64, aspect: f64, n_columns: usize) -> Self {
-        // Tabulate the weights.
+        // For each retardation element compute the decay over an element of the grid, and the weights of all rules times its
+        // compliance.
         let rules = PANEL_RULES.map(|rule| ExponentialRule::new(rule.n_points));
         let row_rules = ROW_RULES.map(|rule| ExponentialRule::on_integers(rule.n_points));
         let retardations = creep.retardations.iter().map(|element| {
@@ -129,7 +130,8 @@ impl RetardedPotential {
             }
         });
 
-        // Start far enough ahead, from the integral over everything further ahead or once around the track.
+        // The recursion starts far enough ahead of the load, from the integral over everything further ahead or once around the
+        // track.
         let rows_ahead = match creep.track {
             None => (MIN_START_DISTANCE - first).max(0.0).ceil(),
             Some(_) => 0.0,
@@ -176,7 +178,8 @@ impl RetardedPotential {
 
     /// Sets the values at the first row to the integral over everything ahead of it.
     fn start_from_infinity(&mut self) {
-        // Panels whose lengths are proportional to their distance, up to where all exponentials or the potential have decayed.
+        // Divide the line ahead into panels whose lengths are proportional to their distance. They end where all exponentials or
+        // the potential have decayed.
         let rates = self.retardations.iter().map(|element| element.rate);
         let slowest = rates.fold(f64::MAX, f64::min);
         let mut ends = vec![self.position];
@@ -188,7 +191,7 @@ impl RetardedPotential {
             end *= PANEL_GROWTH;
             ends.push(end);
         }
-        // Integrate from the far end on.
+        // Integrate panel by panel, from the far end towards the load.
         let rule = PANEL_RULES.len() - 1;
         for pair in ends.windows(2).rev() {
             let (start, length) = (pair[0], pair[1] - pair[0]);
@@ -293,7 +296,8 @@ impl RetardedPotential {
                 }
                 self.set_increments(column, &potentials[..=last], |one| &one.weights[rule]);
             } else {
-                // Near the edges: graded panels, from the front on.
+                // Near the edges divide the element into panels that shorten towards the singularity, and integrate from the
+                // front on.
                 for increment in self.increments[column..].iter_mut().step_by(self.n_columns) {
                     *increment = 0.0;
                 }
@@ -307,7 +311,7 @@ impl RetardedPotential {
                 }
             }
 
-            // One step of the recursion.
+            // The values of the row ahead decay over the element, and the part from within the element is added.
             for (index, element) in self.retardations.iter().enumerate() {
                 let entry = index * self.n_columns + column;
                 self.values[entry] = element.decay * self.values[entry] + self.increments[entry];
@@ -390,7 +394,7 @@ fn subdivide([start, end]: [f64; 2], lateral_distance: f64, panels: &mut Vec<Pot
         });
         return;
     }
-    // Halve it otherwise.
+    // No rule is accurate on the whole interval: halve it.
     let middle = 0.5 * (start + end);
     subdivide([start, middle], lateral_distance, panels);
     subdivide([middle, end], lateral_distance, panels);
@@ -522,7 +526,7 @@ mod tests {
                 let y = f64::from(column) * scene.aspect;
                 let by = |base| reference(rate, [x, y], &base, scene);
                 let expected = by(layer.base());
-                // A layer leaves little of it far away.
+                // Far away a layer leaves little of the potential, so that the error is compared with the value on a half space.
                 let of_half_space = if scene.thickness.is_finite() {
                     by(Base::default())
                 } else {

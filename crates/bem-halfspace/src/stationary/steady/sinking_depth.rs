@@ -10,9 +10,10 @@ use numerics::{in_range, positive};
 
 /// Depth of the lowest point below the undeformed surface, which grows without limit where the material flows.
 ///
-/// On a solid, whose creep ends, `depth_per_e_fold` is 0, and `reference_depth` is the depth after a sliding time much longer than the
-/// retardation times. On a dashpot, after the sliding distance s from first touch, the kernel of the march in time is
-/// `asinh((ξ + s)/|y|) − asinh(ξ/|y|) → ln(2s) − ln(ξ + r)`, so that
+/// On a solid, whose creep ends, `depth_per_e_fold` is 0, and `reference_depth` is the depth after a sliding time much longer
+/// than the retardation times. Now consider a dashpot after the sliding distance s from first touch. At the distances ξ ahead of
+/// a point load, y beside it and r from it, the kernel of the march in time is `asinh((ξ + s)/|y|) − asinh(ξ/|y|) → ln(2s) − ln(ξ
+/// + r)`. Under the normal force F_N, for the viscosity η and the speed v, the depth is therefore
 ///
 /// ```text
 /// d(s) = d_ref + F_N/(4πηv) ln(s / s_ref)
@@ -36,11 +37,12 @@ impl SinkingDepth {
     pub(super) fn new(mesh: &Mesh, solution: &Solution, contact_length: f64) -> Self {
         let spacing = mesh.options.spacing;
         let scale = mesh.loading.depth_scale;
-        // F_N/(4πηv) in units of D, by which the depth grows per e-fold of the distance.
+        // The depth grows by F_N/(4πηv) per e-fold of the sliding distance, here in units of the depth scale.
         let aspect = spacing[1] / spacing[0];
         let rate =
             mesh.loading.creep.flow * aspect * mesh.total_load(solution.loads.iter().copied());
-        // δ belongs to the kernel without its constant; the sinking over the contact length adds the constant.
+        // The depth of the solution belongs to the kernel without its constant. The sinking over the length of the contact adds
+        // it.
         Self {
             reference_depth: scale
                 * (solution.depth + rate * sinking_in_e_folds(contact_length, spacing[0])),

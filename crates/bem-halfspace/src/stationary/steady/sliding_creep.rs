@@ -7,7 +7,10 @@
 //! u(ξ) = J₀ w(ξ) + (1/v) ∫_ξ^∞ J'((s − ξ)/v) w(s) ds
 //! ```
 //!
-//! On a track of the length L the load is periodic with L, and the integral runs around the track infinitely often.
+//! J₀ is the instantaneous compliance and η_f the viscosity of the free flow. The retardation elements have the compliances J_k
+//! and the retardation times λ_k. The load potential w at the coordinate ξ along x causes the displacement u, and v is the
+//! sliding speed. On a track of the length L the load is periodic with L, and the integral runs around the track infinitely
+//! often.
 //!
 //! Theory: docs/theory/stationary-half-space.md, "Any linear viscoelastic material" and "A track".
 
@@ -21,7 +24,7 @@ use crate::{Base, BemError, Elastomer};
 
 /// Rate Δx/(v λ) of the retardation element that replaces the free flow of a layer on a rigid base, whose influence
 /// radius is finite. It is so small that 1 − e^(−rate s) equals rate·s to rounding for any distance s that occurs.
-/// From 1e-200 to 1e-30 no digit of an answer changes.
+/// Chosen; from 1e-200 to 1e-30 no digit of an answer changes.
 pub(super) const FLOW_AS_RETARDATION_RATE: f64 = 1e-100;
 
 /// The creep of a material on its base at a sliding speed, on a track if there is one.
@@ -252,7 +255,7 @@ impl SlidingCreep {
 
     /// The creep over elements of the length `spacing` \[m], as fractions of J(Δx/v), with lengths in Δx.
     pub(super) fn over_element(&self, spacing: f64) -> Result<ElementCreep, BemError> {
-        // Fractions of the total compliance over the element.
+        // Divide all parts of the creep by the total compliance over the element.
         let mut parts = self.contributions(spacing)?;
         let total = positive("compliance over an element", total_compliance(&parts))?;
         parts.instantaneous /= total;
@@ -264,7 +267,7 @@ impl SlidingCreep {
                 retardation.compliance(),
             )?;
         }
-        // Collocation point, track and base in units of the element.
+        // Convert the collocation point, the track and the base to units of the element.
         parts.collocation_shift = self.collocation_shift(spacing)?;
         parts.track = self.track.map(|track| track / spacing);
         parts.base = self.base.in_units_of(spacing)?;
@@ -316,10 +319,10 @@ impl SlidingCreep {
             let ratio = memory_length / half_length;
             // The friction of an element is largest where its memory length equals the half length of the contact.
             let friction = element.compliance * ratio.min(ratio.recip());
-            // Memory length over two elements.
+            // The exponent x is the ratio of the memory length to the length of two elements.
             let x = 0.5 * memory_length / spacing;
             let missed_at_kinks = (-x).exp() * x.recip().ln_1p() / (half_length / spacing).ln_1p();
-            // Rear and front of the contact, then kinks of the body.
+            // Add the friction that is missed because of the moving rear of the contact, then that at the kinks of the body.
             sum += friction;
             missed += friction * 2.0 * FRAC_2_PI * ratio * (-5.0 * x).exp();
             missed += friction * kinks * missed_at_kinks;

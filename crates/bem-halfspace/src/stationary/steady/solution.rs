@@ -140,7 +140,7 @@ impl SteadySliding {
     /// # Errors
     /// Those of a contact that the grid does not resolve, that reaches the boundary of the footprint, or that touches a vertical wall.
     pub(super) fn new(mesh: &Mesh, solution: &Solution) -> Result<Self, BemError> {
-        // Refuse what the grid does not resolve.
+        // Refuse contacts that reach the boundary of the footprint, touch a wall, or are not resolved by the grid.
         let loaded = mesh.loaded_indices(&solution.loads);
         let bounds = checked_bounds(mesh, &loaded)?;
         check_walls(mesh, &solution.loads)?;
@@ -149,7 +149,7 @@ impl SteadySliding {
             check_patches(&loaded, &bounds)?;
         }
 
-        // Pressure and outer edges of the contact.
+        // Convert loads to pressures on the box around the contact, whose outer edges bound the contact.
         let spacing = mesh.options.spacing;
         let edges = [0, 1].map(|axis| {
             let half = 0.5 * spacing[axis];
@@ -163,7 +163,8 @@ impl SteadySliding {
         let pressures = loaded.iter().map(|(element, load)| (*element, load * unit));
         let pressure = PressureField::from_elements(&bounds, spacing, origin, pressures)?;
 
-        // Friction, force, depth and area.
+        // Friction, force, depth and area follow from sums over the loads. In plane strain force and area are per length of the
+        // strip.
         let slopes = mesh.mean_slopes(&solution.loads);
         let total_load = mesh.total_load(solution.loads.iter().copied());
         let per_length = if mesh.loading.is_strip {
@@ -231,7 +232,7 @@ fn checked_bounds(mesh: &Mesh, loaded: &[([usize; 2], f64)]) -> Result<Bounds, B
     if bounds != Bounds::EMPTY && !mesh.contains_inside(&bounds) {
         return Err(mesh.options.footprint.boundary_reached(0.0));
     }
-    // Along x, and across it unless a strip has one element only.
+    // The contact needs enough elements along x, and also across it unless it is a strip of one element along y.
     let [rows, columns] = bounds.shape();
     let is_strip = mesh.loading.is_strip;
     check_contact_elements(if is_strip { rows } else { rows.min(columns) })?;

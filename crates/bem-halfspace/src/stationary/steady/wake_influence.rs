@@ -26,7 +26,8 @@ pub fn wake_influence(offset: [f64; 2], edges: [f64; 2]) -> f64 {
     let [x, y] = [offset[0], offset[1].abs()];
     let [a, b] = edges;
     if x < -0.5 * a && y < EIGHT_POINT_DISTANCE * b {
-        // In the rut behind the load: ln(−s + r) = 2 ln|y| − ln(s + r), singular at y = 0.
+        // In the rut, at s = −x behind the load, the kernel is ln(r − s) = 2 ln|y| − ln(s + r). The first term is singular at y =
+        // 0, and is integrated in closed form.
         let rut = 2.0 * a * (logarithm_integral(y + 0.5 * b) - logarithm_integral(y - 0.5 * b));
         return rut - wake_influence([-x, y], edges);
     }

@@ -7,7 +7,8 @@
 //! k(ξ) = q ∫_0^∞ e^(−q s) V(ξ + s) ds = e^(−q) k(ξ + 1) + q ∫_0^1 e^(−q s) V(ξ + s) ds,      q = Δx/(v λ)
 //! ```
 //!
-//! with lengths in Δx: one recursion along each column of the table, from ahead, for each retardation element.
+//! with lengths in units of the element length Δx, the sliding speed v and the retardation time λ. This is one recursion along
+//! each column of the table, from ahead, for each retardation element.
 //!
 //! On a track of the length L the potential is that of the nearest image of the load, and the recursion, which is the same
 //! within half the length ahead and behind, starts from the integral around the track:
@@ -76,7 +77,7 @@ impl WakeTable {
             values: vec![0.0; n_values],
             creep_within_element: vec![0.0; n_values],
         };
-        // Add the parts of the creep.
+        // Sum the displacements by the parts of the creep: free flow, retardation elements and instantaneous compliance.
         if creep.flow > 0.0 {
             table.add_flow(smaller);
         }
@@ -119,7 +120,7 @@ impl WakeTable {
     fn add_flow(&mut self, smaller: &Self) {
         let flow = self.creep.flow;
         let n_rows = 2 * self.max_offsets[0] + 1;
-        // From the row beyond the table, so that the creep within each element is the difference of two rows.
+        // Begin with the row ahead of the table, so that the creep within each element is the difference of two rows.
         let mut ahead = self.kernel_row(n_rows, wake_influence);
         for row in (0..n_rows).rev() {
             let here = self.wake_row(row, smaller);
@@ -135,7 +136,7 @@ impl WakeTable {
     fn wake_row(&self, row: usize, smaller: &Self) -> Vec<f64> {
         let only_flows =
             smaller.creep.instantaneous == 0.0 && smaller.creep.retardations.is_empty();
-        // Columns that the smaller table has, then the others.
+        // Copy the columns that the smaller table has, and compute the others.
         let known = (row + smaller.max_offsets[0])
             .checked_sub(self.max_offsets[0])
             .filter(|row| only_flows && *row <= 2 * smaller.max_offsets[0])

@@ -66,13 +66,13 @@ impl WienerHopf {
 
     /// Approximate loads that cause the given displacements; both are packed vectors on the elements of `region`.
     pub(super) fn approximate_loads(&mut self, displacements: &[f64], region: &Region) -> Vec<f64> {
-        // Apply the inverse factors in both orders.
+        // Apply the inverse factors in both orders. One is exact at a straight front, the other at a straight rear.
         let [at_front, at_rear] =
             [[COUNTER_SWEEP, SWEEP], [SWEEP, COUNTER_SWEEP]].map(|[first, second]| {
                 let between = self.inverses.apply(first, displacements, region);
                 self.inverses.apply(second, &between, region)
             });
-        // Blend the two orders.
+        // Blend the two results in proportion to the distances from rear and front.
         let both = at_front.iter().zip(at_rear).zip(&self.front_weights);
         both.map(|((front, rear), weight)| weight * front + (1.0 - weight) * rear)
             .collect()
@@ -105,12 +105,13 @@ fn invert_causal_factor(transform: &PlaneTransform, column: &mut [Complex<f64>])
     }
 }
 
-/// The mirror image of each factor, together with the inverse of the creep filter
+/// The mirror image of each factor, together with the inverse of the following creep filter for the wave number α along x, in
+/// radians per element:
 /// `J₀ + 1/(η_f (1 − e^{iα})) + Σ J_k (1 − d_k)/(1 − d_k e^{iα})` over the elements ahead.
 fn with_inverse_creep(factors: &Spectrum, creep: &ElementCreep, length: usize) -> Spectrum {
     let inverse = |index: usize| {
         let angle = std::f64::consts::TAU * index as f64 / length as f64;
-        // 1 − e^{iα} without cancellation.
+        // The difference 1 − e^{iα} is computed without cancellation, because 1 − cos α = 2 sin²(α/2).
         let half_sine = (0.5 * angle).sin();
         let difference = Complex::new(2.0 * half_sine * half_sine, -angle.sin());
         let denominator = |element: &RetardationElement| {

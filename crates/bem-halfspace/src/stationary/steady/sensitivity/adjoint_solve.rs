@@ -15,8 +15,8 @@ use crate::stationary::steady::mesh::Mesh;
 use crate::stationary::steady::plans::Plans;
 use crate::stationary::steady::wiener_hopf::WienerHopf;
 
-/// Relative residual of the adjoint equations, ‖r‖ over the norm of the right side, far below the error of the
-/// derivatives by the elements. Chosen.
+/// Ratio of the norm of the residual of the adjoint equations to that of the right side, at which the iteration ends. Chosen far
+/// below the error that the size of the elements causes in the derivatives.
 const ADJOINT_TOLERANCE: f64 = 1e-9;
 
 /// Direction of the motion in the equations.
@@ -40,7 +40,7 @@ pub(super) fn solve(
     motion: KernelDirection,
     right_sides: &[Vec<f64>],
 ) -> Result<Vec<Vec<f64>>, BemError> {
-    // Small systems are solved directly.
+    // Small systems are solved by factorisation, which is faster than an iteration.
     let mut region = mesh.region(contact.iter().copied());
     let n = contact.len();
     if prefers_direct_solve(n, region.n_box_elements()) {

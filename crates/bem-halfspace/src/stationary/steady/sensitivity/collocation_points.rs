@@ -45,7 +45,8 @@ impl CollocationPoints {
             collocation_shift: mesh.loading.creep.collocation_shift,
             spacing: mesh.options.spacing[0],
             depth_scale: loading.depth_scale,
-            // From slopes on a dashpot, and under edges on a material that is more of a fluid; otherwise from dissipation.
+            // The friction follows from slopes on a dashpot, and under edges on a material that is more of a fluid. Otherwise it
+            // follows from dissipation.
             slope: match loading.has_edges {
                 _ if loading.creep.only_flows() => FrictionSlope::Body,
                 true if is_solid => FrictionSlope::SurfaceAtCollocationPoints,

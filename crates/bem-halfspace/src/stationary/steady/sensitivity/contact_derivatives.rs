@@ -18,8 +18,8 @@ use crate::stationary::steady::sensitivity::kernel_gradient::{GridKernel, Kernel
 use crate::stationary::steady::sensitivity::loaded_contact::LoadedContact;
 use crate::stationary::steady::{Reuse, SteadyOptions, SteadySliding, solve_on_mesh};
 
-/// Relative step of the central differences by all lengths of a body: about the cube root of the rounding error, where truncation and
-/// rounding balance.
+/// Relative change of all lengths of a body in central differences. Chosen near the cube root of the rounding error, where
+/// truncation and rounding balance.
 const DILATION_STEP: f64 = 1e-5;
 
 /// A contact on one grid with the gradients of its quantities.
@@ -90,7 +90,8 @@ impl ContactDerivatives {
         let (mesh, solution) = solve_on_mesh(surface, loading, options, reuse)?;
         reuse.solution = Some(SteadySliding::new(&mesh, &solution)?);
 
-        // Derivatives of the quantities by loads and gaps: mean slope, total load at a unit depth, measures of the contact.
+        // Derive each quantity by the loads and gaps: the mean slope, the total load at a unit depth, and the area and boundary
+        // weight.
         let mut contact = LoadedContact::new(&mesh, &mut reuse.plans, &solution);
         let points = CollocationPoints::new(&mesh, &contact.elements, loading);
         let slope_terms = points.explicit_slope_terms(&|point| surface.height(point))?;
@@ -106,7 +107,7 @@ impl ContactDerivatives {
         let mut derivatives = vec![&friction.by_loads[..], &unit_depth];
         derivatives.extend(measures.iter().flatten().map(|one| &one.by_values[..]));
 
-        // Adjoint loads of all quantities.
+        // Solve for the adjoint loads of all quantities. Those of a unit depth keep the force constant.
         let adjoint = contact.adjoint_loads(&derivatives)?;
         let system = BorderedSystem {
             unit_depth: &adjoint[1],
@@ -115,7 +116,7 @@ impl ContactDerivatives {
             compliance: loading.creep.compliance(options.spacing[0])?,
             contact: &contact,
         };
-        // Gradients, on fixed elements; the friction also depends on the body and the kernel explicitly.
+        // Form the gradients on fixed elements. The friction also depends on the body and the kernel explicitly.
         let has_depth = loading.creep.fluidity() <= 0.0 && loading.strip.is_none();
         let mut gradients = Change {
             friction_coefficient: system.gradient(&adjoint[0], points.slope_unit()),
@@ -178,14 +179,15 @@ impl ContactDerivatives {
         else {
             return Ok(());
         };
-        // Central differences by all lengths of the body.
+        // Stretch all lengths of the body by a factor, and take central differences of heights and slope terms by its logarithm.
         let stretched =
             |factor: f64| move |[x, y]: [f64; 2]| factor * surface.height([x / factor, y / factor]);
         let ends = [1.0 - DILATION_STEP, 1.0 + DILATION_STEP];
         let by_body = self.between_heights(&stretched(ends[0]), &stretched(ends[1]))?;
         let log_step = (ends[1] / ends[0]).ln();
 
-        // Compare with the scaling identity: the friction does not depend on λ, and the depth is proportional to it.
+        // Compare with the scaling identity. If all lengths grow by the factor λ, the friction does not change, and the depth is
+        // proportional to λ.
         let force_exponent = if strip.is_some() { 1.0 } else { 2.0 };
         let by_velocity = kernel.by_velocity();
         let derivative = |gradient: &Gradient| {
@@ -266,7 +268,7 @@ impl ContactDerivatives {
                 ..fixed
             };
         };
-        // Growth of the contact in units of ln λ.
+        // Express the growth of the contact by the factor λ on all lengths that would cause it, as ln λ.
         let growth = on_fixed_elements(weight) / dilation.boundary_weight;
         let defects = &dilation.defects;
         let depth = fixed.indentation_depth.zip(defects.indentation_depth);

@@ -22,14 +22,14 @@ impl Correlation {
     /// The weights of k(i − j) in Σ y_i k(i − j) x_j, with one row more on either side. If the loads x are mirror symmetric, `left` may
     /// contain one of two mirror images y with twice the weight. Both are row-major over a box of some rows and columns.
     pub(super) fn between(left: &[f64], right: &[f64], [rows, columns]: [usize; 2]) -> Self {
-        // Accumulate by signed distance along y.
+        // Sum the products of both fields by their offset along x and their signed distance along y.
         let width = 2 * columns - 1;
         let mut signed = vec![0.0; (2 * rows + 1) * width];
         let loaded = left.iter().enumerate();
         for (index, &value) in loaded.filter(|(_, value)| **value != 0.0) {
             let (row, column) = (index / columns, index % columns);
             for (other, from) in right.chunks_exact(columns).enumerate() {
-                // By signed distance along y; the negative side is folded onto the positive one below.
+                // One row of products covers successive distances along y, of either sign.
                 let first = (row + rows - other) * width + columns - 1 - column;
                 let weights = &mut signed[first..first + columns];
                 for (weight, load) in weights.iter_mut().zip(from) {
@@ -38,7 +38,7 @@ impl Correlation {
             }
         }
 
-        // Fold, because the kernel is even along y.
+        // The kernel is even along y, so that the weights of both signs of a distance are added.
         let fold = |row: &[f64]| -> Vec<f64> {
             let middle = columns - 1;
             let both_sides = |distance: usize| match distance {
@@ -73,14 +73,14 @@ impl Correlation {
     /// Adds multiples of the second difference k₀ − (k₁ + k₋₁)/2 of the kernel along each axis.
     pub(super) fn add_second_difference(&mut self, [along_x, along_y]: [f64; 2]) {
         let columns = self.max_offsets[1] + 1;
-        // Offset 0, and its neighbours along x and y.
+        // The second difference has the weights 1 at the offset 0 and −1/2 at both neighbours along each axis.
         let origin = self.max_offsets[0] * columns;
         let weights = &mut self.weights;
         weights[origin] += along_x + along_y;
         weights[origin - columns] -= 0.5 * along_x;
         weights[origin + columns] -= 0.5 * along_x;
         if columns > 1 {
-            // The distance stands for both sides.
+            // A distance along y stands for the neighbours on both sides.
             weights[origin + 1] -= along_y;
         }
     }

@@ -23,12 +23,12 @@ use crate::stationary::steady::wake_table::WakeTable;
 /// Relative step of the differences by the memory length of a retardation element, the length of a track or the thickness of a layer:
 /// about the square root of the relative error 1e-11 of kernels, where the truncation and the error of a one-sided difference balance.
 const LENGTH_STEP: f64 = 1e-6;
-/// Wave number that stands for q = 0, over the upper end of a band from 0 on: any wave far longer than the contact
-/// and all waves of the band serves.
+/// Ratio of the wave number that stands for a uniform load to the upper end of a band from 0 on. Chosen; any wave that is far
+/// longer than the contact and all waves of the band serves.
 const UNIFORM_WAVE_NUMBER: f64 = 1e-6;
-/// Smallest logarithm of the ratio of two memory lengths in a row for which retardation elements are matched by their
-/// order, a thousand times the change of a memory length in a derivative. Elements that are closer are not matched,
-/// at the cost of whole kernels.
+/// Smallest logarithm of the ratio of successive memory lengths for which the retardation elements of two materials are matched
+/// by their order. Chosen as a thousand times the relative change of a memory length in a derivative. If two memory lengths are
+/// closer, both whole kernels are computed instead, which takes longer.
 const MIN_LOG_MEMORY_RATIO: f64 = 1e-3;
 
 /// The derivatives of a quantity by the kernel: weights of all its values, and their sums over the kernel of each part of the creep.
@@ -107,7 +107,7 @@ impl GridKernel {
     /// Contracts several correlations with all parts of the kernel, each of which is computed once for all of them.
     pub(super) fn contract(&self, gradients: &mut [&mut KernelGradient]) -> Result<(), BemError> {
         self.contract_viscoelastic(gradients);
-        // The free flow of a unit compliance, on a rigid base as a slow retardation element.
+        // Contract with the kernel of the free flow for a unit compliance, which on a rigid base is a slow retardation element.
         if self.creep.flow_per_length > 0.0 {
             let mut part = self.bare.clone();
             if part.base.is_rigid() {
@@ -122,7 +122,7 @@ impl GridKernel {
             }
         }
 
-        // By lengths of the kernel: differences of whole kernels.
+        // The derivatives by the thickness of a layer and the length of a track are one-sided differences of whole kernels.
         let compliance = self.material.compliance(self.spacing)?;
         let part = self.material.over_element(self.spacing)?;
         let whole = self.whole_creep();
@@ -193,7 +193,8 @@ impl GridKernel {
                 }
             }
         }
-        // Differences by the memory lengths.
+        // Every second sum belongs to a slightly longer memory length. Turn it into the derivative by the logarithm of that
+        // length.
         for gradient in gradients {
             for [unchanged, longer] in gradient.by_creep[2..].as_chunks_mut().0 {
                 *longer = (*longer - *unchanged) / LENGTH_STEP;
@@ -303,7 +304,7 @@ impl GridKernel {
             let by_log_moduli = [Complex::default(), Complex::from(-0.5 * flow)];
             waves.add_wave(&mut kernels, UNIFORM_WAVE_NUMBER * ends[1], by_log_moduli);
         }
-        // All other waves.
+        // Add all other waves of the band, as an integral over the wave number.
         for [wave_number, weight] in waves.nodes(ends) {
             let by_log_moduli = self.by_log_moduli(wave_number)?;
             let amplitudes = by_log_moduli.map(|derivative| derivative * (weight / PI));

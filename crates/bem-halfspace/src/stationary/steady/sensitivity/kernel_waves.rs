@@ -7,9 +7,9 @@
 //! k̂(q, y) = sin(q/2)/(q/2) ∫ dy' [2 K₀(q|y'|) + 2 ∫_0^∞ cos(q y' sinh u) (M(q t cosh u) − 1) du]
 //! ```
 //!
-//! with lengths in Δx, y' over the width of an element around y, the ratio M of a layer to a half space, and
-//! `K₀(z) = ∫_0^∞ e^(−z cosh u) du`. The integrands in u are analytic and vanish smoothly, so that the trapezoidal rule integrates them
-//! to rounding error.
+//! with lengths in Δx, and y' over the width of an element around y. A layer has the thickness t, and M is the ratio of its
+//! compliance to that of a half space. The modified Bessel function is `K₀(z) = ∫_0^∞ e^(−z cosh u) du`. The integrands in u are
+//! analytic and vanish smoothly, so that the trapezoidal rule integrates them to rounding error.
 //!
 //! Theory: docs/theory/sensitivities.md, "Bands of frequency".
 
@@ -27,16 +27,17 @@ const QUADRATURE_STEP: f64 = 0.25;
 /// Steps of the trapezoidal rule per shortest wave of an oscillating integrand, Nyquist's two. This wave is at the
 /// end of the range, where the integrand is negligible.
 const STEPS_PER_WAVE: f64 = 2.0;
-/// Product x of wave number and thickness above which a layer acts like a half space: M − 1, of the order x² e^(−2x), is below 1e-13.
+/// Product x of wave number and thickness above which a layer acts like a half space. Derived: the ratio M of their compliances
+/// differs from 1 by the order x² e^(−2x), which is then below 1e-13.
 const MAX_LAYER_WAVE_NUMBER: f64 = 18.0;
-/// Largest length of a panel of the integral over a band, in waves over the longest distance of the correlation:
-/// below half a wave. Chosen.
+/// Largest phase difference between the ends of a panel of the integral over a band, at the longest distance of the correlation,
+/// in turns of a wave. Chosen below half a turn.
 const WAVES_PER_PANEL: f64 = 0.4;
-/// Largest ratio of the ends of a panel of the integral over a band, for an integrand that varies with the logarithm
-/// of the wave number. Chosen.
+/// Largest ratio of the upper to the lower end of a panel of the integral over a band, because the integrand varies with the
+/// logarithm of the wave number. Chosen.
 const PANEL_RATIO: f64 = 1.25;
-/// End of the first panel of a band from 0 on, over the end of the band; the panel carries a thousandth of the band.
-/// Chosen.
+/// Ratio of a wave number to the upper end of a band, below which panels have the length that they have at that wave number.
+/// Chosen: the first panel of a band from 0 on carries about a thousandth of the band.
 const FIRST_PANEL_END: f64 = 1e-3;
 /// The nodes ±1/√3 of the Gauss rule of two points on [−1, 1].
 const NODES: [f64; 2] = [-0.577_350_269_189_625_8, 0.577_350_269_189_625_8];
@@ -97,7 +98,7 @@ impl KernelWaves<'_> {
             // In plane strain an element is longer than the influence radius.
             return vec![TAU / self.base.stiffness(q)];
         }
-        // The half space.
+        // The factor of the half space is the integral of the Bessel function K₀ over the width of the element.
         let half_space = |column: usize| {
             let y = column as f64 * self.aspect;
             if y < half {
@@ -107,7 +108,7 @@ impl KernelWaves<'_> {
             }
         };
         let mut kernel: Vec<f64> = (0..=columns).map(half_space).collect();
-        // Difference of the layer from the half space, where the wave is long enough to matter.
+        // Add the difference of the layer from the half space if the wave is long enough for the layer to matter.
         let thickness = self.base.thickness();
         if q * thickness < MAX_LAYER_WAVE_NUMBER {
             self.add_layer_correction(q, &mut kernel);
@@ -120,11 +121,13 @@ impl KernelWaves<'_> {
         let thickness = self.base.thickness();
         let half = 0.5 * self.aspect;
         let end = (MAX_LAYER_WAVE_NUMBER / (q * thickness)).acosh();
-        // Waves of the integrand per unit of u, at the end of the range and in the farthest column.
+        // Count the waves of the integrand per unit of u at the end of the range and in the farthest column, where they are
+        // shortest.
         let waves = MAX_LAYER_WAVE_NUMBER / thickness * (kernel.len() as f64 * self.aspect) / TAU;
         let step = QUADRATURE_STEP.min((STEPS_PER_WAVE * waves).recip());
 
-        // Trapezoidal rule from u = 0, where the weight is half, to the end.
+        // Integrate over u by the trapezoidal rule. The integrand is even, so that the node u = 0 counts once and all others
+        // twice.
         let nodes = iter::successors(Some(0.0), |u| Some(u + step));
         for u in nodes.take_while(|u| *u < end) {
             let [q_y, q_abs] = [q * u.sinh(), q * u.cosh()];
@@ -138,7 +141,7 @@ impl KernelWaves<'_> {
                 * step
                 * integral_over_width
                 * (self.base.compliance_ratio(q_abs * thickness) - 1.0);
-            // Cosines of the multiples of one angle, by recurrence.
+            // The columns need the cosines of the multiples of one angle, which follow from each other by recurrence.
             let twice_cosine = 2.0 * (q_y * self.aspect).cos();
             let [mut previous, mut cosine] = [0.5 * twice_cosine, 1.0];
             for value in kernel.iter_mut() {

@@ -84,7 +84,7 @@ impl<'a> LoadedContact<'a> {
     /// The correlation of adjoint loads with the loads of the contact.
     pub(super) fn correlation(&self, adjoint: &[f64]) -> Correlation {
         let [mut left, mut right] = [0; 2].map(|_| vec![0.0; self.region.n_box_elements()]);
-        // An element represents its mirror image.
+        // Adjoint loads are placed on one of two mirror images, with twice the weight.
         let indices = self.region.indices().iter();
         for ([index, _], load) in indices.zip(self.with_images(adjoint)) {
             left[*index] = load;
@@ -99,7 +99,7 @@ impl<'a> LoadedContact<'a> {
         &mut self,
         derivatives: &[&[f64]],
     ) -> Result<Vec<Vec<f64>>, BemError> {
-        // Right sides: derivatives by the loads, explicit and through the gaps.
+        // The right sides are the derivatives by the loads: explicit ones, and those through the gaps that the loads change.
         let n = self.n_touching;
         let reversed = self.region.reversed();
         let mut right_side = |by_values: &&[f64]| -> Vec<f64> {
@@ -127,7 +127,8 @@ impl<'a> LoadedContact<'a> {
         // Sum over all elements of the load times the derivative of the slope by the load of each element.
         let mut by_others = vec![0.0; slopes.len()];
         if slope != FrictionSlope::Body {
-            // Slopes of the displacements; the reversed motion gives the derivatives.
+            // Subtract the slopes of the displacements. Their derivatives by the loads are the same differences for the reversed
+            // motion.
             let region = self.with_neighbours_along_x();
             for (slope, displacement) in slopes.iter_mut().zip(self.differences_along_x(&region)) {
                 *slope -= displacement;
@@ -171,7 +172,7 @@ impl<'a> LoadedContact<'a> {
 
     /// Derivatives of the area and of the boundary weight by the loads in contact and the gaps next to it, element by element.
     pub(super) fn boundary(&mut self) -> Result<ContactBoundary, BemError> {
-        // Loads inside and gaps outside the boundary.
+        // The boundary is found in one field: loads in the contact, and gaps outside it.
         let n = self.n_touching;
         let mut values = self.loads.clone();
         let moved = displacements(self.plans, &self.region, &self.loads);
@@ -208,7 +209,7 @@ impl<'a> LoadedContact<'a> {
 
     /// Increase of the loads in the contact, and decrease of the gaps outside, per unit of depth.
     fn unit_depth_response(&mut self) -> Result<Vec<f64>, BemError> {
-        // Loads that displace the contact by 1; outside, gaps fall by 1 minus the displacement.
+        // Solve for the loads that displace the contact by 1. Outside it the gaps fall by 1 minus the displacement.
         let n = self.n_touching;
         let (contact, direction) = (&self.elements[..n], KernelDirection::Forward);
         let unit_depth = vec![vec![1.0; n]];

@@ -53,18 +53,20 @@ use kernel_gradient::{CreepChange, GridKernel};
 pub(crate) use two_grid_extrapolation::TwoGridExtrapolation;
 use two_grid_extrapolation::mean_over_shifts;
 
-/// Spacing of the coarse grids over that of the fine ones; the factors of [`EXTRAPOLATION`] are for this ratio.
+/// Ratio of the spacing of the coarse grids to that of the fine ones. Chosen; the factors of [`EXTRAPOLATION`] hold for this
+/// ratio.
 const COARSE_SPACING_FACTOR: f64 = 2.0;
-/// Error of ∂ln μ/∂ln F and ∂ln μ/∂ln v above which the spacing is halved. Chosen; from 1e-3 to 0.1 no digit of an
-/// answer changes.
+/// Error of the derivatives of the logarithm of the friction, by the logarithms of load and velocity, above which the spacing is
+/// halved. Chosen; from 1e-3 to 0.1 no digit of an answer changes.
 const LOG_DERIVATIVE_TOLERANCE: f64 = 4e-3;
-/// Largest number of unknown pressures for which the spacing is halved: a limit of the time.
+/// Largest number of unknown pressures for which the spacing is halved. Chosen to limit the time: larger contacts keep their
+/// spacing and the error of their derivatives.
 const HALVING_MAX_UNKNOWNS: usize = 2000;
 /// Largest tolerance of a contact, because the gaps behind a rear that opens slowly are small. Chosen; with 1e-12 no
 /// answer changes by more than 4 % of its bar, with 1e-7 a bar is 59 times as wide.
 const MAX_CONTACT_TOLERANCE: f64 = 1e-10;
-/// Spacing in plane strain over that of the options, whose grids have few elements, so that finer ones still take
-/// little time. Chosen (case of `evidence tuning`).
+/// Factor on the spacing of the options in plane strain. Such grids have few elements, so that finer ones still take little time.
+/// Chosen (case of `evidence tuning`).
 const STRIP_SPACING_FACTOR: f64 = 0.25;
 /// Shifts along x and y of the grids that are averaged, in elements.
 const SENSITIVITY_PHASES: [[f64; 2]; 2] = [[0.0, 0.0], [0.5, 0.5]];
@@ -332,7 +334,7 @@ impl SensitivityOnGrid {
         phases: &[[f64; 2]],
         reuse: &mut Reuse,
     ) -> Result<Self, BemError> {
-        // Contacts and their adjoint equations.
+        // Solve the contact and its adjoint equations on each shifted grid.
         let tolerance = options.tolerance.min(MAX_CONTACT_TOLERANCE);
         let mut on_grid = |&phase| {
             let options = SteadyOptions {
