@@ -98,7 +98,7 @@ impl ActiveSet {
 
     /// Recomputes the runs, and the numbers of active elements before each row block, from the flags.
     pub(crate) fn find_runs(&mut self) {
-        // Find the runs of each row block in parallel.
+        // Find the runs of active elements in the rows of each row block, in parallel.
         let (row_blocks, columns, is_active) = (self.row_blocks, self.columns, &self.is_active);
         let in_row_block = |row_block, [runs]: [&mut [Vec<Run>]; 1]| {
             let elements = row_blocks.elements(row_block);
@@ -107,7 +107,7 @@ impl ActiveSet {
         };
         let runs = [(&mut self.runs[..], Starts::Every(1))];
         row_blocks.for_each_part(runs, in_row_block);
-        // Accumulate the numbers of active elements of the row blocks.
+        // Add up the numbers of active elements before each row block, at which packed vectors are divided.
         let mut before = 0;
         for (runs, start) in self.runs.iter().zip(&mut self.starts[1..]) {
             before += runs.last().map_or(0, |run| run.packed_range().end);

@@ -176,7 +176,7 @@ mod tests {
         );
         let mut selected = (0..local_maximum_updates + 2).map(|_| rule.select(&violations, false));
         let mut next = |count: i32| selected.by_ref().take(count as usize).last();
-        // The first update always improves.
+        // The first update always counts as an improvement, on any number of violations.
         assert_eq!(next(2 + BLOCK_UPDATES), Some((0..16).collect()));
         assert_eq!(
             next(RADIUS_DOUBLING_INTERVAL),

@@ -50,7 +50,7 @@ pub(super) fn solve_symmetry_reduced(
         separation,
         control,
     };
-    // Solve there, and extend the solution to the whole grid by symmetry.
+    // Solve the contact on this domain, and extend the solution to the whole grid by symmetry.
     let solved = in_pool(bounds.n_elements(), || {
         solve_with_largest_load(largest_load, problem, part, criterion)
     });

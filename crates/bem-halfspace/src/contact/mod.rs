@@ -142,7 +142,7 @@ pub fn solve_contact(
     let pressure_per_load = 1.0 / load_per_pressure;
     let to_pressure = |load: f64| {
         if load < largest_load {
-            // The product may round to more than the largest pressure.
+            // By rounding the product may exceed the largest pressure, at which it is cut off.
             problem.largest_pressure.min(load * pressure_per_load)
         } else {
             problem.largest_pressure
@@ -206,7 +206,7 @@ fn validate(problem: &ContactProblem, state: &ContactState) -> Result<(), BemErr
             });
         }
     }
-    // A depth must leave a periodic contact open.
+    // A given depth must leave gaps in a periodic contact, because it does not determine the pressure of a full one.
     if let Control::IndentationDepth(value) = problem.control
         && problem.convolution.surroundings == Surroundings::Periodic
     {

@@ -136,7 +136,7 @@ impl MultilevelCorrection {
     /// Solves (1/W + K) t = g for the blocks approximately, in one V-cycle, from the loads Σ w r of the smallest blocks; leaves their
     /// displacements v = K t.
     pub(super) fn solve_block_displacements(&mut self) {
-        // From small blocks to large ones: restrict the loads, and divide by the conductance to obtain mean gaps.
+        // Go from small blocks to large ones: restrict the loads, and divide by the conductance to obtain mean gaps.
         self.levels[0].divide_by_conductance();
         for_each_parent(&mut self.levels, |smaller, level| {
             let load = |block: usize| {
@@ -147,7 +147,7 @@ impl MultilevelCorrection {
             sum_children(smaller.shape, load, level.shape[1], &mut level.values);
             level.divide_by_conductance();
         });
-        // Back from large blocks to small ones: add the displacements of the parents.
+        // Go back from large blocks to small ones, and add the displacements of the parents.
         let mut parent = None;
         for level in self.levels.iter_mut().rev() {
             level.add_parent_displacements(parent);

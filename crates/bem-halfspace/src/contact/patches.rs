@@ -39,12 +39,12 @@ impl ContactProblem<'_> {
     /// [`BemError::LengthMismatch`] for the state of another grid.
     pub fn patches(&self, state: &ContactState) -> Result<Vec<Patch>, BemError> {
         self.check_state(state)?;
-        // Mark the elements in contact.
+        // Mark all elements in contact, because none is assigned to a patch yet.
         let mut is_unassigned = vec![false; state.pressure().len()];
         for &element in state.contact() {
             is_unassigned[element] = true;
         }
-        // Collect one patch after the other.
+        // Collect one patch after the other, each from its first element that is not assigned yet.
         let mut patches = Vec::new();
         for &element in state.contact() {
             if is_unassigned[element] {

@@ -191,12 +191,12 @@ pub(crate) fn resolve<S, O, E: Into<Reached>>(
         errors[DISSIPATED] = contact.common_error;
         Ok(errors)
     };
-    // Refine, with the errors that all grids share.
+    // Refine the grid until the error is reached. The errors that all grids share are added to those of the elements.
     let refined = numerics::refine(&resolution.goal, solve, quantities, common_errors)?;
     let errors = &refined.error;
     let values = &refined.value.quantities;
     let known = values.map(|name, value| Estimate::new(value, errors[name.index()]));
-    // Take the friction from dissipation if it is better known.
+    // Take the friction from the dissipated power if its error is small enough compared with that of the friction from slopes.
     let mut friction = known.friction_coefficient;
     let mut error_parts = refined.parts[target.index()];
     if let Some(dissipated) = refined.value.dissipated {
@@ -206,7 +206,7 @@ pub(crate) fn resolve<S, O, E: Into<Reached>>(
             error_parts = refined.parts[DISSIPATED];
         }
     }
-    // A prescribed quantity has no error.
+    // A prescribed force or depth has no error, and replaces the computed one.
     let [given_force, given_depth] = prescribed_estimates(control);
     let estimate = finish(ContactEstimate {
         friction_coefficient: friction,

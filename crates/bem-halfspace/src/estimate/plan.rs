@@ -15,8 +15,9 @@ const ELEMENTS_ON_COARSEST_GRID: f64 = 5.0;
 /// Largest edge of the coarsest elements in thicknesses of a layer: half of the edge that is refused, because nested
 /// iteration and error estimates also solve on elements of up to twice the edge.
 const MAX_SPACING_OVER_THICKNESS: f64 = 0.5 * MAX_EDGE_OVER_THICKNESS;
-/// Value of [`GridPlan::kinks`], without unit, up to which a surface is treated as smooth. Chosen, so that the small kinks of
-/// a tabulated profile are negligible (case of `evidence tuning`).
+/// Largest value of [`GridPlan::kinks`] at which a surface is treated as smooth: the sum of the squared jumps of its slope in
+/// contact, relative to the squared slope at the end. Chosen, so that the small kinks of a tabulated profile are negligible (case
+/// of `evidence tuning`).
 pub(crate) const NEGLIGIBLE_KINKS: f64 = 0.01;
 /// Number of cells of a height map along the contact up to which elements resolve single cells and their edges. Chosen (case of
 /// `evidence tuning`).
@@ -66,7 +67,7 @@ impl GridPlan {
         plan.kinks = kinks(surface, depth, &footprint)?;
         plan.has_edges = plan.kinks > NEGLIGIBLE_KINKS;
         if plan.has_edges {
-            // Each kink is as sharp as the apex of a cone.
+            // A kink is as sharp as the apex of a cone, so that the exponent is at most 1.
             plan.apex_exponent = plan.apex_exponent.min(1.0);
         }
         if let Some(cells) = CellSlopes::new(surface, depth) {

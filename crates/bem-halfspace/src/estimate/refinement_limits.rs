@@ -17,7 +17,7 @@ const SELECTION_FACTOR: f64 = 2.0;
 pub(crate) struct RefinementLimits {
     /// Number of elements of the first error estimate.
     initial_elements: usize,
-    /// Number of elements from which on the refinement stops: a limit of the time, which decides no value.
+    /// Number of elements from which on the refinement stops, also if the error is too large, so that its time is limited.
     max_elements: usize,
     /// Exponent of the work as a function of the elements along the contact.
     work_exponent: f64,

@@ -123,7 +123,8 @@ pub(crate) fn slide_with(
         } else if left + 2 == n_steps || steps_per_element > 1.0 {
             march.set_sliding_step(&sliding, whole_step, steps_to_boundary * whole_step)?;
         }
-        // The material passes an element in the last step of each.
+        // In the first step of each element the grid moves on by one element, so that the history variables shift. The surface
+        // lags behind until the element is passed.
         if steps_to_boundary + 1.0 >= steps_per_element {
             march.shift_history();
         }

@@ -123,7 +123,7 @@ impl LimitCycle {
             record.history_change = relative_change(from, &to);
             Ok::<_, BemError>((record, to))
         };
-        // The remaining change decides when the search ends.
+        // This closure returns the remaining change of the record, which decides when the search ends.
         let remaining_change = |now: &mut MotionRecord, before: &MotionRecord| {
             let change = now.update_remaining_changes(before, slowness);
             let part = (change.ln() / self.tolerance.ln()).clamp(0.0, 1.0);
@@ -155,7 +155,7 @@ impl LimitCycle {
     }
 }
 
-/// Maximum norm of the difference of two vectors over that of the larger one; 0 if both vanish.
+/// Ratio of the maximum norm of the difference of two vectors to that of the larger vector; 0 if both vanish.
 fn relative_change(from: &[f64], to: &[f64]) -> f64 {
     let largest = |values: &mut dyn Iterator<Item = f64>| {
         values.fold(0.0, |largest: f64, value| largest.max(value.abs()))

@@ -61,8 +61,8 @@ pub trait Substrate: Debug + Send + Sync {
     /// the longer a wave, the more the substrate matters.
     fn thickness(&self) -> f64;
 
-    /// Compliance ratio M(s): compliance of the surface to a pressure wave of the wave number s/t, s ≥ 0, over that of the half
-    /// space of its material. It must tend to 1 for short waves like s² e^(−2s) or faster.
+    /// Compliance ratio M(s): ratio of the compliance of the surface to a pressure wave of the wave number s/t, s ≥ 0, to that of
+    /// a half space of the material at the surface. It must tend to 1 for short waves like s² e^(−2s) or faster.
     fn compliance_ratio(&self, s: f64, poisson_ratio: f64) -> f64;
 
     /// Excess M(s) − 1 of the compliance ratio. Implement it if the default, a difference, cancels and displacements are wanted to
@@ -252,7 +252,7 @@ impl Base {
         wave_number / self.stiffness(wave_number)
     }
 
-    /// Largest height of a body h ∼ r^p that may be in contact, over that on a half space; p is the `exponent`.
+    /// Ratio of the largest height of a body h ∼ r^p that may be in contact to that on a half space; p is the `exponent`.
     ///
     /// A thin, nearly incompressible layer piles up around the contact. If it is incompressible and thin compared with the contact,
     /// it meets the body up to the height (1 + p/2) d at the depth d. `half_length` is half the length of the contact without

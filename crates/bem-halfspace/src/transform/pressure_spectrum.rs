@@ -80,7 +80,7 @@ impl PressureField {
     /// period given in elements.
     fn dissipation_weights(&self, period: [usize; 2], elastomer: &dyn Elastomer) -> Vec<f64> {
         let [rows, columns] = self.grid.shape();
-        // Transform the rows of the contact, padded with zeros.
+        // Transform the rows of the contact along y, padded with zeros to the period.
         let plan = PlaneTransform::new(period);
         let n_waves = plan.n_columns();
         let mut transformed = vec![ZERO; rows * n_waves];
@@ -92,7 +92,7 @@ impl PressureField {
             row[..columns].copy_from_slice(pressures);
             plan.transform_row(&mut row, waves);
         }
-        // Transform the columns one by one and add their squares.
+        // Transform the columns along x one by one, and add up their squared coefficients times the compliances of the waves.
         let compliance = self.compliance(period, elastomer);
         let mut squares = vec![0.0; period[0] / 2 + 1];
         let mut column = vec![ZERO; period[0]];

@@ -152,7 +152,7 @@ impl Iteration<'_> {
             }
             Violations::inside(residual, load, displacement, self_influence)
         };
-        // Combine the row blocks, and add the penetration outside.
+        // Combine the violations of the row blocks, and add the largest penetration outside the active set.
         let residual = [active.packed(&mut vectors.residual)];
         let inside = active
             .row_blocks

@@ -138,7 +138,7 @@ impl<'a> March<'a> {
         let creep = elastomer.material().creep();
         let time_step = schedule.steps[0].time_step;
         let creep_step = (schedule.step_rule)(&creep, time_step)?;
-        // Without history variables the elements may move with the indenter.
+        // A material without history variables is elastic, so that the elements may move with the indenter.
         let schedule = match creep_step.n_fields() {
             0 => schedule.without_history(),
             _ => schedule,
@@ -355,7 +355,7 @@ impl<'a> March<'a> {
     /// Row of a step with the extent of the contact, from the contact box; depth, forces and iterations are 0.
     fn motion_row(&self, step: &ScheduledStep) -> MotionRow {
         let [dx, dy] = self.options.spacing;
-        // Count the elements in contact with their images.
+        // Count the elements in contact, those behind the mirrors included.
         let loaded = self.loaded_elements();
         let images = loaded.map(|(element, _)| self.layout.n_images_of(element));
         let n_contact = images.sum();
@@ -422,7 +422,7 @@ impl<'a> March<'a> {
         if offset.total_cmp(&self.sampled_offset).is_eq() {
             return Ok(());
         }
-        // Sample the surface at the elements in front of the mirrors.
+        // Sample the height of the surface at the centres of the elements in front of the mirrors.
         let ([rows, columns], [first_row, first_column]) = (self.layout.shape, self.layout.first());
         let mut heights = Vec::with_capacity(self.initial_gap.len());
         for row in first_row..rows {

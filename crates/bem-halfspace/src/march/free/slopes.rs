@@ -94,7 +94,7 @@ fn slopes_at(
     if !slope.is_finite() {
         return Err(BemError::VerticalWall { x, y });
     }
-    // At the end of the step the slope is that of the surface itself.
+    // At the end of the step the slope is that of the surface at the centre of the element, without a chord.
     let end = march.surface.gradient([x, y])[0];
     in_range("slope of the surface", end, !end.is_nan(), "a number")?;
     Ok([slope, end])

@@ -97,7 +97,7 @@ impl WaveMotion {
         } else {
             harmonic_responses(load, steps.len(), wave_numbers, &spectra.relaxation)?
         };
-        // Collect the states at the ends of all steps.
+        // Collect displacements and stresses of all waves at the beginning and at the ends of all steps.
         let positions = std::iter::once(0.0).chain(legs.iter().map(|leg| leg.ends[1]));
         let state = |(index, position): (usize, f64)| WaveStates {
             displacement: wave_numbers
@@ -146,7 +146,7 @@ impl WaveMotion {
             let [stress, displacement] =
                 [&first.stress, &first.displacement].map(|v| real_and_imaginary_parts(v));
             for (index, field) in memory.chunks_exact_mut(n_values).enumerate() {
-                // The dashpot of a material that flows has yielded until the stress vanishes.
+                // In a material that flows, the dashpot has yielded by the whole displacement, until the stress has vanished.
                 let (values, factor) = match elements.get(index) {
                     Some(element) => (&stress, element.compliance),
                     None => (&displacement, 1.0),

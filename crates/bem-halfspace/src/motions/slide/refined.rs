@@ -229,7 +229,7 @@ impl<'a> PlannedSlide<'a> {
             let along = left(&|row| row.contact_x[end]);
             along.max(left(&|row| row.contact_y[end]))
         });
-        // A material that flows has no stationary depth.
+        // A material that flows has no stationary depth, so that no depth is returned.
         estimate.indentation_depth = estimate
             .indentation_depth
             .filter(|_| self.creep.fluidity() <= 0.0)

@@ -171,7 +171,7 @@ pub(super) fn slide_until_stationary(
     while let Some(row) = march.step()? {
         rows.extend(SlideRow::in_contact(&row));
         report(march.fraction_done());
-        // Changes below the tolerance of the contact count as zero.
+        // Changes below the tolerance of the contact count as zero, because its solution is not more accurate.
         let noise = march.tolerance() * march.mean_slope_modulus();
         limits.push(&rows, flows);
         change = limits.largest_change(stationary.over_distance, noise);
@@ -211,7 +211,7 @@ impl ExtrapolatedFriction {
         let Some(last) = rows.last() else {
             return;
         };
-        // The extrapolation in 1/S needs four steps.
+        // On a half space that flows, extrapolate in 1/S from four steps on; otherwise take the last value.
         let limit = match rows.len() {
             MIN_STEPS.. if flows => extrapolated_limit(rows),
             _ => last.friction_coefficient,

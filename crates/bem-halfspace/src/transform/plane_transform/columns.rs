@@ -25,7 +25,7 @@ pub(super) struct ColumnTransform<T> {
 impl<T: Real> ColumnTransform<T> {
     /// Plans for columns of a period of `period` elements.
     pub(super) fn new(period: usize, mirror: Mirror) -> Self {
-        // About a centre the whole period is transformed, about an edge half of it.
+        // With a mirror about a centre the whole period is transformed, with one about an edge half of it.
         let (length, twiddles) = match mirror {
             Mirror::None | Mirror::Centre => (period, Vec::new()),
             Mirror::Edge => (period / 2, about_edge::twiddles(period / 2)),

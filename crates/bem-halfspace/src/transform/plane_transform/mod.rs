@@ -171,7 +171,7 @@ impl<T: Real> PlaneTransform<T> {
                     tile * COLUMNS_PER_TILE..((tile + 1) * COLUMNS_PER_TILE).min(self.n_columns());
                 self.gather_columns(buffers, strips, tile, loaded);
                 self.multiply_columns(buffers, &columns, &multiply);
-                // Keep the wanted rows of the tile.
+                // Keep only the wanted rows of the columns of the tile.
                 for (row, piece) in wanted.clone().zip(&mut pieces[wanted.clone()]) {
                     let index = self.columns.index_of_row(row);
                     let columns = buffers.columns.chunks_exact(self.column_stride());
