@@ -12,10 +12,11 @@ use crate::pieces::{accept_accurate, ends_outside_apex, integrate_pieces};
 use crate::stationary::checked_depth;
 use crate::{DivergenceCause, FrictionError, StationarySliding};
 
-/// Length of the interval at the apex on which the line is replaced by its leading power, over that to the first kink.
+/// Length of the interval at the apex on which the line is replaced by its leading power, divided by the distance from the apex
+/// to the first kink.
 ///
-/// Without a kink it is over the length to the front.
-/// There any other power of the profile whose exponent is larger by 0.11 or more is below rounding: 1e-150^0.11 = 3e-17.
+/// Without a kink the distance to the front of the contact takes its place. In the interval any other power of the profile
+/// whose exponent is larger by 0.11 or more is below rounding: 1e-150^0.11 = 3e-17.
 const LEADING_POWER_REACH: f64 = 1e-150;
 
 /// Stationary depth, contact line and coefficient of friction of a body of revolution, from (12) and (16).
@@ -66,7 +67,7 @@ pub(crate) fn refuse_divergence(
     front: f64,
     depth: f64,
 ) -> Result<(), FrictionError> {
-    // The causes, in the order from the apex to the front.
+    // The causes of a divergence are tried from the apex to the front, so that the innermost one is reported.
     let exponent = body.profile_exponent();
     let kinks = body.kinks().into_iter();
     let mut jumps = kinks.filter(|kink| kink.radius < front && kink.slope_jump > 0.0);

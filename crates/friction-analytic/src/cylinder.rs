@@ -31,10 +31,11 @@ use rheology::{Material, check_spectra};
 use crate::FrictionError;
 use crate::error::representable;
 
-/// Intervals of a trapezoidal rule besides those by its length. Chosen: with both numbers of intervals, the Bessel functions have
-/// all digits, because the rule converges exponentially.
+/// Number of intervals of a trapezoidal rule to which [`INTERVALS_PER_UNIT_LENGTH`] adds those in proportion to its length.
+/// Chosen: with both numbers of intervals, the Bessel functions have all digits, because the rule converges exponentially.
 const MIN_INTERVALS: f64 = 64.0;
-/// Additional intervals of a trapezoidal rule per unit of its length. Chosen with [`MIN_INTERVALS`].
+/// Number of additional intervals of a trapezoidal rule per unit of its length. Chosen with [`MIN_INTERVALS`], so that the
+/// Bessel functions have all digits.
 const INTERVALS_PER_UNIT_LENGTH: f64 = 8.0;
 /// Requested relative accuracy of a pressure. Chosen: a few hundred units in the last place.
 const PRESSURE_ACCURACY: f64 = 1e-13;
@@ -88,14 +89,14 @@ pub fn cylinder_sliding(
     let parameter = "number of relaxing elements";
     in_range(parameter, relaxing as f64, relaxing < 2, "0 or 1")?;
 
-    // T/l and D/l; both are 0 on an elastic solid.
+    // `relaxation` is T/l and `difference` is D/l; both are 0 on an elastic solid.
     let relaxation_time = branches
         .first()
         .map_or(0.0, |branch| branch.relaxation_time);
     let relaxation = velocity * relaxation_time / half_length;
     let difference = velocity * (spectrum.zero_shear_viscosity() / modulus) / half_length;
 
-    // x₀/l and C/l by (3), force and friction by (4).
+    // (3) gives the centre x₀/l and the strength C/l of the singular part of q; (4) gives force and friction.
     let [a, a2] = bessel_i_ratios(relaxation.recip());
     let b = bessel_k_ratio((relaxation + difference).recip());
     let factor = (1.0 + a * b).recip();
@@ -129,7 +130,7 @@ impl CylinderSliding {
         if ahead.min(behind) <= 0.0 {
             return 0.0;
         }
-        // s = cos φ.
+        // `angle` is φ in s = cos φ, computed from the distances to both ends of the contact.
         let angle = 2.0 * ahead.sqrt().atan2(behind.sqrt());
         let z = self.relaxation.recip();
         let [a, _] = bessel_i_ratios(z);

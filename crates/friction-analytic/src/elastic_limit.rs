@@ -64,7 +64,7 @@ pub fn low_speed_friction(
     let relaxation = solid.relaxation();
     // A fluid has no elastic limit at low speed.
     let modulus = positive("equilibrium_modulus", relaxation.equilibrium_modulus())?;
-    // x_s; η_0 contains the lone dashpot and all branches.
+    // `shift` is x_s = η_0 v/G_∞; the viscosity η_0 contains the lone dashpot and all branches.
     let shift = relaxation.zero_shear_viscosity() * contact.velocity / modulus;
     let line = shift * (slope_energy(body, radius)?.value / moment);
     let force = 8.0 * (modulus / solid.half_space_factor()) * moment;
@@ -90,16 +90,16 @@ pub fn high_speed_friction(
     let relaxation = solid.relaxation();
     // A lone dashpot has no elastic limit at high speed.
     let glass = positive("glass_modulus", relaxation.glass_modulus())?;
-    // α/G(0+) = Σ G_i/τ_i / G(0+).
+    // `rate` is α/G(0+), where α = Σ G_i/τ_i is the rate at which the modulus begins to fall.
     let branches = relaxation.branches().iter();
     let rates = branches.map(|branch| branch.modulus / glass / branch.relaxation_time);
     let rate: f64 = rates.sum();
-    // ∫₀^a (d − h̃)² dx.
+    // The friction is proportional to ∫₀^a (d − h̃)² dx, the squared compression of the line.
     let mut ends = ends_outside_apex(body, contact.contact_radius);
     ends.insert(0, 0.0);
     let integral = integrate_pieces(|x| (depth - body.line_height(x)).powi(2), &ends);
     let squared_compression = accept_accurate("squared compression", integral)?.value;
-    // μ = (8 α/v) ∫ (d − h̃)² dx/F_N.
+    // The friction coefficient is μ = (8 α/v) ∫ (d − h̃)² dx/F_N, with F_N = 8 G(0+) times the moment.
     let friction = rate / contact.velocity * (squared_compression / moment);
     let force = 8.0 * (glass / solid.half_space_factor()) * moment;
     checked_limit(force, friction, friction)
@@ -124,7 +124,7 @@ fn checked_depth(body: &dyn Axisymmetric, contact: ElasticContact) -> Result<f64
     positive("velocity", contact.velocity)?;
     let radius = positive("contact_radius", contact.contact_radius)?;
     let depth = representable("indentation depth", body.checked_line_height(radius)?)?;
-    // Refuses a line that turns downwards inside the contact.
+    // `contact_radius` refuses a line that turns downwards inside the contact.
     contact_radius(body, depth)?;
     Ok(depth)
 }

@@ -46,7 +46,7 @@ pub fn power_indentation_after_impulse(
     }
     let p = profile.exponent();
     let eta = material.viscosity();
-    // In logarithms, because for large p the power a^(p+1) overflows long before a does.
+    // The radius is computed in logarithms, because for large p the power a^(p+1) overflows long before a does.
     let log_stiffness =
         (8.0 * p / (p + 1.0)).ln() + eta.ln() + profile.stretch().ln() + profile.coefficient().ln();
     let radius = representable(
@@ -77,7 +77,7 @@ pub fn indentation_after_impulse(
     if not_negative("impulse", impulse)? == 0.0 {
         return Ok(Indentation::default());
     }
-    // Solve moment(a) = I/(8 η) for the contact radius.
+    // The contact radius a solves moment(a) = I/(8 η), where I is the impulse.
     let target = representable("impulse over 8 η", 0.125 * impulse / material.viscosity())?;
     let Some(radius) = radius_of_moment(body, target)? else {
         // Beyond the moment of the whole body only a flat punch sinks further; any other body is not high enough.
@@ -91,7 +91,7 @@ pub fn indentation_after_impulse(
     // Refuse a moment whose error is too large.
     checked_moment(body, radius)?;
     let depth = representable("indentation depth", body.line_height(radius))?;
-    // Refuses a line that turns downwards inside the contact.
+    // `contact_radius` refuses a line that turns downwards inside the contact.
     contact_radius(body, depth)?;
     Ok(Indentation {
         contact_radius: radius,
@@ -111,7 +111,7 @@ pub fn impulse_to_depth(
 ) -> Result<f64, FrictionError> {
     let radius = contact_radius(body, depth)?;
     let moment = checked_moment(body, radius)?;
-    // Zero up to rounding except for a flat punch, which sinks with a constant contact.
+    // `punch_moment` is 0 up to rounding except for a flat punch, which sinks with a constant contact.
     let punch_moment = radius * (depth - body.line_height(radius));
     representable(
         "impulse",
@@ -136,7 +136,7 @@ pub fn cylinder_half_width_after_impulse(
     if not_negative("impulse_per_length", impulse_per_length)? == 0.0 {
         return Ok(0.0);
     }
-    // Roots of the factors, because their product may overflow where b does not.
+    // The roots of the factors are taken first, because the product of the factors may overflow where b does not.
     let roots = [impulse_per_length, cylinder.radius()].map(f64::sqrt);
     let divisors = [PI, material.viscosity()].map(f64::sqrt);
     let half_width = roots[0] / divisors[0] / divisors[1] * roots[1];
@@ -203,12 +203,12 @@ pub fn power_peak_pressure(
     let p = profile.exponent();
     in_range("exponent", p, p > 1.0, "above 1")?;
     let radius = positive("contact_radius", contact_radius)?;
-    // f as a function of l = √(1 − ρ²).
+    // `f` is the function f(ρ) of the formula above, with l = √(1 − ρ²) as its argument.
     let f = |l: f64| {
         let log_integrand = |s: f64| (0.5 * p - 1.0) * (-l * l * (1.0 - s) * (1.0 + s)).ln_1p();
         l * integrate_pieces(|s| log_integrand(s).exp(), &[0.0, 1.0]).value
     };
-    // On the axis, and for p > 2 off it.
+    // On the axis f is 1/(p − 1); for p > 2 the maximum lies off the axis, where it is searched for.
     let mut maximum = (p - 1.0).recip();
     if p > 2.0 {
         let l = golden_section(|l| -f(l), [0.0, 1.0]);
@@ -227,11 +227,12 @@ fn moment(body: &dyn Axisymmetric, radius: f64) -> Estimate {
         body.profile_slope(radius * cosine) * cosine * cosine
     };
     let angle = |b: f64| ((radius - b) * (radius + b)).sqrt().atan2(b);
-    // From the contact boundary at ψ = 0 to the apex at ψ = π/2.
+    // The pieces of the integral go from the contact boundary at ψ = 0 to the apex at ψ = π/2, with kinks of the body in
+    // between.
     let radii = ends_outside_apex(body, radius).into_iter().rev();
     let angles: Vec<f64> = radii.chain([0.0]).map(angle).collect();
     let angular = integrate_pieces(integrand, &angles);
-    // One factor at a time, because the square alone underflows for small bodies.
+    // The radius is multiplied one factor at a time, because its square alone underflows for small bodies.
     angular * radius * radius
 }
 

@@ -27,7 +27,7 @@ pub fn line_sliding(
     load: &SlidingLoad,
 ) -> Result<StationarySliding, FrictionError> {
     let depth = checked_depth(material, load)?;
-    // The part of the leading edge below the stationary depth.
+    // The contact consists of the parts of the leading edge that lie below the stationary depth.
     let contact = contact_line(line, depth).map_err(no_stationary_state)?;
     let energy = slope_energy(line, &contact.intervals)?;
     let intervals = contact.intervals;

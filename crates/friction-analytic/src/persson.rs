@@ -5,9 +5,10 @@
 //! μ = (1/2) ∫ d²q |q| |qₓ| C S P Im E*(|qₓ| v)/σ₀,               E* = 2 G*/(1 − ν)
 //! ```
 //!
-//! with ⟨h²⟩ = ∫ C d²q. S, a polynomial in P², is the energy of a wave in partial contact over that in full contact. In full
-//! contact P = S = 1, and the friction is exact. Otherwise the theory is an approximation, whose error is not part of the
-//! error estimates here. Comparison with boundary elements: docs/rough-theory.md.
+//! with ⟨h²⟩ = ∫ C d²q. P(q) is the area fraction with all waves up to the wave number q, and q₁ the largest one. S, a
+//! polynomial in P², is the ratio of the energy of a wave in partial contact to that in full contact. In full contact P = S =
+//! 1, and the friction is exact. Otherwise the theory is an approximation, whose error is not part of the error estimates here.
+//! Comparison with boundary elements: docs/rough-theory.md.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -111,7 +112,7 @@ impl PerssonSliding {
         )?;
         let variance = self.pressure_variance.value;
         let next = |area: f64| area_fraction(variance * (gamma + (1.0 - gamma) * area));
-        // Bisection: the right-hand side falls with A, so that it equals A once, between 0 and 1.
+        // The right-hand side falls with A, so that it equals A once between 0 and 1; bisection finds this A.
         let [mut below, mut above] = [0.0, 1.0];
         for _ in 0..f64::MANTISSA_DIGITS {
             let middle = 0.5 * (below + above);
@@ -121,7 +122,7 @@ impl PerssonSliding {
                 above = middle;
             }
         }
-        // Error: A changes at most with the square root of V.
+        // The relative error of A is at most half that of V, because A changes at most with the square root of V.
         let area = next(above);
         let relative_variance_error = if variance > 0.0 {
             self.pressure_variance.error / variance
@@ -150,7 +151,7 @@ pub fn persson_of_waves(
 ) -> Result<PerssonSliding, FrictionError> {
     positive("number of waves", waves.len() as f64)?;
     let loaded = LoadedMaterial::new(material, load)?;
-    // Contributions of the waves, by increasing wave number.
+    // Each wave contributes to G and to the friction; the contributions are sorted by increasing wave number.
     let mut contributions = Vec::with_capacity(waves.len());
     for wave in waves {
         let [along, across] = wave.wave_vector;
@@ -161,7 +162,7 @@ pub fn persson_of_waves(
         contributions.push((wave_number, response.map(|rate| squared_slope * rate)));
     }
     contributions.sort_by(|(one, _), (other, _)| one.total_cmp(other));
-    // Sum over shells of equal wave numbers.
+    // Waves of equal wave numbers form a shell, whose friction counts with half of its own contribution to G.
     let mut integrals = SpectralIntegrals::default();
     for shell in contributions.chunk_by(|(one, _), (other, _)| other - one <= EQUAL_LENGTHS * one) {
         let total = |index: usize| shell.iter().map(|(_, rates)| rates[index]).sum::<f64>();
@@ -231,10 +232,11 @@ const N_RESULTS: usize = N_TERMS + 2;
 /// Relative difference up to which the lengths of two wave vectors count as equal: some thousand units in the last
 /// place, for the rounding of their components.
 const EQUAL_LENGTHS: f64 = 1e-12;
-/// Steps of Simpson's rule on each of the two ranges below and above the roll-off, on the coarsest grid. Chosen: they are
-/// doubled until the requested error is reached.
+/// Number of steps of Simpson's rule on each of the two ranges below and above the roll-off, on the coarsest grid. Chosen: they
+/// are doubled until the requested error is reached.
 const MIN_STEPS: usize = 16;
-/// Steps of Simpson's rule on each of the two ranges from which on they are not doubled: a limit of the time.
+/// Number of steps of Simpson's rule on each of the two ranges from which on they are not doubled, to limit the computing time.
+/// A larger error than asked for is then [`FrictionError::NotConverged`].
 const MAX_STEPS: usize = 1 << 14;
 /// Requested relative error of the integrals over the angle. Chosen: a few hundred units in the last place. The error that is
 /// reached is part of the error bar.
@@ -262,7 +264,8 @@ impl SelfAffineSpectrum {
         let waves = [self.longest_wavelength, self.shortest_wavelength];
         let [ratio_long, ratio_short] = waves.map(|wave| self.roll_off_wavelength / wave);
         let power = 2.0 - 2.0 * self.hurst_exponent;
-        // ∫ of the shape over ln q: the plateau below the roll-off, and the power law above it.
+        // `total` is the integral of the shape over ln q: the part of the plateau below the roll-off, and that of the power law
+        // above it.
         let falling = (power * ratio_short.ln()).exp_m1() / power;
         let total = 0.25 * (1.0 - ratio_long.powi(4)) + falling;
         let x = q * self.roll_off_wavelength / TAU;
@@ -335,7 +338,7 @@ impl LoadedMaterial {
         max_error: &mut f64,
     ) -> [f64; N_RESULTS] {
         let mut integrals = SpectralIntegrals::default();
-        // Two ranges, because the spectrum has a kink at the roll-off.
+        // The integral is divided into two ranges, because the spectrum has a kink at the roll-off.
         let roll_off = TAU / spectrum.roll_off_wavelength;
         let longest = TAU / spectrum.longest_wavelength;
         let shortest = TAU / spectrum.shortest_wavelength;
@@ -350,7 +353,7 @@ impl LoadedMaterial {
             };
             let mut start = [0.0; 2];
             for index in (0..steps).step_by(2).filter(|_| range > 0.0) {
-                // Friction at the three points of a Simpson step, each with G up to there.
+                // Each Simpson step adds the friction at its three points, each with the G up to that point.
                 let [middle, end] = [index + 1, index + 2].map(&mut integrands);
                 let before = integrals.g;
                 integrals.add_friction(step / 3.0 * start[1]);
@@ -405,7 +408,7 @@ fn sliding_with_errors(
     errors: [f64; N_RESULTS],
 ) -> Result<PerssonSliding, FrictionError> {
     representable("area fraction", results[0])?;
-    // An elastic material has no friction.
+    // The friction of an elastic material is exactly 0, which is not out of range.
     if results[2].to_bits() != 0 {
         representable("friction coefficient", results[2])?;
     }

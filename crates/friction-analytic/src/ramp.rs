@@ -41,11 +41,11 @@ pub fn ramp_force(
     let p = profile.exponent();
     let relaxation = material.relaxation();
     let power = 1.0 + p.recip();
-    // The bracket of F(t): spring, dashpot and branches.
+    // `modulus` is the bracket in F(t): the spring, the dashpot, and then one term for each branch.
     let mut modulus = relaxation.equilibrium_modulus() + power * relaxation.viscosity() / time;
     for branch in relaxation.branches() {
         let rate = time / branch.relaxation_time;
-        // M as an integral over 1 − u, from the end of the ramp backwards.
+        // M is integrated over 1 − u, the time before the end of the ramp as a fraction of the duration.
         let integrand = |before: f64| (-rate * before).exp() * (1.0 - before).powf(power - 1.0);
         let integral = integrate_pieces(integrand, &[0.0, (NEGLIGIBLE_EXPONENT / rate).min(1.0)]);
         modulus += branch.modulus * power * accept_accurate("memory of a ramp", integral)?.value;

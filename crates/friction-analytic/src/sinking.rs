@@ -5,8 +5,8 @@
 //! v_z = F_N/(4 η a) − v d/a        (15)
 //! ```
 //!
-//! (15) is the first line with Σ [h̃(β) − h̃(α)] = d. The paper gives it "without the assumption" of a stationary state;
-//! it holds only if the contact starts at the lowest point of the line and follows the leading edge. From first touch on
+//! (15) is the first line with Σ [h̃(β) − h̃(α)] = d. Kürschner (2014) gives (15) "without the assumption" of a stationary
+//! state. It holds only if the contact starts at the lowest point of the line and follows the leading edge. From first touch on
 //! the trailing flank carries load too, and (15) sinks too fast.
 
 use indenters::{RigidLine, SlidingLoad, leading_edge};
@@ -35,11 +35,11 @@ pub fn sinking_velocity(
 ) -> Result<f64, FrictionError> {
     let depth = depth_under_force(material, load)?;
     let ContactSums { length, rise } = ContactSums::new(line, contact)?;
-    // F/(4 η) = D v.
+    // The force enters as F_N/(4 η) = D v, where D is the stationary depth under this force.
     Ok(load.velocity() * ((depth - rise) / length))
 }
 
-/// Sinking velocity (15) as printed in the paper, for a `contact` for which it holds, \[m/s].
+/// Sinking velocity by (15) as printed in Kürschner (2014), for a `contact` for which it holds, \[m/s].
 ///
 /// # Errors
 /// [`FrictionError::NotOneSided`] when the contact does not start at the lowest point, or leaves out a part of the rise
@@ -53,7 +53,7 @@ pub fn one_sided_sinking_velocity(
 ) -> Result<f64, FrictionError> {
     let stationary_depth = depth_under_force(material, load)?;
     let ContactSums { length, rise } = ContactSums::new(line, contact)?;
-    // The depth by the front of the contact must be that by its rise.
+    // The depth follows from the height of the front, and again from the rise of the contact; both must agree.
     let front = contact.last().map_or(f64::NAN, |ends| line.height(ends[1]));
     let depth = representable("indentation depth", front - leading_edge(line)?.lowest)?;
     if (rise - depth).abs() > HEIGHT_TOLERANCE * depth {

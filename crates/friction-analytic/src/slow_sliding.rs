@@ -44,15 +44,18 @@ pub struct SlowSliding {
     pub rear: Estimate,
 }
 
-/// Bound on the third-order terms relative to the first one, over Λ₃ v²/(m₁ a²).
+/// Bound on the third-order terms relative to the first term: this factor times Λ₃ v²/(m₁ a²), with the third moment Λ₃ v³ of
+/// [`MemoryMoments`].
 ///
 /// Boundary elements find up to 0.19 for 1 ≤ p ≤ 10.
 const THIRD_ORDER_BOUND: f64 = 0.3;
-/// Bound on the third-order terms relative to the first one, over the square of the relative second order at the rear.
+/// Bound on the third-order terms relative to the first term: this factor times the square of the second-order term at the rear
+/// edge, relative to the first term.
 ///
 /// Boundary elements find up to 1.1 for 1 ≤ p ≤ 10.
 const SQUARED_SECOND_ORDER_BOUND: f64 = 1.5;
-/// Bound on the next term of an apex between cone and paraboloid relative to the first one, over (Λ v/(m₁ a))^(2p − 1).
+/// Bound on the next term of an apex between cone and paraboloid, relative to the first term: this factor times (Λ v/(m₁
+/// a))^(2p − 1).
 ///
 /// Boundary elements find up to 0.45 for 1 ≤ p ≤ 10.
 const APEX_BOUND: f64 = 0.6;
@@ -66,16 +69,16 @@ const MAX_STEEPNESS: f64 = 10.0;
 /// Largest ratio of the memory length Λ v/m₁ to the contact radius a for which the bounds of the terms of higher order were compared with
 /// boundary elements; the symbols are those of the module.
 const MAX_MEMORY_OVER_RADIUS: f64 = 1.0;
-/// Bound on the next term of the contact area, over Λ v². Boundary elements find up to 1.3.
+/// Bound on the next term of the contact area: this factor times Λ v². Boundary elements find factors up to 1.3.
 const AREA_BOUND: f64 = 2.5;
-/// Bound on the next term of the position of the rear end, over Λ v²/a. Boundary elements find up to 1.
+/// Bound on the next term of the position of the rear end: this factor times Λ v²/a. Boundary elements find factors up to 1.
 const REAR_BOUND: f64 = 2.0;
-/// Bound on the relative change of the depth, over Λ v² h̃'(a)/(a d). Boundary elements find up to 0.13.
+/// Bound on the relative change of the depth: this factor times Λ v² h̃'(a)/(a d). Boundary elements find factors up to 0.13.
 const DEPTH_BOUND: f64 = 0.25;
 /// Upper bound of the relative error of the integrals of the first term: those with a larger error are refused.
 const QUADRATURE_ERROR: f64 = 1e-10;
-/// Distance from the apex, over a, beyond which changes of the slope are in the other terms. Chosen; the bounds of
-/// the terms were measured with it.
+/// Distance from the apex, divided by the contact radius, beyond which changes of the slope count in the other terms. Chosen;
+/// the bounds of the terms were measured with it.
 const APEX_REGION: f64 = 0.25;
 
 /// Slow sliding over a solid half space, from the elastic contact of the same radius.
@@ -106,7 +109,7 @@ pub fn slow_sliding(
     let is_moderate = steepness <= MAX_STEEPNESS;
     in_range("steepness", steepness, is_moderate, "at most 10")?;
 
-    // The terms of first and second order, over F_N = 2 E* ∫ x h̃' dx.
+    // The terms of first and second order are divided by the normal force F_N = 2 E* ∫ x h̃' dx.
     let moment = checked_moment(body, radius)?;
     let per_square = FRAC_1_PI / (3.0 * moment);
     let mu = first_order.half_space;
@@ -120,9 +123,9 @@ pub fn slow_sliding(
     };
     let tip_term = 4.0 * per_square * memory.branches * tip_slope * tip_slope;
 
-    // Bounds on the terms of higher order, relative to the first one.
+    // The error is a sum of bounds on the terms of higher order, relative to the first term.
     let square = (rear_term / mu).powi(2);
-    // (1/a) ∫₀^a h̃'² dx, which is h̃'(0)² for a cone.
+    // `mean_square_slope` is (1/a) ∫₀^a h̃'² dx, which is h̃'(0)² for a cone.
     let mean_square_slope = 2.0 * mu * moment / (shift * radius);
     let opened = body.line_slope(memory_ratio * radius).powi(2) / mean_square_slope;
     let logarithm = 1.0 - OPENING_BOUND * opened.min(1.0) * memory_ratio.ln();
@@ -138,7 +141,7 @@ pub fn slow_sliding(
         friction_coefficient: Estimate::new(mu - rear_term - tip_term, error * mu),
         normal_force: first_order.normal_force,
         elastic_error: DEPTH_BOUND * steepness * second / (radius * radius),
-        // The disc without the part that the disc shifted by x_s does not cover.
+        // The contact is the disc without the part that the same disc, shifted by x_s, does not cover.
         contact_area: Estimate::new(
             PI * radius * radius - 2.0 * radius * shift,
             AREA_BOUND * second,
@@ -164,7 +167,7 @@ fn apex_loss(
 ) -> f64 {
     let slope_change = |x: f64| body.line_slope(x) - tip_slope;
     let loss = |branch: &RelaxationBranch, modulus: f64| {
-        // Sum of squared slope changes, over intervals of doubling length from l outwards.
+        // `sum` adds the squared changes of the slope over intervals of doubling length, from l = v τ outwards.
         let length = contact.velocity * branch.relaxation_time;
         let outermost = APEX_REGION * contact.contact_radius;
         let mut x = length.clamp(QUADRATURE_ERROR * outermost, outermost);
@@ -176,7 +179,7 @@ fn apex_loss(
             let before = mem::replace(&mut slope, slope_change(x));
             sum += (slope - before).powi(2) * (length / width) * length;
         }
-        // The square of the changes, and their product with the slope of a tip.
+        // The loss contains the square of the changes, and their product with the slope of a tip.
         let changes = 2.0 * sum + 4.0 * (length * sum).sqrt() * tip_slope.abs();
         0.5 * (branch.modulus / modulus) * length * changes
     };

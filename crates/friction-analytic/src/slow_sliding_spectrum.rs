@@ -34,7 +34,7 @@ pub fn slow_sliding_spectrum(body: &dyn Axisymmetric, contact: ElasticContact) -
         velocity,
     } = contact;
     let midpoints = |count: u32| (0..count).map(move |k| (f64::from(k) + 0.5) / f64::from(count));
-    // The load over its maximum, at positions over the radius.
+    // `loads` holds the load divided by its maximum, at positions divided by the contact radius.
     let depth = body.line_height(radius);
     let loads: Vec<[f64; 2]> = midpoints(LOAD_POINTS)
         .map(|x| [x, 1.0 - body.line_height(x * radius) / depth])
@@ -42,9 +42,9 @@ pub fn slow_sliding_spectrum(body: &dyn Axisymmetric, contact: ElasticContact) -
     let [first, last] = WAVE_NUMBER_DECADES;
     let wave_number = |part: f64| 10_f64.powf(first + part * (last - first));
     let mut bands = Vec::new();
-    // Wave numbers times the radius.
+    // `q` is the wave number times the contact radius.
     for q in midpoints(WAVE_NUMBERS).map(wave_number) {
-        // The cosine transform of the load, squared.
+        // `power` is the squared cosine transform of the load, up to a constant factor.
         let products = loads.iter().map(|[x, load]| load * (q * x).cos());
         let power = products.sum::<f64>().powi(2);
         bands.extend(midpoints(ANGLES).map(|turn| StressBand {

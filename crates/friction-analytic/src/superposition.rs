@@ -24,14 +24,14 @@ pub fn superposition_sliding(
 ) -> Result<StationarySliding, FrictionError> {
     let depth = checked_depth(material, load)?;
     let radius = radius_with_friction(profile, depth)?;
-    // Heights of the terms at the front of the contact.
+    // `heights` holds exponent and line height of each term at the front of the contact.
     let heights = line_heights(profile.terms(), radius)?;
-    // The double sum, and that of the absolute values of its terms, which scales the rounding error.
+    // `sum` is the double sum for μ. `modulus` is that of the absolute values of its terms, which scales the rounding error.
     let mut sum = 0.0;
     let mut modulus = 0.0;
     for (p, height) in &heights {
         for (q, other) in &heights {
-            // p + q − 1 as the sum of two differences, which are exact near the divergence at p = q = 1/2.
+            // p + q − 1 is computed as the sum of two differences, which are exact near the divergence at p = q = 1/2.
             let term = p * q / ((p - 0.5) + (q - 0.5)) * (height / depth) * (other / radius);
             sum += term;
             modulus += term.abs();

@@ -81,22 +81,23 @@ pub fn sliding_distance_to_depth(
     in_range("fraction", fraction, is_part, "at least 0 and less than 1")?;
     Ok(scales.length
         * match scales.shape {
-            // Before and after the trailing flank lifts off, which a cone does at D/2 and a paraboloid at D/4.
+            // The distance has another form once the trailing flank has lifted off, which happens at the depth D/2 for a cone
+            // and D/4 for a paraboloid.
             PowerShape::Cone if fraction <= 0.5 => fraction * fraction,
             PowerShape::Cone => {
                 PowerShape::Cone.lift_off() + distance_since_lift_off(1.0 - fraction)
             }
             PowerShape::Paraboloid if fraction <= 0.25 => 4.0 / 3.0 * fraction * fraction.sqrt(),
             PowerShape::Paraboloid => {
-                // y = 1 − √(d/D) without cancellation.
+                // `y` is 1 − √(d/D), computed without cancellation.
                 let y = (1.0 - fraction) / (1.0 + fraction.sqrt());
                 PowerShape::Paraboloid.lift_off() + distance_since_lift_off(y)
             }
         })
 }
 
-/// Depth of a cone by Eq. (15) as the paper prints it, at a `time` ≥ 0 \[s] after first touch: \[m], from
-/// `−d/D − ln(1 − d/D) = v t/x_d`.
+/// Depth of a cone by Eq. (15) as printed in Kürschner (2014), at a `time` ≥ 0 \[s] after first touch: \[m], from `−d/D − ln(1
+/// − d/D) = v t/x_d`.
 ///
 /// It presumes that only the leading flank touches, which is true from d = D/2 on; before, it gives up to √2 times the
 /// depth of [`transient_sliding`].
@@ -140,7 +141,7 @@ impl TransientScales {
     /// State of a cone after a sliding distance, in stationary contact lengths x_d.
     fn cone_at(&self, distance: f64) -> TransientSliding {
         let slope = self.depth / self.length;
-        // d/D, which is also the front end over x_d; while both flanks touch, its square is v t/x_d.
+        // `fraction` is d/D, and also the front end divided by x_d. While both flanks touch, its square is v t/x_d.
         let (fraction, rear, friction_over_slope) = if is_two_sided(PowerShape::Cone, distance) {
             let fraction = distance.sqrt();
             (fraction, -fraction, 2.0 * fraction)
@@ -157,10 +158,11 @@ impl TransientScales {
 
     /// State of a paraboloid after a sliding distance, in stationary contact lengths x_d.
     fn paraboloid_at(&self, distance: f64) -> TransientSliding {
-        // k = D/x_d², so that √(k D) = k x_d = D/x_d.
+        // `slope` is √(k D) = k x_d = D/x_d, because k = D/x_d².
         let slope = self.depth / self.length;
         if is_two_sided(PowerShape::Paraboloid, distance) {
-            // d/D = (¾ v t/x_d)^(2/3); its root is the half width over x_d.
+            // While both flanks touch, d/D = (¾ v t/x_d)^(2/3); the root of d/D is the half width of the contact divided by
+            // x_d.
             let half_width = (0.75 * distance).cbrt();
             return TransientSliding {
                 indentation_depth: self.depth * half_width * half_width,
@@ -199,7 +201,7 @@ fn distance_since_lift_off(y: f64) -> f64 {
     y - y.ln() - 0.5 - LN_2
 }
 
-/// Newton steps for y: the start is within e^z < ½ of the root, and 6 steps of quadratic convergence reach rounding.
+/// Number of Newton steps for y: the start is within e^z < ½ of the root, and 6 steps of quadratic convergence reach rounding.
 const NEWTON_STEPS: usize = 8;
 
 /// Relative distance y from the stationary state at the distance T ≥ 0 since lift-off, over x_d: y = −W₀(−½ e^(−1/2 − T)) ≤ ½ with
@@ -212,7 +214,7 @@ fn missing_fraction(since_lift_off: f64) -> f64 {
     if c.is_infinite() {
         return 0.0;
     }
-    // Newton's method from the left of the root.
+    // Newton's method starts at z = −c, on the left of the root.
     let mut z = -c;
     for _ in 0..NEWTON_STEPS {
         let y = z.exp();
@@ -230,7 +232,8 @@ fn distance_by_equation_15(q: f64) -> f64 {
     if q > MAX_LOG_SERIES_Q {
         return -q - (-q).ln_1p();
     }
-    // q²/2 + q³/3 + … + q¹⁸/18; at the largest q the first term left out is below 1e-17 of the first.
+    // The distance is the series q²/2 + q³/3 + … + q¹⁸/18. At the largest q the first term left out is below 1e-17 of the
+    // first.
     let terms = (2..=18_u32).rev().map(|k| f64::from(k).recip());
     terms.fold(0.0, |sum, term| sum * q + term) * q * q
 }

@@ -57,10 +57,10 @@ pub fn kelvin_voigt_sliding(
 ) -> Result<ViscoelasticSliding, FrictionError> {
     let problem = SlidingProfile::new(profile, contact)?;
     let modulus = material.shear_modulus();
-    // l = v τ.
+    // `shift` is l = v τ, the distance of retardation.
     let shift = material.viscosity() / modulus * contact.velocity;
     let length = positive("distance of retardation", shift)?;
-    // l/x_r.
+    // `ratio` is l/x_r, the distance of retardation divided by the position of the leading edge.
     let ratio = length / problem.front;
     let relative = match problem.shape {
         // The cone lifts off at −(x_r − l)⁺; both flanks touch while l < x_r.
@@ -75,7 +75,7 @@ pub fn kelvin_voigt_sliding(
         }
         PowerShape::Paraboloid => {
             let rear = -(ratio + ratio.hypot(1.0)).recip();
-            // x_r² − x_l² = −2 l x_l.
+            // The dashpot carries a part in proportion to x_r² − x_l², which is −2 l x_l and needs no difference.
             let elastic = (1.0 - rear) - (1.0 - rear.powi(3)) / 3.0;
             let load = elastic - 2.0 * ratio * ratio * rear;
             let work = 2.0 * (ratio * rear).powi(2) + 4.0 / 3.0 * ratio * (1.0 - rear.powi(3));
@@ -124,15 +124,15 @@ struct RelativeSliding {
 /// `∫ w h̃' dx = 2 G s² l² (artanh q − q)`.
 fn maxwell_cone(ratio: f64) -> RelativeSliding {
     let q = -(-ratio).exp_m1();
-    // −ln(1 − q²) = Y − ln(1 + q).
+    // `load` is −ln(1 − q²), which is Y − ln(1 + q) because 1 − q = e^(−Y).
     let load = if q < 0.5 {
         -(-q * q).ln_1p()
     } else {
         ratio - q.ln_1p()
     };
-    // 2 (artanh q − q) = Y + ln(1 + q) − 2 q.
+    // `work` is 2 (artanh q − q), which is Y + ln(1 + q) − 2 q.
     let work = if q < MAX_ARTANH_SERIES_Q {
-        // 2 (q³/3 + q⁵/5 + …)
+        // For small q the terms of this difference cancel, and the series 2 (q³/3 + q⁵/5 + …) takes its place.
         let terms = (1..20).rev().map(|k| f64::from(2 * k + 1).recip());
         2.0 * q.powi(3) * terms.fold(0.0, |sum, term| sum * q * q + term)
     } else {
@@ -147,7 +147,7 @@ fn maxwell_cone(ratio: f64) -> RelativeSliding {
 
 /// The paraboloid on a Maxwell foundation for the `ratio` Y = x_r/l, with the functions φ_k of [`Phi`].
 fn maxwell_paraboloid(ratio: f64) -> Result<RelativeSliding, FrictionError> {
-    // Solve Y = z φ₂/φ₁, where x_r < x_r − x_l < 2 x_r.
+    // z = (x_r − x_l)/l is the root of z φ₂/φ₁ = Y. It lies between Y and 2 Y, because x_r < x_r − x_l < 2 x_r.
     let ratio_excess = |z: f64| {
         let Phi { one, two, .. } = Phi::new(z);
         z * two / one - ratio
@@ -158,7 +158,7 @@ fn maxwell_paraboloid(ratio: f64) -> Result<RelativeSliding, FrictionError> {
     let Phi { one, two, load } = Phi::new(z);
     let load_integral = z.powi(3) * load / one;
 
-    // Integrate the work. φ₁(ζ) − φ₁(z) is a difference of numbers near 1 where z is small.
+    // The work is the integral of a square with the factor φ₁(ζ) − φ₁(z), a difference of numbers near 1 where z is small.
     let difference = |zeta: f64| {
         let at_zeta = Phi::new(zeta);
         if z < 1.0 {
@@ -201,7 +201,7 @@ impl Phi {
     /// The functions at z > 0: from a series where z < 1, and from exponentials elsewhere.
     fn new(z: f64) -> Self {
         if z < 1.0 {
-            // φ₃ = 1/3! − z/4! + z²/5! − …, and from it the lower orders.
+            // φ₃ is the series 1/3! − z/4! + z²/5! − …, and the recurrence gives the lower orders from it.
             let mut term = 1.0 / 6.0;
             let mut three = term;
             for k in 4..25 {
@@ -240,7 +240,7 @@ impl SlidingProfile {
         let front = positive("front", contact.front)?;
         positive("velocity", contact.velocity)?;
         let shape = PowerShape::new(profile)?;
-        // κ c x_r^p.
+        // The depth is the height of the line at the leading edge, κ c x_r^p.
         let depth = profile.stretch() * profile.coefficient() * front.powf(profile.exponent());
         Ok(Self {
             shape,

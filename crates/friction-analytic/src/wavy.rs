@@ -138,12 +138,12 @@ pub fn wavy_surface_sliding(
 
 /// Refuses two waves with the same or opposite vectors, which interfere.
 fn refuse_repeated(waves: &[SurfaceWave]) -> Result<(), FrictionError> {
-    // The wave vector reversed into one half plane, as bits that can be compared.
+    // `canonical` reverses a wave vector into one half plane, and returns it as bits that can be compared.
     let canonical = |wave: &SurfaceWave| {
         let [along, across] = wave.wave_vector;
         let is_reversed = along < 0.0 || along == 0.0 && across < 0.0;
         let sign = if is_reversed { -1.0 } else { 1.0 };
-        // Adding 0 turns −0 into 0.
+        // Adding 0 turns −0 into 0, whose bits are different.
         [along, across].map(|part| (sign * part + 0.0).to_bits())
     };
     let mut seen = std::collections::BTreeSet::new();

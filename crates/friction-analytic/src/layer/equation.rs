@@ -23,16 +23,17 @@ use rheology::layer_deficit;
 
 use crate::FrictionError;
 
-/// Wave number, over the inverse thickness, at which the integral over ξ ends; 1 − M is below 1e-12 from there on.
+/// Wave number times the thickness at which the integral over ξ ends. From there on 1 − M is below 1e-12.
 const MAX_WAVE_NUMBER: f64 = 17.0;
-/// Points of the rule over the wave number; the length is the contact radius.
+/// Number of points of the rule over the wave number, which grows with the contact radius.
 ///
 /// Chosen together with [`CONTACT_POINTS`] and [`LINE_POINTS`]: doubling all three changes the depth and the force of a punch by less
 /// than 1e-9 up to a radius of a hundred thicknesses.
 const WAVE_POINTS: PointCount = PointCount::new(45.0, 11.5);
-/// Points of the rule for q; the length is the contact radius. Chosen as [`WAVE_POINTS`] are.
+/// Number of points of the rule over the contact for q, which grows with the contact radius. Chosen as [`WAVE_POINTS`] are.
 const CONTACT_POINTS: PointCount = PointCount::new(16.0, 4.0);
-/// Points of the rule over one smooth piece of the equivalent line. Chosen as [`WAVE_POINTS`] are.
+/// Number of points of the rule over one smooth piece of the equivalent line, which grows with the length of the piece. Chosen
+/// as [`WAVE_POINTS`] are.
 const LINE_POINTS: PointCount = PointCount::new(30.0, 6.0);
 /// Every number of points is a multiple of this one, so that similar radii share a rule. It only raises the numbers
 /// of points.
@@ -242,13 +243,14 @@ pub(super) struct ContactDisc {
 impl ContactDisc {
     /// The equations of a disc whose radius is given in thicknesses.
     pub(super) fn new(waves: &WaveQuadrature, radius: f64) -> Result<Self, FrictionError> {
-        // Nodes x_i with the roots √w_i of their weights.
+        // Each node is a position x_i in the contact with the root √w_i of its weight.
         let nodes: Vec<[f64; 2]> = waves
             .rule(CONTACT_POINTS, radius)
             .iter()
             .map(|[part, weight]| [radius * part, (radius * weight).sqrt()])
             .collect();
-        // The matrix C, and the factors of 1 − C Cᵀ.
+        // The matrix C has one row for each node and one column for each wave number. 1 − C Cᵀ is factorised once, for all
+        // right-hand sides.
         let row = |&[x, root]: &[f64; 2]| waves.cosines_at(x).map(move |cosine| root * cosine);
         let entries: Vec<f64> = nodes.iter().flat_map(row).collect();
         let cosines = DMatrix::from_row_slice(nodes.len(), waves.n_waves(), &entries);
@@ -258,7 +260,7 @@ impl ContactDisc {
             value: radius,
             error: f64::INFINITY,
         })?;
-        // The flat punch: the solution φ for d − g = 1.
+        // The solution φ of the equations for d − g = 1 is that of a flat punch; its integral is the equivalent radius.
         let root_weights = DVector::from_iterator(nodes.len(), nodes.iter().map(|[_, root]| *root));
         let punch = factors.solve(&root_weights);
         Ok(Self {

@@ -29,27 +29,27 @@ const SERIES_TOLERANCE: f64 = 1e-8;
 /// Largest sum of the last coefficients of both series with which a profile is still accepted: 1e-6 of the radius
 /// over [`ERROR_OVER_TAIL`], so that radii are known to 1e-6.
 const MAX_TAIL: f64 = 1e-6 / ERROR_OVER_TAIL;
-/// Upper bound of the relative error of a radius, over the sum of the last coefficients of both series behind it.
+/// Upper bound of the ratio of the relative error of a radius to the sum of the last coefficients of both series behind it.
 ///
 /// The test `the_profile_is_known_within_its_error` compares it with single contacts.
 const ERROR_OVER_TAIL: f64 = 20.0;
 /// Upper bound of the relative error of a radius by the small terms that the series skip; the error of the truncated tail is added to it.
 const LEFT_OUT_TERMS_ERROR: f64 = 2e-8;
-/// Upper bound of the contact radius on a layer over that on the half space at the same depth; the ratio is largest on a film. A
-/// larger one costs wave numbers that are not needed.
+/// Upper bound of the ratio of the contact radius on a layer to that on the half space at the same depth; the ratio is largest
+/// on a film. A larger bound costs wave numbers that are not needed.
 const MAX_RADIUS_RATIO: f64 = 3.0;
 /// Factor on the radius per step of the search for a depth. Chosen: it changes the number of evaluations only.
 const SEARCH_GROWTH: f64 = 1.25;
-/// Depth that the radius found is to reach, over the depth sought. Chosen close to 1: the cost of the equations grows
-/// like the cube of the radius.
+/// Ratio of the depth at which the interpolated radius aims to the depth that is sought. Chosen close to 1: the cost of the
+/// equations grows like the cube of the radius.
 const DEPTH_MARGIN: f64 = 1.02;
 /// Largest parameter σ of a [`GradedMap`]. With it, x ↦ y is linear to 2e-3, the relative size 1/(6 σ²) of the next term.
 const MAX_SIGMA: f64 = 10.0;
 /// Grading exponents of the maps that are tried one after the other. The first is a plain map; the second is needed
 /// for bodies of several powers, such as r + r^1.3. Chosen; the tail decides which is taken.
 const GRADING_EXPONENTS: [f64; 2] = [1.0, 6.0];
-/// Largest contact radius over that of a vertical edge of the body, such as the equator of a sphere: closer to it the
-/// slope grows without limit, and series converge slowly. Chosen.
+/// Largest ratio of the contact radius to the radius of a vertical edge of the body, such as the equator of a sphere. Closer to
+/// the edge the slope grows without limit, and series converge slowly. Chosen.
 const MAX_RADIUS_OVER_EDGE: f64 = 0.99;
 /// Number of intervals between two kinks at whose ends the depth is checked to increase. Chosen; it only refuses
 /// bodies.
@@ -208,7 +208,7 @@ impl LayerProfile {
         let radii = ChebyshevPair::interpolate(constant, f64::INFINITY)?;
         Ok(Self {
             exponent: f64::INFINITY,
-            // From the series, so that it agrees with the radius at every depth to the last digit.
+            // The end is evaluated from the series, so that it agrees with the radius at every depth to the last digit.
             end: radii.evaluate(0.0)[0],
             pieces: vec![Piece {
                 depths: GradedMap::new([0.0, f64::INFINITY], 1.0, 1.0),
@@ -284,7 +284,7 @@ impl EquivalentProfile for LayerProfile {
         if position > self.end {
             return f64::INFINITY;
         }
-        // A punch is flat.
+        // A flat punch has the height 0 up to its edge.
         if self.depth().is_infinite() {
             return 0.0;
         }
@@ -390,7 +390,7 @@ impl<'a> LayerProblem<'a> {
 
     /// The equivalent profile up to a contact radius, \[m].
     fn profile(&self, radius: f64) -> Result<LayerProfile, FrictionError> {
-        // One piece between any two kinks; the depth at its end is where the next one starts.
+        // The profile has one piece between any two kinks; each piece starts at the depth at which the one before ends.
         let kinks = self.line.kinks().filter(|kink| *kink < radius);
         let ends: Vec<f64> = kinks.chain([radius]).collect();
         let mut profile = LayerProfile {
@@ -476,8 +476,8 @@ impl<'a> LayerProblem<'a> {
         let depth = |radius: f64| self.body.line_height(radius) * ratios(radius)[1];
         check_increasing(&contacts.contact_radii, depth)?;
 
-        // Choose the map of the depth: the leading power of the depth over the radius, and σ from the length on which the
-        // radii change to those of a thin layer, or far from a kink.
+        // The map of the depth has the leading power of the depth as a function of the radius. Its scale σ comes from the
+        // length on which the radii change to those of a thin layer, or to those far from a kink.
         let is_apex = inner == 0.0;
         let exponent = self.body.profile_exponent();
         let power = if is_apex { exponent } else { 2.0 };
@@ -492,7 +492,7 @@ impl<'a> LayerProblem<'a> {
             nearly_linear
         };
 
-        // Solve d(a) at each node.
+        // At each node the contact radius a solves d(a) = `target`. At an apex both radii are divided by y^`grading`.
         let radii = |x: f64| {
             let target = depths.value(x);
             let depth_excess = |radius: f64| depth(radius) - target;

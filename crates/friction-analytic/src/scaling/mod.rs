@@ -15,7 +15,7 @@ use crate::{FrictionError, power_sliding};
 /// Exponents p, increasing, and scaling factors s(p) with their errors, as `cargo xtask scaling-table` writes them.
 static TABLE: LazyLock<Vec<(f64, Estimate)>> = LazyLock::new(|| {
     let rows = include_str!("scaling_table.csv").lines();
-    // The heading has no numbers; a test counts the rows.
+    // The heading has no numbers and is skipped; a test counts the other rows.
     rows.filter_map(|row| {
         let mut cells = row.split(',').map_while(|cell| cell.parse().ok());
         Some((cells.next()?, Estimate::new(cells.next()?, cells.next()?)))
