@@ -51,8 +51,7 @@ impl Change<f64> {
     ///
     /// The force of the result is NaN if the depth has no change, as in plane strain.
     pub(crate) fn at_constant_depth(&self, by_force: &Self) -> Self {
-        // The force changes so that the depth stays: by minus the change of the depth over the derivative of the depth by the
-        // force.
+        // The force changes so that the depth stays: by minus the change of the depth over the derivative of the depth by the force.
         let depths = self.indentation_depth.zip(by_force.indentation_depth);
         let force = depths.map_or(f64::NAN, |(change, by_force)| -change / by_force);
         let areas = self.contact_area.zip(by_force.contact_area);

@@ -56,8 +56,7 @@ pub(crate) fn gcr<T: Real>(
     let mut stagnant_image: Option<Vec<T>> = None;
     let mut residual_square = inner_product(residual, residual);
     for _ in 0..limits.max_steps {
-        // Ask the caller for the next direction and its image. They replace the vector that the basis dropped last, if there is
-        // one.
+        // Ask the caller for the next direction and its image. They replace the vector that the basis dropped last, if there is one.
         let mut new = recycled
             .take()
             .unwrap_or_else(|| BasisVector::new(solution.len(), residual.len()));
@@ -85,8 +84,7 @@ pub(crate) fn gcr<T: Real>(
         let step = -products.with_residual / products.square;
         let stagnates = step * step * products.square < STAGNATION_REDUCTION * residual_square;
         stagnant_image = stagnates.then(|| {
-            // The image is scaled to the norm of the residual, because a preconditioner that amplifies it in every step would
-            // overflow.
+            // The image is scaled to the norm of the residual, because a preconditioner that amplifies it in every step would overflow.
             let scale = T::rounded((residual_square / products.square).sqrt());
             new.image.iter().map(|value| scale * *value).collect()
         });
@@ -114,8 +112,7 @@ pub(crate) fn gcr<T: Real>(
             |left, right| left + right,
         );
 
-        // Add the new vector to the basis. Beyond the truncation depth the oldest vector is dropped, and its memory is used
-        // again.
+        // Add the new vector to the basis. Beyond the truncation depth the oldest vector is dropped, and its memory is used again.
         basis.push_back(new);
         if basis.len() > limits.truncation_depth {
             recycled = basis.pop_front();

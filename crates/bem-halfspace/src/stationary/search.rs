@@ -26,7 +26,7 @@ use crate::parallel::reductions::larger;
 /// Ratio of a penetration next to the active set to the root mean square (RMS) of the residual on the set, below which the
 /// penetration counts as solver error. Chosen as three standard deviations; with 2 or 5 there are as many operator applications.
 const PENETRATION_THRESHOLD_RMS: f64 = 3.0;
-/// Penetration far from the active set, as a fraction of the largest residual on the set, below which it counts as
+/// Ratio of a penetration far from the active set to the largest residual on the set, below which the penetration counts as
 /// solver error. Chosen; from 0 to 1 no answer changes by more than 5 % of its bar.
 const FAR_PENETRATION_THRESHOLD: f64 = 0.3;
 /// Ratio of the total tension to the force above which an update only removes elements, because the gaps outside then say little.
@@ -36,8 +36,8 @@ const FAR_PENETRATION_THRESHOLD: f64 = 0.3;
 /// contact in seven is not found in 3000 operator applications, and others take three times as many. With 0.25 there are as many
 /// applications as with this value.
 const MAX_TENSILE_FRACTION: f64 = 0.2;
-/// Largest residual of the inner solution, as a fraction of the largest gap that counts as closed: below 1, so that
-/// room is left for the projection. Chosen (case of `evidence tuning`).
+/// Ratio of the largest residual of an inner solution to the largest gap that counts as closed. It is below 1, so that room is
+/// left for the projection onto p ≥ 0. Chosen (case of `evidence tuning`).
 const INNER_SHARE_OF_TOLERANCE: f64 = 0.5;
 /// Largest residual that always counts as closed, in units of the last place of the depth d: the rounding of a few operations.
 /// The depth of a long cylinder (plane strain) on a material of long memory may exceed the heights in contact a million times.
@@ -97,7 +97,7 @@ pub(crate) trait FixedSetSolver {
     fn budget_is_exhausted(&self) -> bool;
 }
 
-/// The search and its current iterate.
+/// An active-set search, with its current active set, pressure, gaps and depth.
 pub(crate) struct Search<'a, P> {
     /// Contact problem, with the equations on its present active set.
     problem: &'a mut P,

@@ -123,7 +123,7 @@ impl BlockCorrection {
         let weight = MEAN_WEIGHT_FRACTION * total / self.weights.len() as f64;
         self.mean_weight = f32::rounded(weight);
         self.preconditioner = self.kernel.relaxation(weight, self.self_influence);
-        // Start from the displacement of the previous active set, which is similar.
+        // The solution for the previous active set is similar, and serves as the first guess.
         let mut displacement = std::mem::take(&mut self.unit_gap_displacement);
         self.solve(&means, &mut displacement);
         self.subtract(active, weights, &displacement, unit_depth_response);

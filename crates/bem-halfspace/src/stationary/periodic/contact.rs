@@ -33,7 +33,7 @@ pub(super) struct PeriodicContact<'a> {
     pub(super) options: PeriodicOptions,
 }
 
-/// A solved contact; the pressure is a field of its own.
+/// Depth and effort of a solved contact; [`solve`] returns the pressure in its argument.
 pub(super) struct PeriodicSolution {
     /// Sum of height h and displacement u of the elements in contact, \[m].
     pub(super) depth: f64,
@@ -90,7 +90,7 @@ pub(super) fn solve(
         overlaps()
     };
 
-    // Search the active set and its pressures.
+    // Search the active set and its pressures, beginning with the guess.
     let mut contact = PeriodicFixedSetSolver {
         depth,
         problem,

@@ -38,8 +38,8 @@ use crate::{BemError, Grid};
 const MAX_STEPS_IF_TRUNCATED: usize = 80;
 /// Largest number of GCR steps if the whole basis fits into memory. Chosen.
 ///
-/// A dense contact of moduli that differ by some thousand does not converge in 80: its residual falls after a hundred steps with
-/// an untruncated basis.
+/// A dense contact on a solid whose moduli differ by a factor of some thousand does not converge in 80 steps. Its residual falls
+/// only after a hundred steps with an untruncated basis.
 const MAX_STEPS: usize = 400;
 /// Memory budget of the GCR basis on a large grid, in single-precision numbers per element of the grid. Beyond it the oldest
 /// directions are dropped. Chosen.

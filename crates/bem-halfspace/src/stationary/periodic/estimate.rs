@@ -19,7 +19,7 @@ use crate::stationary::periodic::{
 };
 use crate::{BemError, ContactOptions, Elastomer, PressureField};
 
-/// Relative error of the request for a first grid, which does not depend on its value.
+/// Relative error in the request for the shape of a first grid. Any value serves, because the shape does not depend on it.
 const ANY_RELATIVE_ERROR: f64 = 0.1;
 /// Smallest number of steps of a march on the first grid. Chosen; it makes steps shorter than elements over short distances.
 const MIN_FIRST_STEPS: f64 = 4.0;

@@ -127,8 +127,7 @@ pub(super) struct PeriodicKernel {
 impl PeriodicKernel {
     /// The kernel of a material and its speed on a grid.
     pub(super) fn new(sliding: &Sliding, grid: &Grid) -> Result<Self, BemError> {
-        // Compute the compliance of each row of the transform, and from the loss angle of the shortest wave the shift θ in
-        // elements.
+        // Compute the compliance of each row of the transform, and from the loss angle of the shortest wave the shift θ in elements.
         let dx = grid.spacing()[0];
         let waves = FourierMultiplier::new(grid, &sliding.base);
         let along_x = &waves.along_x;

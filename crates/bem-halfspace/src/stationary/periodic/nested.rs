@@ -75,7 +75,7 @@ fn solve_on_coarser_grids(
     solve_on_coarser_grids(&coarse, &mut guess)?;
     let mut equations = Equations::new(problem.sliding, &grid, problem.control)?;
     match contact::solve(coarse, &mut equations, &mut guess) {
-        // An unconverged solution is a guess too.
+        // A solution that has not converged is an initial guess too.
         Ok(_) | Err(BemError::ContactNotConverged { .. }) => {}
         Err(error) => return Err(error),
     }

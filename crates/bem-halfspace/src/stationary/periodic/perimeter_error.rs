@@ -51,8 +51,7 @@ fn groove_direction(surface: &PeriodicSurface, grid: &Grid) -> Option<[usize; 2]
     let [n, m] = steepest.numbers.map(i64::from);
     let is_along = |wave: &&Wave| m * i64::from(wave.numbers[0]) == n * i64::from(wave.numbers[1]);
     let (along, others): (Vec<Wave>, Vec<Wave>) = waves.iter().partition(is_along);
-    // The other waves displace the boundary by their height over the slope of the grooves. If that is too much, it is not
-    // straight.
+    // The other waves displace the boundary by their height over the slope of the grooves. If that is too much, it is not straight.
     let with_waves = |waves: Vec<Wave>| PeriodicSurface::new(surface.period(), waves);
     let other_height = with_waves(others).map_or(0.0, |others| others.rms_height());
     let [dx, dy] = grid.spacing();

@@ -49,8 +49,7 @@ impl SubgridGapBound {
         if pressure.iter().any(|pressure| *pressure <= 0.0) {
             return Self::default();
         }
-        // Bound the amplitude of the pressure between the centres, and the most by which the pressure falls below the nearest
-        // sample.
+        // Bound the amplitude of the pressure between the centres, and the most by which the pressure falls below the nearest sample.
         let n = pressure.len() as f64;
         let mean = mean(pressure);
         let deviations = pressure.iter().map(|pressure| (pressure - mean).abs());

@@ -58,8 +58,7 @@ impl ExponentialRule {
     /// The rule of 2 to [`MAX_POINTS`] integer points around [0, 1], as many on either side, for functions that are smooth over all
     /// of them.
     pub(super) fn on_integers(n_points: usize) -> Self {
-        // Interpolate the values at the integers to the Gauss–Lobatto points (Lagrange), and project these onto Legendre
-        // polynomials.
+        // Interpolate the values at the integers to the Gauss–Lobatto points (Lagrange), and project these onto Legendre polynomials.
         let lobatto = Self::new(n_points);
         let first = 1.0 - 0.5 * n_points as f64;
         let nodes: Vec<f64> = (0..n_points).map(|index| first + index as f64).collect();

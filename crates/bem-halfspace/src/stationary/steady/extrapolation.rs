@@ -41,7 +41,7 @@ pub(super) fn extrapolate(values: &[f64], order: f64, faster_orders: &[f64]) -> 
     let once = eliminate_order(values, order);
     let twice = eliminate_order(&once, next_order(order));
     let value = values.last().copied().unwrap_or(f64::MAX);
-    // Below order 1 one elimination is never enough.
+    // Below the order 1 too much of the error is left after one elimination, so that only the second one counts.
     let first = estimate_limit(&once, values).filter(|_| order >= 1.0);
     let mut best = match (first, estimate_limit(&twice, &once)) {
         (Some(first), Some(second)) if second.error >= ACCEPTED_ERROR_RATIO * first.error => first,

@@ -12,7 +12,7 @@ use crate::transform::plane_transform::{PlaneTransform, Workspace, ZERO};
 /// Fourier transform of a kernel, `[column][row]`, multiplied by the normalisation of the transforms.
 pub(super) type Spectrum = Vec<Complex<f64>>;
 
-/// Spectra of several kernels with one period.
+/// Spectra of several kernels with one period, and the transforms that belong to the period.
 #[derive(Debug)]
 pub(super) struct Filters<const N: usize> {
     /// Plans of the transforms over the period.

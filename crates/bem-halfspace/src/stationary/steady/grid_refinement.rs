@@ -47,7 +47,8 @@ const SAFETY_FACTOR_CREEPING: f64 = 1.5;
 /// tried. A larger friction reaches the requested error without them. Chosen; from 0 to 0.2 no digit of an answer
 /// changes, with 1 bars become 0.2 to 0.4 times as wide.
 const SMALL_FRICTION_RATIO: f64 = 0.2;
-/// Smallest number of refinements for an error estimate. An elimination uses two values, and the estimate needs three limits.
+/// Smallest number of refinements for an error estimate. Derived: an elimination shortens the sequence of values by two, and the
+/// estimate needs three limits.
 const MIN_REFINEMENTS: i32 = 5;
 /// Largest ratio of the elements of a footprint to the allowed number of unknown pressures. Chosen to limit memory and time:
 /// refinement ends before a larger grid. The ratio is large because a steep body touches with a thin crescent.

@@ -15,7 +15,8 @@ use crate::{BemError, Elastomer, Footprint};
 /// Why a depth on a material that flows requires a sliding distance, for an error message.
 const SINKS_WITHOUT_LIMIT: &str =
     "on a material that flows the body sinks without limit, so that a depth belongs to a distance";
-/// Sliding distance, in lengths of the footprint, that is assumed for a depth on a solid, where it has no effect on the solution.
+/// Sliding distance, in lengths of the footprint, that is assumed for a given depth on a solid. Chosen; there the distance has no
+/// effect on the solution.
 const DISTANCE_ON_SOLID: f64 = 100.0;
 
 /// The equation `depth · δ + load · Σ x = right` that prescribes depth or force, in the units of the mesh.
@@ -62,8 +63,7 @@ impl Loading {
     ) -> Result<Self, BemError> {
         let creep = SlidingCreep::for_load(elastomer, load)?;
         let [rear, front] = footprint.x;
-        // Choose the unit of heights. A given depth is that unit itself, and belongs to a sliding distance on a material that
-        // flows.
+        // Choose the unit of heights. A given depth is that unit itself, and belongs to a sliding distance on a material that flows.
         let (depth_scale, sliding_distance) = match load.control() {
             Control::NormalForce(force) => {
                 let max_length = footprint
@@ -103,8 +103,7 @@ impl Loading {
     ) -> Result<Self, BemError> {
         let creep = SlidingCreep::for_load(elastomer, load)?;
         let force = load.require_normal_force()?;
-        // Choose a strip so long that its ends have no influence on the contact. It carries the force per length times its
-        // length.
+        // Choose a strip so long that its ends have no influence on the contact. It carries the force per length times its length.
         let depth_scale = profile_scale(profile, &creep, force)?.depth_scale;
         let length = STRIP_LENGTH_RATIO * (front - rear + creep.memory_length());
         let strip = positive("length of a strip", length)?;

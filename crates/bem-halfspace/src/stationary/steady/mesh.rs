@@ -110,7 +110,7 @@ impl Mesh {
         let parameter = "number of elements of the footprint that may touch";
         positive(parameter, mesh.n_elements() as f64)?;
 
-        // Tabulate the kernel for offsets within the candidates.
+        // Tabulate the kernel for all offsets between two candidates.
         let candidates = mesh.region(0..mesh.n_elements());
         mesh.check_track(candidates.shape[0])?;
         mesh.table = plans.prepare(&mesh.loading.creep, mesh.aspect(), candidates.shape);
@@ -341,7 +341,7 @@ impl Mesh {
     /// Load-weighted means of the slopes.
     pub(super) fn mean_slopes(&self, loads: &[(usize, f64)]) -> LoadWeightedSlopes {
         let (mut sums, mut total_load) = ([0.0; 3], 0.0);
-        // Sum the slopes, weighted with load and images.
+        // Sum the slopes of the loaded elements, weighted with their loads and their number of mirror images.
         for &(element, load) in loads {
             let Element {
                 slope,

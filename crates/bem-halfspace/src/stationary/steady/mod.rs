@@ -7,8 +7,8 @@
 //! ```
 //!
 //! for the height h of the body, the displacement u of the surface, the depth d and the pressure P on elements of the area ΔA.
-//! F_N is the normal force, v the sliding speed, ξ the coordinate along x, and J the creep compliance, J₀ at first. The load
-//! potential is w = (1/4π) ∬ P/r dA.
+//! F_N is the normal force, v the sliding speed and ξ the coordinate along x. J is the creep compliance, with the instantaneous
+//! value J₀. The load potential is w = (1/4π) ∬ P/r dA with the distance r.
 //!
 //! The kernel of u is translation-invariant and not symmetric. For a dashpot it is [`wake_influence()`]; each retardation element
 //! adds an exponential sweep of the potential from ahead. Where the material flows, the surface sinks like the logarithm of time,
@@ -178,7 +178,7 @@ fn solve_on_mesh(
         reuse.solution = solve(surface, loading, &coarse, coarse_reuse).ok();
     }
 
-    // Solve from the initial guess.
+    // Start from the loads of the last solution, or else from the initial active set of the mesh.
     let guess = match &reuse.solution {
         Some(solution) => prolonged_loads(solution, &mesh),
         None => mesh.initial_active_set(),

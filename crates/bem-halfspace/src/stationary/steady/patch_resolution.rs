@@ -29,8 +29,7 @@ pub(super) fn check_patches(loaded: &[Loaded], bounds: &Bounds) -> Result<(), Be
         if load < NEGLIGIBLE_LOAD_FRACTION * total {
             continue;
         }
-        // Count the loaded elements of the patch in each row and column. It needs enough rows, and enough elements in its widest
-        // row.
+        // Count the loaded elements of the patch in each row and column. It needs enough rows, and enough elements in its widest row.
         let [mut per_row, mut per_column] = bounds.shape().map(|n| vec![0_usize; n]);
         for ([row, column], _) in &patch {
             per_row[row - bounds.lower[0]] += 1;

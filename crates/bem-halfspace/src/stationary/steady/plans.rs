@@ -32,7 +32,7 @@ impl Plans {
         aspect: f64,
         shape: [usize; 2],
     ) -> Arc<WakeTable> {
-        // Tables and spectra of another creep or aspect ratio are of no use.
+        // Tables and spectra for another creep or aspect ratio are of no use, and are dropped.
         let is_other_aspect = self.table.aspect.total_cmp(&aspect).is_ne();
         if is_other_aspect || self.table.creep != *creep {
             *self = Self::default();

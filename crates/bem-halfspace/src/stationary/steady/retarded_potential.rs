@@ -130,8 +130,7 @@ impl RetardedPotential {
             }
         });
 
-        // The recursion starts far enough ahead of the load, from the integral over everything further ahead or once around the
-        // track.
+        // The recursion starts far enough ahead of the load, from the integral over everything further ahead or once around the track.
         let rows_ahead = match creep.track {
             None => (MIN_START_DISTANCE - first).max(0.0).ceil(),
             Some(_) => 0.0,
@@ -153,7 +152,7 @@ impl RetardedPotential {
             Some(track) => start.start_around_track(track),
         }
 
-        // Go back to the row ahead of the first one.
+        // Store the potentials of the rows around the start, and step back to the row ahead of the first one of the table.
         for row in (1..=2 * ROWS_PER_SIDE).rev() {
             start.push_row(position - ROWS_PER_SIDE as f64 + row as f64);
         }
@@ -216,7 +215,7 @@ impl RetardedPotential {
                 }
             }
         }
-        // All further turns add a geometric series.
+        // All further turns around the track add a geometric series.
         let values = self.values.chunks_exact_mut(self.n_columns);
         for (element, values) in self.retardations.iter().zip(values) {
             let relaxed = -(-element.rate * track).exp_m1();
@@ -296,8 +295,7 @@ impl RetardedPotential {
                 }
                 self.set_increments(column, &potentials[..=last], |one| &one.weights[rule]);
             } else {
-                // Near the edges divide the element into panels that shorten towards the singularity, and integrate from the
-                // front on.
+                // Near the edges divide the element into panels that shorten towards the singularity, and integrate from the front on.
                 for increment in self.increments[column..].iter_mut().step_by(self.n_columns) {
                     *increment = 0.0;
                 }
@@ -369,7 +367,7 @@ fn fewest_points(rules: &[DistanceRule], distance: f64) -> Option<usize> {
 /// Panels of an interval along x, from rear to front: divided where the potential is singular, then halved until one of the rules is
 /// accurate on each. `lateral_distance` is the distance from the loaded element along y, in Δx.
 fn panels([start, end]: [f64; 2], lateral_distance: f64) -> Vec<PotentialPanel> {
-    // Divide at the edges of the loaded element.
+    // Divide the interval at the edges of the loaded element, where the potential is singular.
     let mut ends = vec![start, -0.5, 0.5, end];
     ends.retain(|position| (start..=end).contains(position));
     ends.dedup();

@@ -41,8 +41,7 @@ impl SinkingDepth {
         let aspect = spacing[1] / spacing[0];
         let rate =
             mesh.loading.creep.flow * aspect * mesh.total_load(solution.loads.iter().copied());
-        // The depth of the solution belongs to the kernel without its constant. The sinking over the length of the contact adds
-        // it.
+        // The depth of the solution belongs to the kernel without its constant. The sinking over the length of the contact adds it.
         Self {
             reference_depth: scale
                 * (solution.depth + rate * sinking_in_e_folds(contact_length, spacing[0])),

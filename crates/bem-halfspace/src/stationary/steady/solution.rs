@@ -163,8 +163,7 @@ impl SteadySliding {
         let pressures = loaded.iter().map(|(element, load)| (*element, load * unit));
         let pressure = PressureField::from_elements(&bounds, spacing, origin, pressures)?;
 
-        // Friction, force, depth and area follow from sums over the loads. In plane strain force and area are per length of the
-        // strip.
+        // Friction, force, depth and area follow from sums over the loads. In plane strain force and area are per length of the strip.
         let slopes = mesh.mean_slopes(&solution.loads);
         let total_load = mesh.total_load(solution.loads.iter().copied());
         let per_length = if mesh.loading.is_strip {

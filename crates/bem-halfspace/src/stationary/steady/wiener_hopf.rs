@@ -87,7 +87,7 @@ fn invert_causal_factor(transform: &PlaneTransform, column: &mut [Complex<f64>])
     for value in column.iter_mut() {
         *value = Complex::new(value.re.max(floor).ln(), 0.0);
     }
-    // Keep half of the cepstrum, with the opposite sign for the inverse.
+    // Keep the half of the cepstrum that belongs to one factor, with the opposite sign for the inverse of the factor.
     transform.column_inverse(column);
     let half = length / 2;
     for (index, value) in column.iter_mut().enumerate() {

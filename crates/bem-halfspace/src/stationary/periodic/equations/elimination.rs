@@ -53,8 +53,7 @@ impl Equations {
     /// The packed pressures that close the gaps, in their unit, from the dense influence matrix of the active set; `None` if that is
     /// singular.
     fn factorise_active_set(&mut self) -> Option<Vec<f64>> {
-        // List the elements in contact. The response to a unit pressure, over the self-influence, holds all influence
-        // coefficients.
+        // List the elements in contact. The response to a unit pressure, over the self-influence, holds all influence coefficients.
         let runs = (0..self.active.row_blocks.n_blocks())
             .flat_map(|row_block| self.active.runs(row_block));
         let elements: Vec<usize> = runs.flat_map(Run::elements).collect();

@@ -21,8 +21,8 @@ use crate::{BemError, Grid};
 /// Tolerance of the residual of the adjoint equations, relative to the initial one: about the rounding of single
 /// precision, in which each step of the iterative refinement is solved.
 const ADJOINT_TOLERANCE: f64 = 1e-7;
-/// Tolerance of each single-precision solve of the iterative refinement, relative to its residual: far above the
-/// rounding of single precision. Three solves reduce the residual below [`ADJOINT_TOLERANCE`].
+/// Ratio of the residual after a single-precision solve of the iterative refinement to that before, at which the solve ends.
+/// Chosen far above the rounding of single precision. Three solves reduce the residual below [`ADJOINT_TOLERANCE`].
 const REFINEMENT_REDUCTION: f64 = 1e-3;
 /// Largest number of steps of the iterative refinement. Chosen to limit the time: beyond it the solution fails with
 /// [`BemError::ContactNotConverged`]. Three suffice if each reaches [`REFINEMENT_REDUCTION`].
@@ -36,7 +36,7 @@ const STAGNATION_RATIO: f64 = 0.7;
 pub(super) struct Gradient {
     /// By the height of each element, per metre.
     pub(super) by_height: Vec<f64>,
-    /// By the displacement of each element under the pressures, in addition to that by its height, per metre; empty for none.
+    /// By the displacement of each element under the pressures, in addition to `by_height`, per metre; empty for none.
     by_displacement: Vec<f64>,
     /// By the displacement of each element under a unit pressure on the first one; empty for none.
     by_unit_response: Vec<f64>,
@@ -287,8 +287,7 @@ impl<'a> Adjoint<'a> {
         let mut by_row = row_sums(by_height, response, self.grid);
         let n_rows = by_row.len();
         if n_rows.is_multiple_of(2) {
-            // For the shortest wave along x the kernel has the absolute value of the compliance, and the shift of the gaps its
-            // phase.
+            // For the shortest wave along x the kernel has the absolute value of the compliance, and the shift of the gaps its phase.
             let q_x = self.waves.along_x[n_rows / 2];
             let compliance = self.sliding.compliances(&[q_x])?[0];
             by_row[n_rows / 2] *= compliance.conj() / compliance.re;

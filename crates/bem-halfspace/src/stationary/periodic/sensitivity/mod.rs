@@ -115,8 +115,7 @@ impl PeriodicSensitivity {
         let sliding = Sliding::new(elastomer, load.velocity())?;
         let control = load.require_stationary()?;
         let grid = pressure.grid;
-        // Each edge must have an even number of elements, because the coarse grid has half as many, and the guess must fill the
-        // grid.
+        // Each edge must have an even number of elements, because the coarse grid has half as many, and the guess must fill the grid.
         let names = ["elements along x", "elements along y"];
         for (name, edge) in names.into_iter().zip(grid.shape()) {
             in_range(name, edge as f64, edge.is_multiple_of(2), "even")?;

@@ -48,7 +48,7 @@ pub(super) fn solve(
             .ok_or_else(|| not_converged(1.0));
     }
 
-    // Large ones are iterated, on the reversed contact for the reversed motion.
+    // Large systems are solved by GCR: for the reversed motion on the contact reversed along x.
     if motion == KernelDirection::Reversed {
         region = region.reversed();
     }

@@ -90,8 +90,7 @@ impl ContactDerivatives {
         let (mesh, solution) = solve_on_mesh(surface, loading, options, reuse)?;
         reuse.solution = Some(SteadySliding::new(&mesh, &solution)?);
 
-        // Derive each quantity by the loads and gaps: the mean slope, the total load at a unit depth, and the area and boundary
-        // weight.
+        // Derive each quantity by the loads and gaps: the mean slope, the total load at a unit depth, and the area and boundary weight.
         let mut contact = LoadedContact::new(&mesh, &mut reuse.plans, &solution);
         let points = CollocationPoints::new(&mesh, &contact.elements, loading);
         let slope_terms = points.explicit_slope_terms(&|point| surface.height(point))?;

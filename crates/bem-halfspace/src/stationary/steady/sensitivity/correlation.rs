@@ -19,8 +19,9 @@ pub(super) struct Correlation {
 }
 
 impl Correlation {
-    /// The weights of k(i − j) in Σ y_i k(i − j) x_j, with one row more on either side. If the loads x are mirror symmetric, `left` may
-    /// contain one of two mirror images y with twice the weight. Both are row-major over a box of some rows and columns.
+    /// The weights of k(i − j) in Σ y_i k(i − j) x_j for the fields y (`left`) and x (`right`), with one row more on either side.
+    /// If the loads x are mirror symmetric, `left` may contain one of two mirror images of y with twice the weight. Both fields
+    /// are row-major over a box of some rows and columns.
     pub(super) fn between(left: &[f64], right: &[f64], [rows, columns]: [usize; 2]) -> Self {
         // Sum the products of both fields by their offset along x and their signed distance along y.
         let width = 2 * columns - 1;

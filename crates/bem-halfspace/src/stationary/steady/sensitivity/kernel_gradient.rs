@@ -193,8 +193,7 @@ impl GridKernel {
                 }
             }
         }
-        // Every second sum belongs to a slightly longer memory length. Turn it into the derivative by the logarithm of that
-        // length.
+        // Every second sum belongs to a slightly longer memory length. Turn it into the derivative by the logarithm of that length.
         for gradient in gradients {
             for [unchanged, longer] in gradient.by_creep[2..].as_chunks_mut().0 {
                 *longer = (*longer - *unchanged) / LENGTH_STEP;
@@ -319,7 +318,7 @@ impl GridKernel {
             .material
             .compliance_of_wave(wave_number / self.spacing)?;
         let compliance = Complex::new(storage, loss);
-        // G' − i G'' is the reciprocal.
+        // The complex modulus G' − i G'' is the reciprocal of the compliance.
         let moduli = compliance.inv();
         let square = compliance * compliance;
         Ok([square * -moduli.re, square * Complex::i() * -moduli.im])

@@ -21,8 +21,8 @@ use rustfft::num_complex::Complex;
 use crate::Base;
 use crate::stationary::steady::sensitivity::kernel_table::KernelTable;
 
-/// Step of u of the trapezoidal rule, for an integrand that does not oscillate: the rule converges exponentially.
-/// Tests compare with a closed form.
+/// Step of the variable u of the trapezoidal rule (head of this file) for an integrand that does not oscillate. Chosen; the rule
+/// converges exponentially, and tests compare with a closed form.
 const QUADRATURE_STEP: f64 = 0.25;
 /// Steps of the trapezoidal rule per shortest wave of an oscillating integrand, Nyquist's two. This wave is at the
 /// end of the range, where the integrand is negligible.
@@ -121,13 +121,11 @@ impl KernelWaves<'_> {
         let thickness = self.base.thickness();
         let half = 0.5 * self.aspect;
         let end = (MAX_LAYER_WAVE_NUMBER / (q * thickness)).acosh();
-        // Count the waves of the integrand per unit of u at the end of the range and in the farthest column, where they are
-        // shortest.
+        // Count the waves of the integrand per unit of u at the end of the range and in the farthest column, where they are shortest.
         let waves = MAX_LAYER_WAVE_NUMBER / thickness * (kernel.len() as f64 * self.aspect) / TAU;
         let step = QUADRATURE_STEP.min((STEPS_PER_WAVE * waves).recip());
 
-        // Integrate over u by the trapezoidal rule. The integrand is even, so that the node u = 0 counts once and all others
-        // twice.
+        // Integrate over u by the trapezoidal rule. The integrand is even, so that the node u = 0 counts once and all others twice.
         let nodes = iter::successors(Some(0.0), |u| Some(u + step));
         for u in nodes.take_while(|u| *u < end) {
             let [q_y, q_abs] = [q * u.sinh(), q * u.cosh()];
