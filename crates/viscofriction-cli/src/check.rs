@@ -49,7 +49,8 @@ pub fn check_input(kind: InputKind, file: &Path, contents: &[u8]) -> Result<(), 
         InputKind::HeightMap => {
             let extension = file.extension().unwrap_or_default().to_string_lossy();
             let read = |spacing| Topography::read(&extension, contents, spacing, u64::MAX);
-            // Texts may state their size and measured surfaces their spacing; other formats need one.
+            // Read the surface without a given spacing first. Texts may state their size and measured surfaces their spacing;
+            // other formats need one, for which any number serves here.
             let surface = match read(None) {
                 Err(TopographyError::Spacing { .. }) => read(Some([1.0; 2])),
                 other => other,
@@ -61,7 +62,8 @@ pub fn check_input(kind: InputKind, file: &Path, contents: &[u8]) -> Result<(), 
         }
         InputKind::Moduli => check_table(file, contents),
         InputKind::Curve => {
-            // The spring constant may be missing from the table and given on the command line.
+            // The spring constant may be missing from the table and be given on the command line later; any number serves for the
+            // check.
             let options = CurveOptions {
                 spring_constant: Some(1.0),
                 ..CurveOptions::default()

@@ -11,11 +11,11 @@ use viscofriction::indenters::topography::length;
 use viscofriction::numerics::InvalidParameter;
 use viscofriction::scene::Source;
 
-/// Largest size of any input file, \[bytes] (chosen: 1 GiB, so that a wrong file does not fill the memory).
+/// Size of an input file, \[bytes], above which it is refused. Chosen: 1 GiB, so that a wrong file does not fill the memory.
 const MAX_FILE_SIZE: u64 = 1 << 30;
 
-/// Largest size of a scene file, \[bytes] (chosen: 16 MiB; scenes are written by hand, and large data are in files of their
-/// own).
+/// Size of a scene file, \[bytes], above which it is refused. Chosen: 16 MiB; scenes are written by hand, and large data are in
+/// files of their own.
 const MAX_SCENE_SIZE: u64 = 1 << 24;
 
 /// Identity of a file independent of names and links: device and inode.
@@ -197,7 +197,7 @@ mod tests {
                 let words = std::iter::once("command".to_owned()).chain([format!("--{name}")]);
                 let words = words.chain(vec!["20mm".to_owned(); count]);
                 let parsed = command.clone().try_get_matches_from(words);
-                // Other arguments are missing.
+                // The value is accepted: the parser complains only that other arguments are missing.
                 let kind = parsed.err().map(|error| error.kind());
                 assert_eq!(kind, Some(ErrorKind::MissingRequiredArgument), "--{name}");
             }

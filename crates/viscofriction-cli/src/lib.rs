@@ -87,7 +87,7 @@ pub fn command_line() -> clap::Command {
 pub fn execute() -> ExitCode {
     let result = match CommandLine::try_parse() {
         Ok(line) => line.command.execute(),
-        // Help and version are ordinary output.
+        // Help and version are ordinary output, which the parser reports as errors; they go to the standard output.
         Err(asked) if !asked.use_stderr() => output::printed(|| asked.print()),
         Err(wrong) => wrong.exit(),
     };

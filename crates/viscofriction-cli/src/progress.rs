@@ -37,7 +37,7 @@ pub(crate) fn with_message<T>(work: impl FnOnce(&(dyn Fn(String, f64) + Sync)) -
 fn styled(bar: ProgressBar, template: &str) -> ProgressBar {
     let left = |state: &ProgressState, text: &mut dyn fmt::Write| {
         let left = remaining(state.elapsed(), state.fraction().into());
-        // An error of the terminal is ignored.
+        // An error of the terminal is ignored, because progress is no result.
         let _ = text.write_str(&left.unwrap_or_default());
     };
     if let Ok(style) = ProgressStyle::with_template(template) {
@@ -54,7 +54,7 @@ fn remaining(elapsed: Duration, part: f64) -> Option<String> {
     Some(format!(", {:.0} %, about {rest} left", 100.0 * part))
 }
 
-/// Number of steps of a bar for a task that reports fractions (chosen: its resolution).
+/// Number of steps of a progress bar for a task that reports fractions. Chosen; it is the resolution of the bar.
 const FRACTION_STEPS: u64 = 10_000;
 
 /// A bar that shows the progress of a solution.

@@ -159,7 +159,8 @@ impl FitFriction {
                       standard_error friction_coefficient_fit residual";
         out.write("fit.csv", &to_csv(header, rows)?)?;
         out.draw("fit", &picture::figure(found, curve, self.noise))?;
-        // Write the material last, so that its presence implies the others. Flags precede the numbers as comments.
+        // Write the material file last, so that its presence implies the others. Flags and findings precede the numbers as
+        // comments.
         let findings = self.table(found, notes).replace('\n', "\n# ");
         let material = found.material_file()?;
         let material = format!("# {}\n#\n# {findings}\n{material}", self.table.display());

@@ -4,17 +4,17 @@ use measurements::friction::FrictionNoise;
 use viscofriction::friction_fit::FittedFriction;
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series, Shape};
 
-/// Margin above and below the values, over their range (chosen).
+/// Ratio of the margin above and below the values to their range. Chosen.
 const MARGIN: f64 = 0.06;
 
-/// Approximate number of temperatures in the legend, besides the last one (chosen).
+/// Approximate number of temperatures in the legend, besides the last one. Chosen.
 const LABELLED: usize = 6;
 
 /// The figure of a fit; `curve` is the computed friction over the reduced velocity, or empty, and `noise` that of the fit.
 pub(super) fn figure(found: &FittedFriction, curve: Vec<[f64; 2]>, noise: FrictionNoise) -> Figure {
     let measured = |at: usize| found.points[at].friction_coefficient;
     let fitted = |at: usize| found.fit.fitted[at];
-    // Without standard errors the bars are the scatter around the fit.
+    // Points without standard errors get the scatter around the fit as their bars.
     let error = |at: usize| {
         let scatter = match noise {
             FrictionNoise::Relative => found.fit.residual * fitted(at).abs(),
@@ -54,7 +54,7 @@ pub(super) fn figure(found: &FittedFriction, curve: Vec<[f64; 2]>, noise: Fricti
     let mut residuals = markers(&|at| measured(at) / fitted(at) - 1.0, &|at| {
         error(at) / fitted(at).abs()
     });
-    // The legend of the first chart says it.
+    // Remove the labels of the residuals, because the legend of the first chart explains the colours.
     residuals.iter_mut().for_each(|one| one.label = None);
     let charts = [
         chart([speeds, "friction coefficient μ"], friction),

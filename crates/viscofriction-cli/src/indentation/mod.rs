@@ -175,7 +175,7 @@ pub(crate) fn fit(options: &FitIndentation) -> Result<()> {
     let header = "time_s depth_m force_n force_fit_n";
     out.write("fit.csv", &to_csv(header, &fit.points)?)?;
     out.draw("fit", &picture::figure(&fit))?;
-    // Write the material last, so that its presence implies the others. Flags precede the numbers as comments.
+    // Write the material file last, so that its presence implies the others. Flags and findings precede the numbers as comments.
     let findings = options.table(&fit).replace('\n', "\n# ");
     let [lowest, highest] = fit.valid_frequencies;
     let measured = format!("valid_frequencies = [{lowest:?}, {highest:?}]\n");

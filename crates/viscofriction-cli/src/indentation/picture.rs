@@ -3,7 +3,7 @@
 use measurements::indentation::IndentationFit;
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series, Shape};
 
-/// Largest number of points drawn; of more every n-th (chosen).
+/// Largest number of points that are drawn; of more points every n-th is. Chosen.
 const MAX_POINTS: usize = 1500;
 
 /// The figure of a fit: force over time, force over the depth from the contact point, and residuals in units of their standard

@@ -354,6 +354,6 @@ impl Fitted<'_> {
     }
 }
 
-/// Rms relative error of a modulus up to which systematic errors are not reported (chosen: smaller than errors that matter for
-/// friction).
+/// Largest rms relative error of a modulus up to which systematic errors are not reported. Chosen: smaller than errors that
+/// matter for friction.
 const MIN_REPORTED_RMS: f64 = 0.01;

@@ -15,7 +15,7 @@ use crate::output::{OutputFolder, to_csv};
 /// Names of all files that a fit may write.
 pub(super) const NAMES: &str = "material.toml fit.csv fit.svg fit.png shifts.csv";
 
-/// Points per decade of the drawn curve of the series (chosen; output only).
+/// Number of points per decade of the drawn curve of the series. Chosen; it changes the picture only.
 const POINTS_PER_DECADE: f64 = 30.0;
 
 /// Writes material.toml, fit.csv, fit.svg and fit.png; with several isotherms also shifts.csv.
@@ -28,12 +28,12 @@ pub(super) fn write(fitted: &Fitted<'_>, folder: &OutputFolder) -> Result<()> {
     if let Some(shifted) = fitted.isotherms() {
         out.write("shifts.csv", &to_csv(SHIFTS, shifts(fitted, shifted))?)?;
     }
-    // Write the material last, so that its presence implies the others.
+    // Write the material file last, so that its presence implies the others.
     out.write("material.toml", material(fitted).as_bytes())?;
     out.finish()
 }
 
-/// Columns of shifts.csv.
+/// Names of the columns of shifts.csv, which has one row for each isotherm.
 const SHIFTS: &str = "temperature log10_shift_factor log10_shift_factor_error vertical_shift_factor \
     vertical_shift_factor_error placed_by_law";
 

@@ -94,10 +94,10 @@ fn residuals(comparison: &Comparison, column: usize) -> Vec<Series> {
     all.filter(|series| !series.points.is_empty()).collect()
 }
 
-/// Approximate number of isotherms in the legend, besides the last one (chosen).
+/// Approximate number of isotherms in the legend, besides the last one. Chosen.
 const N_LABELLED: usize = 6;
 
-/// Smallest half range of the axis of errors, \[%] (chosen).
+/// Smallest half range of the axis of relative errors, \[%]. Chosen: smaller errors are drawn near zero.
 const MIN_HALF_RANGE: f64 = 0.01;
 
 /// A chart of signed values over a logarithmic axis, with 0 in the middle and a line there; `x` and `y` are the axis labels.

@@ -70,7 +70,7 @@ impl OutputFolder {
         check_names(path, &names, overwrite)?;
         fs::create_dir_all(&real).map_err(failed)?;
         let real = real.canonicalize().map_err(failed)?;
-        // Some systems cannot open folders; then there is no lock.
+        // Lock the folder against other runs. Some systems cannot open folders; then there is no lock.
         let folder = File::open(&real).ok();
         if let Some(folder) = &folder {
             lock(folder, path)?;
@@ -217,7 +217,8 @@ fn place(folder: &Path, names: &[&str]) -> io::Result<Option<Place>> {
     });
     Ok(match (has_answer, can_be_exchanged) {
         (true, false) => None,
-        // Other files in the folder need not be moved.
+        // A first answer is put into the folder itself if folders cannot be exchanged, or if it has other files, which then need
+        // not be moved.
         (false, _) if !(can_be_exchanged && entries.is_empty()) => Some(Place::Inside),
         _ => Some(Place::Beside),
     })

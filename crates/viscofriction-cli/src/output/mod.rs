@@ -70,7 +70,7 @@ pub(crate) fn is_closed_pipe(error: &anyhow::Error) -> bool {
     cause.is_some_and(|cause: &io::Error| cause.kind() == ErrorKind::BrokenPipe)
 }
 
-/// Line below the warnings of a command.
+/// Line below the warnings of a command, which names the page that explains them.
 pub(crate) const ABOUT_WARNINGS: &str = "about warnings: docs/numbers.md";
 
 /// Prints a line to the standard error; errors are ignored.
@@ -219,7 +219,7 @@ fn new_part(start: &str, folder: &Path) -> io::Result<NamedTempFile> {
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt as _;
-        // The system applies the umask.
+        // Ask for the rights of an ordinary file, because temporary files have fewer; the system applies the umask.
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
     let part = builder.tempfile_in(folder)?;

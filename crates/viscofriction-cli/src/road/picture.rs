@@ -7,11 +7,12 @@ use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series
 use super::Row;
 use crate::run::range_with_zero;
 
-/// Root mean square slope above which linear theory is rough, see docs/road.md.
+/// Root mean square slope above which linear theory is only a rough approximation, see docs/road.md.
 const STEEPEST: f64 = 0.5;
-/// Shortest wavelength that an instrument resolves, in points of its map (chosen, see docs/road.md).
+/// Ratio of the shortest wavelength that an instrument resolves to the spacing of the points of its map. Chosen, see
+/// docs/road.md.
 const POINTS_PER_WAVE: f64 = 4.0;
-/// Margin at each end of the wavelengths, as a factor (chosen).
+/// Factor by which the axis extends beyond the shortest and the longest wavelength. Chosen.
 const ROOM: f64 = 1.25;
 
 /// The figure of a cut-off series; `spacing` is that of the points of a measured map, \[m].
@@ -83,7 +84,7 @@ fn chart(key: &str, (theory, name): (&str, &str), rows: &[Row], limits: &[Limit]
             longest * ROOM.max(2.0 * shortest / longest),
         ],
     );
-    // Dots leave bars visible that are smaller than other markers.
+    // Draw the computed values as dots, which leave bars visible that are smaller than other markers.
     let computed = Series {
         marker: Some(Marker::filled(Shape::Dot)),
         errors,

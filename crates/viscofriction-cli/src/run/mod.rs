@@ -96,7 +96,8 @@ pub(crate) fn run(options: &Run) -> Result<()> {
     let source = read_scene(&options.scene)?;
     let problem = problem_of(&source, options.method, read_input)?;
     let problem = problem.or_max_memory(half_of_free_memory());
-    // Choose the method and validate the request before anything is computed.
+    // Choose the method, and refuse derivatives that it cannot compute and an output folder that cannot be written, before the
+    // computation.
     let plan = plan_of(&source, &problem)?;
     let offered = options.check_derivatives(&problem, plan.method());
     offered.map_err(|error| source.locate(&error))?;
@@ -104,7 +105,7 @@ pub(crate) fn run(options: &Run) -> Result<()> {
     let out = options.out.as_ref().map(open).transpose()?;
     let path = source.path().display();
     let task = format!("{path} by {}", plan.method().name());
-    // Solve; a missed request may still have an answer.
+    // Solve the problem. If the requested error is missed, the error may still contain an answer, which is kept.
     let started = Instant::now();
     let answer = progress::during(task, |watch| in_pool(plan, problem.threads(), watch));
     let seconds = started.elapsed().as_secs_f64();
@@ -118,7 +119,7 @@ pub(crate) fn run(options: &Run) -> Result<()> {
             None => return Err(error.context(path.to_string())),
         },
     };
-    // Add derivatives and fields.
+    // Add the derivatives that are requested, and the fields if files are written.
     if missed.is_none() {
         (answer, missed) = with_derivatives(options, (&source, &problem), answer)?;
     }

@@ -4,7 +4,7 @@ use anyhow::{Context, Result};
 use viscofriction::{Answer, PressureField};
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Field, Figure, Line, Marker, Series, Shape};
 
-/// Fraction of the load on the elements that have the darkest colour of a logarithmic scale (chosen). Without it single
+/// Fraction of the load that is on the elements with the darkest colour of a logarithmic scale. Chosen. Without it single
 /// elements at the edge of the contact, many decades below the others, would determine the scale.
 const DARKEST_LOAD_FRACTION: f64 = 0.01;
 
@@ -19,12 +19,13 @@ pub(super) enum Shown {
     Quarter,
 }
 
-/// Smallest height over width of a map beside whose colour bar a long label fits (chosen).
+/// Smallest ratio of height to width of a map beside whose colour bar a long label fits. Chosen.
 const TALL: f64 = 0.85;
-/// Largest height over width of a map above which a long title fits, and a short one (chosen).
+/// Largest ratios of height to width of a map above which a long title fits, and a short one. Chosen.
 const WIDE: [f64; 2] = [1.4, 4.0];
 
-/// Largest ratio of the sides of a map with true proportions (chosen). A narrower one has no room for labels, and axes of its own scales.
+/// Largest ratio of the sides of a map that is drawn with true proportions. Chosen. A narrower one has no room for labels, and
+/// gets a scale of its own on each axis.
 const MAX_SIDE_RATIO: f64 = 6.0;
 
 /// Map of the pressure, on a logarithmic scale if the peak is unbounded.
@@ -178,7 +179,7 @@ pub(crate) fn arrow(x: [f64; 2], y: [f64; 2], is_true: bool) -> Series {
     Series::line(points, Line::thick(Dash::Solid), Colour::Black)
 }
 
-/// Arrowheads on a curve over another quantity than time (chosen).
+/// Number of arrowheads on a curve over another quantity than time. Chosen.
 const ARROWS: usize = 4;
 
 /// A quantity over another as a line, with arrowheads that show in which direction it is passed.
@@ -237,6 +238,6 @@ pub(crate) fn range_with_zero(values: impl Iterator<Item = f64>) -> [f64; 2] {
         [low.min(value), high.max(value)]
     });
     let room = if high > low { 0.05 * (high - low) } else { 1.0 };
-    // The margin keeps markers inside the frame.
+    // The margin at both ends keeps markers inside the frame.
     [low - room, high + room]
 }

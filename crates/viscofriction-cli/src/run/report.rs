@@ -222,7 +222,7 @@ fn moduli_figure(problem: &Problem, answer: &Answer) -> Option<Figure> {
     })
 }
 
-/// Ratio of the highest drawn frequency to v/L, and of v/L to the lowest, with the contact length L (chosen).
+/// Ratio of the highest drawn frequency to v/L, and of v/L to the lowest, with the speed v and the contact length L. Chosen.
 const FREQUENCY_HALF_RANGE: f64 = 1e3;
 
 /// Caption of a picture by the name of its file.

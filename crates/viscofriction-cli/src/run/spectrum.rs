@@ -10,16 +10,16 @@ use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series
 use super::pictures::range_with_zero;
 use crate::output::markdown;
 
-/// Fraction of the sum of the absolute derivatives of friction, over all bands, above which a band has a row in the table
-/// (chosen).
+/// Smallest fraction of the sum of the absolute derivatives of friction by all bands with which a band has a row in the table.
+/// Chosen.
 const MIN_FRACTION_IN_TABLE: f64 = 0.01;
-/// Fraction of the sum of the absolute derivatives of friction, over all bands, above which a band has a point in the picture
-/// (chosen).
+/// Smallest fraction of the sum of the absolute derivatives of friction by all bands with which a band has a point in the
+/// picture. Chosen.
 const MIN_FRACTION_IN_PICTURE: f64 = 1e-4;
-/// Points per decade of a master curve (chosen; output only).
+/// Number of points per decade of a master curve. Chosen; it changes the picture only.
 const POINTS_PER_DECADE: f64 = 20.0;
 
-/// Colours of storage and loss modulus.
+/// Colours of the storage and the loss modulus, in this order.
 const COLOURS: [Colour; 2] = [Colour::Blue, Colour::Red];
 
 /// Derivatives d ln q/d ln G' and d ln q/d ln G'' of the quantity `key` in a band; `None` if they are not known.

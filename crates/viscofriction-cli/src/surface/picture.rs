@@ -9,13 +9,14 @@ use viscofriction_plot::{Axis, Chart, Colour, Dash, Field, Figure, Line, Marker,
 use crate::material::decades;
 use crate::run::arrow;
 
-/// Largest aspect ratio of a map drawn to scale (chosen).
+/// Largest ratio of the longer to the shorter side of a map that is drawn to scale. Chosen.
 const MAX_ASPECT_RATIO: f64 = 1.6;
-/// Shortest wavelength that an instrument resolves, in points of its map (chosen, see docs/road.md).
+/// Ratio of the shortest wavelength that an instrument resolves to the spacing of the points of its map. Chosen, see
+/// docs/road.md.
 const POINTS_PER_WAVE: f64 = 4.0;
-/// Smallest number of rings of a line fitted to a spectrum (chosen).
+/// Smallest number of rings of a spectrum, means over equal wave numbers, to which a line is fitted. Chosen.
 const FEWEST_RINGS: usize = 4;
-/// Steepest exponent of the shortest waves that counts as noise, whose spectrum is constant (chosen).
+/// Exponent of the spectrum of the shortest waves above which they count as noise, whose spectrum is constant. Chosen.
 const FLAT: f64 = -1.0;
 
 /// The figure of a map.

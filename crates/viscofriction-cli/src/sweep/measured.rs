@@ -14,14 +14,14 @@ use crate::output::eprint_line;
 
 /// Key over which measured and computed friction are compared.
 pub(super) const SPEED: &str = "load.velocity";
-/// Largest difference of the logarithms of two speeds that count as one (chosen, above the rounding of the table).
+/// Largest difference of the natural logarithms of two speeds that count as one. Chosen, above the rounding of the table.
 const SAME_SPEED: f64 = 1e-9;
-/// Largest relative difference between a measured normal force and that of its curve (chosen).
+/// Largest relative difference between a measured normal force and that of a computed curve with which both are compared. Chosen.
 const SAME_FORCE: f64 = 0.02;
-/// Largest difference between a measured temperature and that of its curve, \[K] (chosen).
+/// Largest difference between a measured temperature and that of a computed curve with which both are compared, \[K]. Chosen.
 const SAME_TEMPERATURE: f64 = 1.0;
-/// Smallest number of computed speeds for an interpolation: three define a parabola, whose difference from linear interpolation
-/// is the error estimate.
+/// Smallest number of computed speeds for an interpolation. Derived: three define a parabola, whose difference from linear
+/// interpolation is the error estimate.
 const MIN_NODES: usize = 3;
 
 /// A quantity of the table on which friction depends beside the speed.
@@ -99,7 +99,7 @@ impl Measured {
             "--vary {SPEED}={:e}:{:e}:20:log covers the table",
             speeds[0], speeds[1]
         );
-        // The picture is over the speed, and the ranges overlap.
+        // Measured points can only be drawn if the picture is over the speed, and if measured and computed speeds overlap.
         let over = abscissa(&keys).filter(|over| keys[*over].name == SPEED);
         let Some(over) = over else {
             return Err(wrong(format!(
@@ -114,7 +114,7 @@ impl Measured {
                 range(computed, "m/s")
             )));
         }
-        // Every other quantity of the table is that of a curve.
+        // Refuse a table whose normal forces or temperatures are not those of the computed curves.
         for condition in &CONDITIONS {
             let Condition {
                 name, unit, key, ..
@@ -225,7 +225,7 @@ impl Measured {
         table: &RowTable,
     ) -> Vec<Compared<'a>> {
         let [values, errors] = ["", "_error"].map(|end| table.numbers(&format!("{FRICTION}{end}")));
-        // Collect the computed friction of each curve.
+        // Collect the computed friction over the speed, one curve for each combination of the other keys.
         let mut curves: Vec<Curve> = Vec::new();
         for (row, speed) in speeds.iter().enumerate() {
             let cells: Vec<&str> = others.iter().map(|key| key.cells[row]).collect();
@@ -242,7 +242,7 @@ impl Measured {
                 });
             }
         }
-        // Interpolate it at the speeds of the points that were measured under the conditions of the curve.
+        // Interpolate the computed friction at the speeds of the points that were measured under the conditions of the curve.
         let mut compared = Vec::new();
         for Curve {
             row,

@@ -118,7 +118,7 @@ pub(crate) fn sweep(options: &Sweep) -> Result<()> {
         measured.check(&rows_without_results(&plan))
     })?;
     let threads = plan.validate(&points)?.unwrap_or(0);
-    // Compute them.
+    // Compute the points, into the file if one is given.
     let Computed {
         rows,
         n_failed_before,
@@ -250,7 +250,7 @@ fn compute_into_file(
     let path = checked(out, existing)?;
     let open = || SweepFile::open(path.clone(), plan, existing);
     let (mut file, pictures) = match existing {
-        // Report rows of another sweep before their picture.
+        // If the file exists, open it first, so that rows of another sweep are reported before their picture.
         Existing::GoOn if path.exists() => {
             let fingerprint = &plan.fingerprint;
             (open()?, PictureFiles::resumed(out, measured, fingerprint)?)
@@ -260,13 +260,13 @@ fn compute_into_file(
             (open()?, pictures)
         }
     };
-    // Claim rows and pictures for this sweep.
+    // Mark rows and pictures as those of this sweep, so that an interrupted run can go on.
     pictures.remove_parts();
     if existing == Existing::Replace {
         pictures.claim(&plan.fingerprint)?;
     }
     file.begin(plan)?;
-    // Compute the missing points, then sort and draw all rows.
+    // Compute the points whose rows are missing, then sort all rows and draw them.
     let stays = |(_, has_answer): &(usize, bool)| *has_answer || !options.retry_failed;
     let there: BTreeMap<usize, bool> = file.points().filter(stays).collect();
     points.retain(|point| !there.contains_key(point));
@@ -298,7 +298,7 @@ fn compute(
         .build()?;
     let bar = progress::bar("sweep", points.len());
     let (finished, rows) = mpsc::channel();
-    // Stop computing when the receiver is gone.
+    // Stop computing when the receiver of the rows is gone, because nothing would keep them.
     let send = move |row| match finished.send(row) {
         Ok(()) => ControlFlow::Continue(()),
         Err(_) => ControlFlow::Break(()),

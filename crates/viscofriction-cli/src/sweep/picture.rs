@@ -24,12 +24,12 @@ const DRAWN: [&str; 4] = [
     "normal_force",
     "contact_area",
 ];
-/// Column of the friction coefficient.
+/// Name of the column of the friction coefficient.
 pub(super) const FRICTION: &str = "friction_coefficient";
-/// Range of the steps between values, over the largest step, up to which they count as equal (chosen, above rounding); for
-/// factors, of the logarithms.
+/// Ratio of the spread of the steps between values to the largest step up to which they count as equal; for factors, of the
+/// logarithms. Chosen, above rounding.
 const EQUAL_STEP_TOLERANCE: f64 = 1e-6;
-/// Ratio of the last to the first of irregularly spaced values from which the axis is logarithmic (chosen).
+/// Ratio of the last to the first of irregularly spaced values above which the axis is logarithmic. Chosen.
 const MIN_LOGARITHMIC_RATIO: f64 = 100.0;
 
 /// The output files beside the rows: picture as SVG and PNG, and report.
@@ -154,7 +154,7 @@ fn figure(table: &RowTable, measured: Option<&Measured>, is_per_length: bool) ->
     let values = |name: &str| table.numbers(name);
     let is_known = |name: &str| values(name).iter().any(Option::is_some);
     let mut keys = keys(table)?;
-    // A key that varies is no result.
+    // A quantity whose key is varied is given, hence is not drawn as a result.
     let varies = |name: &str| {
         let mut names = keys.iter().map(|key| key.name.rsplit('.').next());
         names.any(|last| last == Some(name))
@@ -180,7 +180,7 @@ fn figure(table: &RowTable, measured: Option<&Measured>, is_per_length: bool) ->
         values: values(name),
         errors: values(&format!("{name}_error")),
         of_material: values(&format!("{name}_material_error")),
-        // Only friction has a column of theory.
+        // Read the theory of the quantity, whose column only friction has.
         theory: values(&format!("persson_{name}_2006")),
     };
     let over = keys.remove(abscissa(&keys).context("no key that varies has numbers")?);
@@ -226,12 +226,12 @@ pub(super) fn drawable() -> impl Iterator<Item = &'static Quantity> {
     DRAWN.into_iter().filter_map(Quantity::named)
 }
 
-/// Smallest number of decimals of a number in a legend, in scientific notation (chosen).
+/// Smallest number of decimals of a number in a legend in scientific notation. Chosen.
 const MIN_DECIMALS: usize = 2;
 /// Largest number of decimals of a number in a legend: 17 digits are exact for f64.
 const MAX_DECIMALS: usize = 16;
 
-/// Largest number of curves in a chart (chosen).
+/// Largest number of curves that are drawn in one chart. Chosen.
 const MAX_CURVES: usize = 6;
 
 /// A varied key with its cell in each row.
@@ -478,7 +478,7 @@ fn axis(label: &str, places: &[f64], [low, high]: [f64; 2]) -> Axis {
     Axis::linear(label, [low - room, high + room])
 }
 
-/// Margin at each end of an axis, as a fraction of its length (chosen).
+/// Ratio of the margin at each end of an axis to its length. Chosen.
 const AXIS_MARGIN: f64 = 0.03;
 
 /// Colours of successive curves.

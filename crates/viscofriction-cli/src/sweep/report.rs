@@ -53,7 +53,7 @@ pub(super) fn page(
     Ok(page.finish())
 }
 
-/// Columns of theories, and their labels.
+/// Columns with results of theories, each with its label in the report.
 const THEORIES: [(&str, &str); 2] = [
     (
         "persson_friction_coefficient_2006",

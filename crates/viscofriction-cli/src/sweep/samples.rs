@@ -31,7 +31,7 @@ impl Samples {
         let number = |row: usize, column: usize| table.rows[row].fields[column].parse::<f64>().ok();
         let is_nominal = |row: &usize| number(*row, key) == Some(0.0);
         let row = (0..table.rows.len()).find(is_nominal)?;
-        // A given quantity has no uncertainty.
+        // A quantity that the scene gives has no column of an uncertainty, and is left out.
         let known = |quantity: &Quantity| {
             let uncertainty = number(row, place(&format!("{}_uncertainty", quantity.key))?)?;
             let column = place(quantity.key)?;
@@ -118,7 +118,7 @@ impl Samples {
     }
 }
 
-/// Distance from the mean up to which the normal distribution is drawn, in standard deviations (chosen).
+/// Distance from the mean up to which the normal distribution is drawn, in standard deviations. Chosen.
 const HALF_RANGE: f64 = 4.0;
-/// Steps of the drawn normal distribution on each side of the mean, over which its density is summed (chosen).
+/// Number of steps of the drawn normal distribution on each side of the mean, over which its density is summed. Chosen.
 const STEPS_PER_SIDE: i32 = 200;
