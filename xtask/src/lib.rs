@@ -30,7 +30,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-// Only for its features: see Cargo.toml.
+// This crate is a dependency only to choose its features: see Cargo.toml.
 use measurements as _;
 
 pub use output::WrongInput;

@@ -4,14 +4,15 @@ use std::time::Instant;
 
 use cpu_time::ProcessTime;
 
-/// Largest number of runs of which one median is taken. Odd, so that the median is one of them; five survive two disturbed
-/// runs.
+/// Largest number of runs of which one median is taken. Chosen: it is odd, so that the median is one of them, and five survive
+/// two disturbed runs.
 const MAX_RUNS: f64 = 5.0;
-/// The same where a run is shorter than [`SHORT_RUN`]: the resolution of the clock and the scheduler then disturb more runs.
+/// Largest number of runs of one median where a run is shorter than [`SHORT_RUN`]. Chosen: the resolution of the clock and the
+/// scheduler then disturb more runs.
 const MAX_SHORT_RUNS: f64 = 101.0;
-/// Processor time below which a run counts as short, \[s].
+/// Processor time below which a run counts as short, \[s]. Chosen.
 const SHORT_RUN: f64 = 2e-3;
-/// Processor time that all runs of one median may take together, \[s]; chosen, as a bound on the time of an experiment.
+/// Processor time that all runs of one median may take together, \[s]. Chosen, as a bound on the time of an experiment.
 const MAX_TOTAL: f64 = 3.0;
 
 /// Time that a computation took.

@@ -44,7 +44,7 @@ impl Random {
 
     /// One of the items, each as likely as any other.
     pub(crate) fn choice<T: Copy>(&mut self, items: &[T]) -> T {
-        // Not the truncated product itself: rounding could make it the number of items.
+        // Count the items that the product passes instead of truncating it, because rounding could make it the number of items.
         let mark = self.uniform() * items.len() as f64;
         let passed = |index: &usize| *index as f64 <= mark;
         items[(1..items.len()).take_while(passed).count()]

@@ -60,8 +60,9 @@ impl Table {
     }
 }
 
-/// Items whose rows [`GrowingTable::extend`] computes before it writes the file, where an item takes seconds. Chosen: several
-/// times the number of cores, so that none waits long for the last of a chunk; an interruption loses less than this work.
+/// Number of items whose rows [`GrowingTable::extend`] computes before it writes the file, where an item takes seconds. Chosen:
+/// it is several times the number of cores, so that none waits long for the last of a chunk. An interruption loses less than this
+/// work.
 pub(crate) const ROWS_AT_ONCE: usize = 64;
 
 /// A table whose file is written as it grows, so that an interrupted run goes on where it was.
@@ -173,7 +174,7 @@ pub(crate) fn known_digits(value: f64, error: Option<f64>) -> String {
     if value == 0.0 || value.fract() == 0.0 && value.abs() < 1e6 {
         return value.to_string();
     }
-    // Powers of ten of the first digit of the number and of the digit that the error makes uncertain.
+    // Find the powers of ten of the first digit of the number and of the digit that the error makes uncertain.
     let first = value.abs().log10().floor();
     let last = error.map_or(f64::NEG_INFINITY, |error| error.log10().ceil());
     let is_below = |count: f64| move |&digit: &usize| (digit as f64) < count;

@@ -80,7 +80,7 @@ fn has_extension(file: &Path, extension: &str) -> bool {
 /// `place` is the path of the file below `docs`; it decides how many `../` lead out of there. Code stays as it is.
 fn for_mdbook(page: &str, place: &Path) -> Result<String> {
     let to_root = "../".repeat(place.components().count());
-    // Edits are collected first, since the parser borrows the page and its ranges are those of the original.
+    // Collect the edits first, since the parser borrows the page and its ranges are those of the original.
     let mut edits: Vec<(Range<usize>, String)> = Vec::new();
     let mut is_code = false;
     for (event, range) in Parser::new_ext(page, SYNTAX).into_offset_iter() {
@@ -101,7 +101,8 @@ fn for_mdbook(page: &str, place: &Path) -> Result<String> {
             }
             Event::Start(Tag::CodeBlock(_)) => is_code = true,
             Event::End(TagEnd::CodeBlock) => is_code = false,
-            // Unbalanced braces, for example, are no formula for the parser of Markdown.
+            // Refuse a `$` that is left in the text: the parser of Markdown takes a formula with unbalanced braces, for example,
+            // for text.
             Event::Text(text) if !is_code => {
                 ensure!(
                     !text.contains('$'),
@@ -111,7 +112,8 @@ fn for_mdbook(page: &str, place: &Path) -> Result<String> {
             _ => {}
         }
     }
-    // The address of a link is behind the formulas of its text. From the end, so that earlier ranges stay valid:
+    // Apply the edits from the end of the page, so that earlier ranges stay valid. They are sorted first, because the address of
+    // a link comes after the formulas of its text.
     edits.sort_by_key(|(range, _)| range.start);
     let mut converted = page.to_owned();
     for (range, text) in edits.iter().rev() {
@@ -123,7 +125,7 @@ fn for_mdbook(page: &str, place: &Path) -> Result<String> {
 /// A formula in LaTeX as MathML, with every character that Markdown would interpret written as a numeric entity.
 fn mathml(formula: &str, display_mode: DisplayMode) -> Result<String> {
     let storage = Storage::new();
-    // The writer would draw what it cannot read as an error in red.
+    // Refuse a formula that the parser cannot read, because the writer would draw the error in red.
     let events: Result<Vec<_>, ParserError> =
         pulldown_latex::Parser::new(formula, &storage).collect();
     let events = events.with_context(|| format!("the formula ${formula}$"))?;
@@ -137,7 +139,7 @@ fn mathml(formula: &str, display_mode: DisplayMode) -> Result<String> {
         events.into_iter().map(Ok::<_, ParserError>),
         config,
     )?;
-    // What pulldown-latex 0.8 writes of `\Big(` and `<` is neither XML nor a tag of Markdown.
+    // Repair what pulldown-latex 0.8 writes for `\Big(` and `<`, which is neither XML nor a tag of Markdown.
     let mathml = mathml.replace("\"minsize=", "\" minsize=");
     let mathml = mathml.replace("<mo><</mo>", "<mo>&lt;</mo>");
     let mut escaped = String::new();
@@ -156,7 +158,7 @@ fn mathml(formula: &str, display_mode: DisplayMode) -> Result<String> {
 fn dead_links(folder: &Path) -> Result<Vec<String>> {
     let mut dead = Vec::new();
     for page in files(folder)? {
-        // The page for unknown addresses has links from the root of its server.
+        // Skip the page for unknown addresses, because its links begin at the root of its server.
         if !has_extension(&page, "html") || page.ends_with("404.html") {
             continue;
         }

@@ -14,7 +14,7 @@ pub(crate) fn workspace_root() -> PathBuf {
 
 /// Cargo with arguments that are separated by blanks, in the folder of the workspace.
 pub(crate) fn cargo(arguments: &str) -> Command {
-    // Under `cargo xtask` this is the cargo that runs it.
+    // Run the cargo that runs `cargo xtask`, which it names in this variable.
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let mut command = Command::new(cargo);
     command.args(arguments.split_whitespace());
@@ -52,7 +52,7 @@ impl Cargo {
         let mut command = cargo(arguments);
         command.stdout(input.try_clone()?).stderr(input);
         let mut child = command.spawn().context("calling cargo")?;
-        // With it go our ends of the pipe, which then closes when the child ends.
+        // Drop the command, and with it our ends of the pipe, which then closes when the child ends.
         drop(command);
         for line in BufReader::new(output).split(b'\n') {
             let line = line?;
@@ -81,7 +81,8 @@ impl Cargo {
 
     /// Adds the tests passed and failed if `line` is the closing line of a run of cargo or nextest; ignores other lines.
     fn count(&mut self, line: &str) {
-        // A test that failed has its own run with it, indented.
+        // Count a line of `test result` only if no blank precedes it: a test that has failed shows its own run below it,
+        // indented.
         if !line.starts_with("test result: ") && !line.trim_start().starts_with("Summary [") {
             return;
         }

@@ -23,7 +23,7 @@ pub(crate) struct Dependencies {
 /// fails where they differ from the current dependencies.
 const COMMITTED: &str = "docs/dependencies.md";
 
-/// The generated part begins at the first occurrence of this; tables in the text above have another first column.
+/// Text at whose first occurrence the generated part of the page begins; tables in the text above have another first column.
 const CRATES_HEAD: &str = "\n| crate |";
 /// Head of the table of how many crates each library pulls in.
 const CRATES: &str = "
@@ -84,7 +84,7 @@ fn rows(library: &str) -> Result<Vec<String>> {
     let all = tree(library, "normal,build")?;
     let linked = tree(library, "normal,no-proc-macro")?;
     let [distinct_all, linked] = [&all[1..], &linked[1..]].map(distinct);
-    // Behind the version of a crate of the workspace stands its folder.
+    // Tell the crates of this workspace from others by the folder that is listed behind their version.
     let ours = linked.iter().filter(|name| name.ends_with(')')).count();
     let others = linked.len() - ours;
     let building = distinct_all.difference(&linked).count();

@@ -50,7 +50,7 @@ fn steps(cargo: &mut Cargo) -> Result<()> {
         programs.try_for_each(|mut program| run_program(&mut program))
     })?;
     step("crates alone, without features", || {
-        // Crates that are built together unite their features.
+        // Check each library alone, because crates that are built together unite their features.
         workspace.libraries().try_for_each(|library| {
             cargo.run(&format!(
                 "check --profile ci --no-default-features --all-targets --package {library}"
@@ -62,7 +62,7 @@ fn steps(cargo: &mut Cargo) -> Result<()> {
         cargo.run(&format!("doc {all} --no-deps {deny}"))
     })?;
     step("packages", || {
-        // Packs what would be published, without compiling it once more.
+        // Pack what would be published, without compiling it once more.
         cargo.run(&format!(
             "package {PACKAGES} --no-verify --allow-dirty --offline"
         ))

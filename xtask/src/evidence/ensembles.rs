@@ -13,27 +13,28 @@ use super::{Outcomes, Report, Share};
 use crate::table::markdown_table;
 use crate::tasks::in_turn;
 
-/// Number of random spectra of a full run and of a quick one: of 200 the fraction within two standard errors has itself a
-/// standard deviation of 1.5 %.
+/// Number of random spectra of a full run and of a quick one. Chosen: with 200 the fraction within two standard errors has itself
+/// a standard deviation of 1.5 %.
 const SCENES: [usize; 2] = [200, 3];
 /// Largest number of elements along the edge of a period. Chosen, so that the thousands of surfaces of a full run are
 /// affordable: a surface that needs more is answered with a wider error bar.
 const MAX_ELEMENTS: usize = 512;
-/// Relative error requested for each surface; of the order of the standard errors, so that few surfaces need fine grids.
+/// Relative error requested for each surface. Chosen of the order of the standard errors, so that few surfaces need fine grids.
 const RELATIVE_ERROR: f64 = 0.05;
-/// Relative standard errors requested of the judged mean and of the mean with which it is compared. The second is smaller, so
-/// that the standard error of the difference is mainly that of the judged mean.
+/// Relative standard errors requested of the judged mean and of the mean with which it is compared. Chosen: the second is
+/// smaller, so that the standard error of the difference is mainly that of the judged mean.
 const STANDARD_ERRORS: [f64; 2] = [0.05, 0.02];
-/// First seeds of the two means in scene 0; so far apart that no scene takes the same surface for both.
+/// First seeds of the two means in scene 0. Chosen so far apart that no scene takes the same surface for both.
 const FIRST_SEEDS: [u64; 2] = [1, 1_000_000];
-/// Seeds reserved for each mean of one scene: more than the surfaces that a mean may take.
+/// Number of seeds reserved for each mean of one scene. Chosen: more than the surfaces that a mean may take.
 const SEEDS_PER_SCENE: u64 = 2000;
-/// A mean holds if it deviates by no more than this number of standard errors of the difference.
+/// Largest deviation with which a mean holds, in standard errors of the difference. Chosen.
 const COVERAGE_FACTOR: f64 = 2.0;
-/// Fraction of the means that must hold. Of a normal distribution 95 % are within two standard errors; fewer, because the
-/// standard errors are themselves estimates from few surfaces.
+/// Smallest fraction of the means that must hold. Chosen: of a normal distribution 95 % are within two standard errors; fewer,
+/// because the standard errors are themselves estimates from few surfaces.
 const MIN_COVERAGE: f64 = 0.92;
-/// Binomial standard deviations by which the observed fraction may fall short of [`MIN_COVERAGE`] before the command fails.
+/// Number of binomial standard deviations by which the observed fraction may fall short of [`MIN_COVERAGE`] before the command
+/// fails. Chosen.
 const ALLOWED_SCATTER: f64 = 3.0;
 
 /// Two means of one quantity over surfaces of one spectrum. A column without `compared` is of the judged mean.
@@ -120,7 +121,7 @@ fn compared(scene: usize, given: &Scene) -> Result<Vec<Row>> {
         let [(value, error), (reference, reference_error)] = [of(&one)?, of(&other)?];
         let deviation = value.value - reference.value;
         let of_both = error.standard_error.hypot(reference_error.standard_error);
-        // Surfaces that all have the same answer leave no standard error; then the error bars of the answers decide.
+        // Judge by the error bars of the answers if all surfaces have the same answer, because then there is no standard error.
         let nothing = deviation.abs() <= value.error + reference.error && of_both == 0.0;
         Some(Row {
             scene,

@@ -2,9 +2,10 @@
 
 use numerics::Estimate;
 
-/// Smallest number of points of a fit: one more than its two parameters, without which there is no residual to judge it by.
+/// Smallest number of points of a fit. Derived: one more than its two parameters, without which there is no residual to judge it
+/// by.
 const MIN_POINTS: usize = 3;
-/// Smallest ratio of the largest abscissa to the smallest of a fit; chosen: over a shorter span the exponent is mostly noise.
+/// Smallest ratio of the largest to the smallest abscissa of a fit. Chosen: over a shorter span the exponent is mostly noise.
 const MIN_SPAN: f64 = 2.0;
 
 /// The [`exponent`] of positive points (x, y); `None` of fewer than [`MIN_POINTS`], of a span below [`MIN_SPAN`], and where
@@ -42,8 +43,8 @@ mod tests {
     #[test]
     fn exponents_and_their_standard_errors_are_those_of_least_squares() {
         let exact = [1.0, 2.0, 5.0, 20.0].map(|x: f64| [x, 3.0 * x.powf(-1.5)]);
-        // In logarithms: slope 5/2, misfits 1/2, −1, 1/2, variance 3/2 over one degree of freedom and a sum of squares
-        // of 2.
+        // In logarithms the points have the slope 5/2 and the misfits 1/2, −1, 1/2. Their variance is 3/2 over one degree of
+        // freedom. Divided by 2, the sum of squares of the abscissae, it is the squared error of the slope.
         let bent = [[0.0, 0.0], [1.0, 1.0], [2.0, 5.0]].map(|point| point.map(f64::exp));
         for (points, expected) in [
             (exact.to_vec(), Some([-1.5, 0.0])),

@@ -169,6 +169,6 @@ pub(super) fn first_reached(scene: &Scene, model: Model, errors: &[f64]) -> Resu
     result
 }
 
-/// Relative error that is assumed of closed forms: some hundred roundings of f64. Larger than any seen in tests; every error
-/// of a numerical method is far above.
+/// Relative error that is assumed of closed forms, some hundred roundings of f64. Chosen: larger than any seen in tests, and far
+/// below every error of a numerical method.
 pub(super) const ROUNDING: f64 = 1e-13;

@@ -41,7 +41,8 @@ enum Part {
     ErrorBars,
 }
 
-/// Elements in contact on the largest grid of a full run and of a quick one, unless the command line gives another number.
+/// Number of elements in contact on the largest grid of a full run and of a quick one, unless the command line gives another
+/// number. Chosen.
 const LARGEST: [f64; 2] = [1e5, 4e3];
 
 /// Makes the tables asked for; a quick run takes a dozen cheap cases and small grids only.
@@ -50,7 +51,7 @@ pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
     let wrong = format!("--largest must be between 2e3 and 1e7, but is {largest}");
     ensure!((2e3..=1e7).contains(&largest), WrongInput(wrong));
     let (mut tables, mut summaries) = (Vec::new(), Vec::new());
-    // Growth comes first, because the memory that it reports is the largest that the process has had.
+    // Measure the growth first, because the memory that it reports is the largest that the process has had.
     for part in [Part::Growth, Part::ErrorBars] {
         if !options.tables.is_empty() && !options.tables.contains(&part) {
             continue;
@@ -70,19 +71,20 @@ pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
     })
 }
 
-/// Elements in contact on the smallest grid of the growth table; on a smaller one constant costs prevail.
+/// Number of elements in contact on the smallest grid of the growth table. Chosen: on a smaller one constant costs prevail.
 const SMALLEST: f64 = 1e3;
-/// Δy/Δx of the elements: the default of the stationary solver.
+/// Aspect Δy/Δx of the elements, the ratio of width to length: the default of the stationary solver.
 const ASPECT: f64 = 0.5;
-/// Largest residual in contact relative to F_N/(4ηv); what the stationary solver takes for a relative error of 1e-3.
+/// Largest ratio of the residual in contact to F_N/(4ηv), the depth in the one-dimensional model under the normal force F_N, with
+/// the viscosity η and the speed v. It is what the stationary solver takes for a relative error of 1e-3.
 const TOLERANCE: f64 = 1e-7;
-/// Grids with more elements in contact determine the exponent of growth, if there are two of them; on smaller ones constant
-/// costs distort it. Just below 10⁴, where the second decade of grids begins.
+/// Number of elements in contact above which grids determine the exponent of growth, if there are two such grids. Chosen just
+/// below 10⁴, where the second decade of grids begins: on smaller grids constant costs distort the exponent.
 const MIN_FITTED_ELEMENTS: f64 = 9e3;
-/// Elements along the contact length of the grid from which the contact area is taken; it only decides how many elements the
-/// other grids will have in contact, for which a few per cent suffice.
+/// Number of elements along the contact length of the grid from which the contact area is taken. Chosen: the area only decides
+/// how many elements the other grids will have in contact, for which a few per cent suffice.
 const AREA_ELEMENTS: f64 = 40.0;
-/// Relative error of the extrapolated friction coefficient with which those of single grids are compared.
+/// Relative error requested of the extrapolated friction coefficient with which those of single grids are compared. Chosen.
 const REFERENCE_ERROR: f64 = 1e-4;
 
 /// One grid, from a cold start; coarser grids that the solver starts from are in its cost.
@@ -109,7 +111,7 @@ fn growth(largest: f64) -> Result<(Table, String)> {
     let solve = |spacing: f64| -> Result<SteadySliding> {
         scene.on_one_grid([spacing, ASPECT * spacing], [0.0; 2], TOLERANCE)
     };
-    // The area of the contact gives the spacing for a number of elements in contact.
+    // Compute the area of the contact, which gives the spacing for a number of elements in contact.
     let area = solve(scene.theory()?.contact_length() / AREA_ELEMENTS)?.contact_area;
     let steps = (2.0 * (largest / SMALLEST).log10()).round().max(1.0);
     let ratio = (largest / SMALLEST).powf(1.0 / steps);
@@ -147,15 +149,16 @@ fn growth(largest: f64) -> Result<(Table, String)> {
     Ok((table, summary))
 }
 
-/// Relative error requested of the solutions whose bars are judged in a quick run; a full run has that of `stationary.toml`.
+/// Relative error requested of the solutions whose bars are judged in a quick run. Chosen; a full run has that of
+/// `stationary.toml`.
 const QUICK_REQUESTED_ERROR: f64 = 3e-3;
 /// Aspects Δy/Δx of the elements on which each bar is computed: bars must hold for any of them.
 const ASPECTS: [f64; 3] = [0.5, 1.0, 2.0];
-/// Fraction of the bars that must hold: a bar is an estimate and no bound.
+/// Smallest fraction of the bars that must hold. Chosen: a bar is an estimate and no bound.
 const MIN_COVERAGE: f64 = 0.95;
-/// Largest acceptable median of bar over deviation: bars that are too wide would hold always. Chosen.
+/// Largest acceptable median of the ratio of bar to deviation. Chosen: bars that are too wide would always hold.
 const MAX_MEDIAN_BAR: f64 = 30.0;
-/// Number of cases, those with the largest deviation over bar, that the summary lists even if all bars hold.
+/// Number of cases, those with the largest ratio of deviation to bar, that the summary lists even if all bars hold. Chosen.
 const LISTED_CASES: usize = 8;
 
 /// What `stationary.toml` holds. All errors are relative; those of a case take precedence over those of all.

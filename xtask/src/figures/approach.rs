@@ -10,9 +10,9 @@ use crate::output::points;
 use crate::picture::{chart, guide};
 use crate::scene::Scene;
 
-/// Sliding distance shown, in contact lengths of the one-dimensional model.
+/// Sliding distance that the figure shows, in contact lengths of the one-dimensional model. Chosen.
 const LENGTHS: f64 = 16.0;
-/// Elements along the contact length of the one-dimensional model; chosen.
+/// Number of elements along the contact length of the one-dimensional model. Chosen.
 const ELEMENTS: f64 = 24.0;
 
 /// One step; friction is relative to the stationary friction of the one-dimensional model.
@@ -122,7 +122,7 @@ fn pressure_map(approach: &Approach, name: &str) -> Chart {
     let lowest = -1.0;
     let highest = loaded.map(|pressure| level(*pressure)).fold(0.0, f64::max);
     let colours = Axis::linear("log₁₀ (P / mean P)", [lowest, highest]);
-    // Pressures below a tenth of the mean share a colour.
+    // Give pressures below a tenth of the mean the same colour, so that the colours show the larger ones.
     let field = Field::new(field.grid.shape(), colours, |x, y| {
         let pressure = field.pressure[x * field.grid.shape()[1] + y];
         (pressure > 0.0).then(|| level(pressure).max(lowest))

@@ -11,7 +11,8 @@ use numerics::whole_part;
 
 use crate::scene::Scene;
 
-/// Sliding distance over the contact length: the approach to the stationary state is exponential, and e^(−24) = 4e-11 is left.
+/// Ratio of the sliding distance to the contact length. Chosen: the approach to the stationary state is exponential, and e^(−24)
+/// = 4e-11 is left.
 const LENGTHS: f64 = 24.0;
 
 /// The chain after one step.
@@ -28,7 +29,8 @@ pub(super) fn slide(scene: &Scene, spacing: f64) -> Result<Vec<ChainStep>> {
     let (compression, length) = (theory.indentation_depth, theory.contact_length());
     let line = EquivalentLine(&scene.body);
 
-    // Elements from behind the rear to the first one in front of the contact, the lowest point over one of them.
+    // Place elements from behind the rear to the first one in front of the contact, with the lowest point of the body over one of
+    // them.
     let n_ahead = whole_part((length / spacing).ceil()) + 1;
     let position = |element: usize| (element as f64 - n_ahead as f64) * spacing;
     let heights: Vec<f64> = (0..=2 * n_ahead)
@@ -37,11 +39,11 @@ pub(super) fn slide(scene: &Scene, spacing: f64) -> Result<Vec<ChainStep>> {
     let mut displacements = vec![0.0; heights.len()];
 
     let step = |_| {
-        // Move the line by one element; an undeformed one enters in front.
+        // Move the body by one element: displacements go back by one place, and an undeformed element enters in front.
         displacements.rotate_left(1);
         displacements[2 * n_ahead] = 0.0;
 
-        // Sink to the depth at which the compressions add up.
+        // Let the body sink to the depth at which the compressions add up to the given sum.
         let depths = heights.iter().zip(&displacements).map(|(h, u)| h + u);
         let depth = depth_of(depths.collect(), compression);
         let mut friction = 0.0;

@@ -16,11 +16,12 @@ const CLOSED_FORM: Tolerance = Tolerance::Relative(1e-12);
 /// Tolerance of simulations, which stop at a relative residual of 1e-9 and whose Fourier transforms round differently from
 /// processor to processor; chosen, since both are amplified.
 const SIMULATION: Tolerance = Tolerance::Relative(1e-6);
-/// Absolute tolerance of the plain simulation's factors from the paper's, which have two decimals: two units of the last one.
+/// Largest difference of the factors of the plain simulation from those of Kürschner (2014), which have two decimals: two units
+/// of the last one.
 const PAPER_TOLERANCE: f64 = 0.02;
-/// Tolerance of an error bar, which is a small difference of simulated numbers.
+/// Relative tolerance of an error bar, which is a small difference of simulated numbers. Chosen.
 const ERROR_BAR: Tolerance = Tolerance::Relative(1e-3);
-/// Elements by which the outline of a contact may move: one, and a little for rounding of the coordinate.
+/// Number of elements by which the outline of a contact may move. Chosen: one, and a little for rounding of the coordinate.
 const OUTLINE_TOLERANCE: f64 = 1.001;
 
 /// How much a recomputed number may differ.

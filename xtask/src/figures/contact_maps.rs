@@ -5,9 +5,10 @@ use viscofriction_plot::{Axis, Chart, Colour, Dash, Field, Figure, Line, Marker,
 
 /// Ranges of x and y of every panel, in contact lengths of the one-dimensional model.
 const WINDOW: [[f64; 2]; 2] = [[-0.2, 1.8], [-1.4, 1.4]];
-/// Pressures above this, over the mean, share a colour, since there is no upper bound along the front edge; chosen.
+/// Ratio of pressure to mean pressure above which all pressures share a colour. Chosen, since there is no upper bound along the
+/// front edge.
 const MAX_DRAWN_PRESSURE: f64 = 3.0;
-/// Elements along each edge of a cell of the map; chosen.
+/// Number of elements along each edge of a cell of the map. Chosen.
 const ELEMENTS_PER_CELL: usize = 2;
 /// Steps of the arc that [`circle`] draws.
 const CIRCLE_STEPS: u32 = 90;
@@ -19,7 +20,7 @@ pub(super) fn figure(contacts: &[Contact]) -> Figure {
 
 /// Pressure over its mean, the outline of the contact, the circle of the contact length, and the lowest point of the body.
 fn map(contact: &Contact) -> Chart {
-    // The window is two contact lengths long and 2.8 wide.
+    // Choose the number of cells for the window, which is two contact lengths long and 2.8 wide.
     let cells = [10, 14].map(|fifths| fifths * contact.elements / 5 / ELEMENTS_PER_CELL);
     let colours = Axis::linear("P / mean P", [0.0, MAX_DRAWN_PRESSURE]);
     let field = Field::new(cells, colours, |column, row| {

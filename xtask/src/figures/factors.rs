@@ -8,21 +8,21 @@ use crate::scaling::{MAX_UNKNOWNS, scaling_factor};
 use crate::scene::Scene;
 use crate::tasks::in_parallel;
 
-/// Name of the table.
+/// Name of the table of scaling factors.
 pub(super) const NAME: &str = "scaling_factors";
 
-/// Exponent p and scaling factor of cone and paraboloid, as the paper prints them.
+/// Exponent p and scaling factor of cone and paraboloid, as Kürschner (2014) prints them.
 pub(super) const PAPER: [(f64, f64); 2] = [(1.0, 0.55), (2.0, 0.67)];
-/// Elements along the contact length of the one-dimensional model in the plain simulation: the smallest round number for which
-/// the outline of the contact is more than a few elements.
+/// Number of elements along the contact length of the one-dimensional model in the plain simulation. Chosen: the smallest round
+/// number for which the outline of the contact is more than a few elements.
 const PLAIN_ELEMENTS: f64 = 10.0;
-/// Sliding distance of the plain simulation over the contact length: the first doubling of five over whose second half friction
-/// changes by less than one per cent.
+/// Ratio of the sliding distance of the plain simulation to the contact length. Chosen: the first doubling of five over whose
+/// second half friction changes by less than one per cent.
 const PLAIN_LENGTHS: f64 = 40.0;
-/// Relative error requested of the converged factors; an order below the biases that they reveal.
+/// Relative error requested of the converged factors. Chosen an order below the biases that they reveal.
 const RELATIVE_ERROR: f64 = 2e-4;
-/// Largest relative change of friction over the second half of the distance with which the end still counts as stationary
-/// enough to be extrapolated.
+/// Largest relative change of friction over the second half of the distance with which the end still counts as stationary enough
+/// to be extrapolated. Chosen.
 const DRIFT_TOLERANCE: f64 = 0.02;
 
 /// Factors of one profile, friction of the half space over that of the one-dimensional model:

@@ -11,24 +11,25 @@ use crate::output::points;
 use crate::scene::Scene;
 use crate::tasks::in_parallel;
 
-/// Slope of the cone, as the paper gives it. The next three are chosen so that contacts measure from 0.1 mm to 2 cm.
+/// Slope of the cone, as Kürschner (2014) gives it. The next three constants are chosen so that contacts measure from 0.1 mm to 2
+/// cm.
 const CONE_SLOPE: f64 = 0.1;
-/// c of the paraboloid c r², \[1/m].
+/// Coefficient c of the paraboloid c r² at the radius r, \[1/m].
 const CURVATURE: f64 = 10.0;
-/// Normal force, \[N].
+/// Normal force on both bodies, \[N].
 const NORMAL_FORCE: f64 = 1.0;
 /// Viscosity η of the half space, \[Pa s].
 const VISCOSITY: f64 = 1e5;
 /// Number of speeds from 10⁻³ to 10⁻¹ m/s, six per decade.
 pub(super) const SPEEDS: u32 = 13;
-/// Sliding distance on the half space over the contact length of the one-dimensional model; what is left to the stationary
-/// state is extrapolated.
+/// Ratio of the sliding distance on the half space to the contact length of the one-dimensional model. Chosen; the remaining
+/// change to the stationary state is extrapolated.
 const SLIDING_LENGTHS: f64 = 32.0;
-/// Smallest number of elements along the contact length of the one-dimensional model; chosen, since there are 26 simulations.
+/// Smallest number of elements along the contact length of the one-dimensional model. Chosen, since there are 26 simulations.
 const MIN_ELEMENTS: f64 = 12.0;
-/// Largest relative change of friction over the second half of the distance with which the end may be extrapolated.
+/// Largest relative change of friction over the second half of the distance with which the end may be extrapolated. Chosen.
 const DRIFT_TOLERANCE: f64 = 0.03;
-/// Label of the ordinate.
+/// Label of the ordinate of the figures.
 const FRICTION: &str = "coefficient of friction μ";
 
 /// The indenter of a figure.
@@ -46,7 +47,7 @@ pub(super) struct Indenter {
 /// Name of a picture, and its axis of friction.
 type Picture = (&'static str, fn() -> Axis);
 
-/// The indenter of Fig. 7 of the paper.
+/// The indenter of Fig. 7 of Kürschner (2014).
 pub(super) const CONE: Indenter = Indenter {
     title: "Fig. 7, cone",
     name: "fig7_cone",
@@ -54,7 +55,7 @@ pub(super) const CONE: Indenter = Indenter {
     exponent: 1.0,
     body: || PowerProfile::cone(CONE_SLOPE),
 };
-/// The indenter of Fig. 8.
+/// The indenter of Fig. 8 of Kürschner (2014).
 pub(super) const PARABOLOID: Indenter = Indenter {
     title: "Fig. 8, paraboloid",
     name: "fig8_paraboloid",
@@ -158,7 +159,7 @@ fn chart(rows: &[Row], paper: f64, y: Axis) -> Chart {
         chain.labelled("chain of dashpots (MDR)"),
         scaled.labelled("theory × converged factor"),
         of_paper.labelled(format!("theory × {paper} (paper)")),
-        // Last, because it would vanish behind the open circles.
+        // Draw this series last, because it would vanish behind the open circles.
         half_space.labelled("half space (BEM)"),
     ];
     let x = Axis::log10("sliding speed v [m/s]", [8e-4, 1.25e-1]);

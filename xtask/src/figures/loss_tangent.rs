@@ -12,10 +12,11 @@ use crate::output::points;
 /// Name of table and picture.
 pub(super) const NAME: &str = "fig1_loss_tangent";
 
-/// Stiffness ratios γ = G₁/G₂ of the paper.
+/// Stiffness ratios γ = G₁/G₂ of the spring G₁ to the Maxwell element G₂ in Kürschner (2014).
 const RATIOS: [f64; 3] = [1e-3, 1e-2, 1e-1];
 
-/// The scale of the moduli in the caption is 10/G₂, so that a solid with G₂ = 10 shows them as they are drawn.
+/// Modulus G₂ of the drawn solid. The scale of the moduli in the caption is 10/G₂, so that a solid with G₂ = 10 shows them as
+/// they are drawn.
 const MAXWELL_MODULUS: f64 = 10.0;
 
 /// One frequency.

@@ -13,7 +13,7 @@ use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series
 pub(super) const NAME: &str = "plain_resolution";
 /// Number of resolutions of each profile.
 pub(super) const COUNT: usize = 7;
-/// Elements along the contact length of the one-dimensional model, about √2 times as many each time.
+/// Numbers of elements along the contact length of the one-dimensional model. Chosen: each is about √2 times the one before.
 const ELEMENTS: [u32; COUNT] = [5, 7, 10, 14, 20, 28, 40];
 
 /// The factor of one profile at one resolution.

@@ -11,9 +11,10 @@ use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series
 
 /// Name of table and picture.
 pub(super) const NAME: &str = "scaling_function";
-/// Number of rows, evenly spaced in ln(2p − 1): more than twice the nodes of the table, so that the interpolation is seen.
+/// Number of rows of the table, evenly spaced in ln(2p − 1) with the exponent p. Chosen: more than twice the nodes of the
+/// tabulated factor, so that the interpolation is seen.
 const ROWS: u32 = 181;
-/// Smallest and largest 2p − 1; nearly the range of the table of `friction-analytic`.
+/// Smallest and largest 2p − 1, with the exponent p: nearly the range of the table of `friction-analytic`.
 const ORDERS: [f64; 2] = [0.003, 127.0];
 /// Exponents that the check solves anew, with the relative error requested of each.
 const SOLVED_ANEW: [(f64, f64); 5] = [

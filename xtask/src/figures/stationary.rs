@@ -24,17 +24,19 @@ const fn profile(exponent: f64, elements: usize) -> Profile {
     Profile { exponent, elements }
 }
 
-/// The profiles; the larger the exponent, the narrower the contact and the more elements it takes.
+/// The profiles with their exponents and numbers of elements: the larger the exponent, the narrower the contact and the more
+/// elements it takes.
 const PROFILES: [Profile; 4] = [
     profile(1.0, 100),
     profile(2.0, 100),
     profile(4.0, 150),
     profile(16.0, 300),
 ];
-/// Shift of the grid in elements: the lowest point lies at a corner of four, so that edges of elements are at round multiples
-/// of the contact length.
+/// Shift of the grid, in elements along each axis. Chosen: the lowest point lies at a corner of four elements, so that their
+/// edges are at round multiples of the contact length.
 const PHASE: [f64; 2] = [0.5, 0.5];
-/// Largest residual in contact, relative to F_N/(4ηv); far below the discretisation error.
+/// Largest ratio of the residual in contact to F_N/(4ηv), the depth in the one-dimensional model under the normal force F_N, with
+/// the viscosity η and the speed v. Chosen far below the discretisation error.
 const TOLERANCE: f64 = 1e-9;
 
 /// Where a column of elements along the sliding direction touches, in contact lengths of the one-dimensional model.
@@ -156,7 +158,7 @@ mod tests {
             let half = 0.5 * middle.element;
             let [rear, next_to_front] = [middle.rear + half, middle.front - 3.0 * half]
                 .map(|x| contact.pressure([x, middle.y]));
-            // The cone has its tip at the rear, where the pressure is singular too.
+            // Only the pressure of the cone may be large at the rear, where its tip is and the pressure is singular too.
             let is_right = next_to_front > 1.5 && (exponent < 1.5 || rear < 0.5);
             assert!(is_right, "p = {exponent}: {next_to_front}, {rear}");
         }

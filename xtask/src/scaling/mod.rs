@@ -16,10 +16,10 @@ use crate::table::{Column, table_of, to_csv};
 use crate::tasks::in_parallel;
 pub(crate) use table::{Node, generate as generate_table};
 
-/// Exponent from which on the elements are squares instead of half as wide as long: from about there on the contact is a thin
-/// crescent, as long across the sliding direction as along it.
+/// Exponent of the profile from which on the elements are squares instead of half as wide as long. Chosen: from about there on
+/// the contact is a thin crescent, as long across the sliding direction as along it.
 const SQUARE_ELEMENTS_FROM: f64 = 4.0;
-/// Largest number of unknown pressures of a factor that the command computes; bounds its time.
+/// Largest number of unknown pressures of a factor that the command computes. Chosen; it bounds the time.
 pub(crate) const MAX_UNKNOWNS: usize = 100_000;
 
 /// s_p, and what it took.
@@ -52,7 +52,7 @@ pub(crate) enum Format {
     Json,
 }
 
-/// Columns of the table that is printed.
+/// Names and contents of the columns of the table that is printed.
 const COLUMNS: [Column<ScalingFactor>; 5] = [
     ("p", |row| row.exponent.to_string()),
     ("s_p", |row| format!("{:.6}", row.scaling_factor)),

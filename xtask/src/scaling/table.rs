@@ -9,22 +9,24 @@ use serde::{Deserialize, Serialize};
 use crate::scaling::scaling_factor;
 use crate::table::GrowingTable;
 
-/// 2p − 1 of the first node. Node k has 2p − 1 = `LAST_ORDER` · e^(−k `STEP`), from p = 64 down to 0.501: dense next to p =
-/// 1/2, where s bends.
+/// Value of 2p − 1 at the first node, with the exponent p. Node k has 2p − 1 = `LAST_ORDER` · e^(−k `STEP`), from p = 64 down to
+/// 0.501: nodes are dense next to p = 1/2, where the factor s(p) bends.
 const LAST_ORDER: f64 = 127.0;
 /// Distance of neighbouring nodes in ln(2p − 1).
 const STEP: f64 = 0.153_594_4;
-/// Number of nodes.
+/// Number of nodes of the table.
 const N_NODES: usize = 73;
-/// Relative difference up to which two exponents belong to the same node; far below the distance of nodes, far above rounding.
+/// Relative difference up to which two exponents belong to the same node. Chosen far below the distance of nodes and far above
+/// rounding.
 const EXPONENT_TOLERANCE: f64 = 1e-6;
-/// Below this exponent the apex, where the profile is infinitely steep, dominates the friction and the error falls slowly.
+/// Exponent below which the apex, where the profile is infinitely steep, dominates the friction and the error falls slowly.
+/// Chosen.
 const CUSP_EXPONENT: f64 = 0.65;
-/// Relative error requested below [`CUSP_EXPONENT`]: what [`MAX_UNKNOWNS`] reach.
+/// Relative error requested below [`CUSP_EXPONENT`]. Chosen: it is what [`MAX_UNKNOWNS`] reach.
 const CUSP_ERROR: f64 = 9e-4;
-/// Relative error requested from [`CUSP_EXPONENT`] on.
+/// Relative error requested from [`CUSP_EXPONENT`] on. Chosen.
 const ERROR: f64 = 8e-5;
-/// Largest number of unknown pressures of a node; large, because the boxes of the steepest contacts are nearly empty.
+/// Largest number of unknown pressures of a node. Chosen large, because the boxes of the steepest contacts are nearly empty.
 const MAX_UNKNOWNS: usize = 500_000;
 /// File of the table, from which an interrupted run goes on.
 const TABLE: &str = "scaling_table.csv";
@@ -55,7 +57,7 @@ pub(crate) fn generate(out: &Path) -> Result<()> {
     let is_node = |p: f64| move |node: &Node| (node.exponent / p - 1.0).abs() < EXPONENT_TOLERANCE;
     let mut missing: Vec<f64> = (0..N_NODES).map(exponent).collect();
     missing.retain(|p| !table.rows.iter().any(is_node(*p)));
-    // Few at a time, cheap ones first, so that much is saved early.
+    // Compute few nodes at a time, cheap ones first, so that much is saved early.
     missing.sort_by(|left, right| left.ln().abs().total_cmp(&right.ln().abs()));
     let at_once = rayon::current_num_threads();
     table.extend(&missing, at_once, |&p| Ok(vec![node(p)?]))?;

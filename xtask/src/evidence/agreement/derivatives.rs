@@ -12,8 +12,8 @@ use super::relation::Answered;
 use super::units::Powers;
 use crate::evidence::request::{derivatives, number_at};
 
-/// Error from rounding that is allowed of a sum, relative to the sum of the moduli of its terms. Chosen far above the unit of
-/// rounding, since large terms of stiff scenes cancel.
+/// Ratio of the error from rounding that is allowed of a sum to the sum of the absolute values of its terms. Chosen far above the
+/// unit of rounding, since large terms of stiff scenes cancel.
 const ROUNDING: f64 = 1e-6;
 
 /// For each quantity q and each of the units of length, stress and time: the sum of ∂ln q/∂ln x · ln(x'/x) over all numbers x
@@ -34,7 +34,7 @@ pub(super) fn sums(first: Answered) -> Result<Vec<Comparison>> {
         Powers { stress: 1, ..one },
         Powers { time: 1, ..one },
     ];
-    // No derivative is by the lengths that choose the waves of a rough surface.
+    // Skip units of length for a rough surface, because answers are not differentiated by the lengths that choose its waves.
     let has_waves = matches!(case.scene.indenter, Indenter::SelfAffine(_));
     let mut sums = Vec::new();
     for unit in units {
@@ -66,7 +66,7 @@ fn sums_in(
             let Some(derivative) = one.derivatives.of(&name) else {
                 continue;
             };
-            // ln(x'/x) of the number x: the distance between both units.
+            // Compute ln(x'/x) of each number x, which changes to x' in the other unit, and multiply it by the derivative.
             let numbers = scenes.each_mut();
             let numbers = numbers.map(|scene| number_at(scene, &one.parameter).copied());
             let [from, to] = numbers.map(|number| number.context("no number"));

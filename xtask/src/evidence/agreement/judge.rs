@@ -70,17 +70,18 @@ pub(super) enum Verdict {
     Wrong,
 }
 
-/// Number of relations that are tried with one scene. Chosen: more scenes find more than more relations of each.
+/// Number of relations that are tried with one scene. Chosen: more scenes find more contradictions than more relations of each.
 const RELATIONS_PER_SCENE: usize = 2;
 /// Relative difference allowed between answers to two forms of the same scene, which differ by rounding only. Chosen: many
 /// roundings are amplified by ill-conditioned contacts, but no discretisation error that matters is smaller.
 const ROUNDING_TOLERANCE: f64 = 1e-9;
-/// Difference between such answers that iterations stopped at their tolerance may leave, over the sum of the error bars.
+/// Ratio of the difference between such answers, which iterations that stop at their tolerance may leave, to the sum of the error
+/// bars. Chosen.
 const ITERATION_TOLERANCE: f64 = 0.05;
-/// Assumed bound of d ln F/d ln d and d ln μ/d ln d, with F the normal force, d the depth and μ the friction, of the bodies
-/// that are drawn: how much an error of the given quantity is amplified in the others.
+/// Assumed bound of d ln F/d ln d and d ln μ/d ln d of the bodies that are drawn, with the normal force F, the depth d and the
+/// friction μ. It bounds how much an error of the given quantity is amplified in the others.
 const MAX_LOG_SLOPE: f64 = 4.0;
-/// Processor time of a thread after which it begins no finer grid; chosen, so that thousands of scenes are affordable.
+/// Processor time of a thread after which it begins no finer grid. Chosen, so that thousands of scenes are affordable.
 const REFINEMENT_TIME_LIMIT: Duration = Duration::from_secs(10);
 
 /// Draws the scene with this number, which depends on `seed` and `number` only, and judges it. The folder
@@ -336,8 +337,8 @@ fn answer(
             false => Failure::refusal(&error),
         })
     };
-    // Of scenes that are solved at the same time none takes the threads of another; and a worker of the search that waited
-    // for a pool would begin further scenes meanwhile, a thread that is not one of its workers does not.
+    // Solve in a pool of its own, so that scenes that are solved at the same time take no threads from each other. Start it from
+    // a new thread: a worker of the search that waited for a pool would begin further scenes meanwhile.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     let pool = pool.map_err(|error| Failure::new(Verdict::Refused, error.to_string()))?;
     let solved = std::thread::scope(|scope| scope.spawn(|| pool.install(solved)).join());
@@ -358,7 +359,8 @@ fn problem_of(answer: &Answer) -> Option<String> {
             return Some(format!("{name} is {value} ± {error}"));
         }
         let is_of = |names: &str| names.split(' ').any(|one| one == name);
-        // Of an elastic material they are 0, which numerical methods meet within their bars only.
+        // Friction of an elastic material is 0, which numerical methods meet only within their error bars, so it may be slightly
+        // negative.
         let rubs = is_of("dissipated_energy friction_coefficient tangential_force");
         let is_signed =
             is_of("x_min x_max y_min y_max indentation_depth work dissipation_shortest_octave");
@@ -426,7 +428,7 @@ fn compared(relation: Relation, first: Answered, derived: &Derived) -> Result<Ro
             row = row.judged(pair.comparisons()?);
         }
         Err(failure) => {
-            // On other elements an error may be missed by little.
+            // If the relation changes the elements, the requested error may be missed by little, which is no contradiction.
             let may_be_missed = !relation.is_exact() && failure.is_less_exact;
             row = row.failed(failure);
             if row.verdict == Verdict::Refused && relation.is_same() && !may_be_missed {
@@ -466,14 +468,15 @@ impl Pair<'_> {
     /// Whether the relation says anything about a quantity.
     fn is_compared(&self, name: &str) -> bool {
         match self.relation {
-            // Shares of the dissipation have no bars.
+            // Shares of the dissipation have no error bars, so they are compared only if both answers must be equal.
             _ if name.starts_with("dissipation") => self.relation.is_exact(),
-            // What slides on facets may leave the inner ones under more load.
+            // Under more load a body that slides on facets may leave the inner ones, so that its area is compared only if it is
+            // pressed.
             Relation::MoreLoad if name == "contact_area" => presses(&self.derived.case.scene),
             Relation::MoreLoad => ["normal_force", "indentation_depth"].contains(&name),
             Relation::OtherControl => !name.starts_with(['x', 'y']) && name != "peak_pressure",
             Relation::ThickLayer => !name.starts_with("persson"),
-            // What is at the left is then at the right.
+            // Mirroring exchanges left and right, so the edges along y are not compared.
             Relation::Mirrored => !name.starts_with('y'),
             _ => true,
         }
@@ -498,14 +501,14 @@ impl Pair<'_> {
             }
         }
         let curve = &one.fields.curve;
-        // Between more points a motion is asked for at other times.
+        // A motion with more points has values at other times, so its curves are not compared.
         let columns = match self.relation {
             Relation::SubdividedMotion => &[][..],
             _ => &curve.columns[..],
         };
         for column in columns {
             let name = column.name[0];
-            // More load may rub less, and backwards.
+            // Do not compare tangential forces under more load, because friction may become smaller or change its direction.
             let rubs = name == "tangential_force" && self.relation == Relation::MoreLoad;
             let Some(of_other) = other.fields.curve.column(name).filter(|_| !rubs) else {
                 continue;
@@ -542,7 +545,7 @@ impl Pair<'_> {
     fn allowed(&self, name: &str, [one, other]: [Estimate; 2]) -> f64 {
         let size = one.value.abs().max(other.value.abs());
         let answers = [self.one, self.other];
-        // A share of the friction is as exact as the friction, at best.
+        // The error of a share of the dissipation is at least the relative error of the friction.
         let bars = if name.starts_with("dissipation") {
             let frictions = answers.map(|of| of.friction_coefficient.as_ref());
             frictions
@@ -561,7 +564,7 @@ impl Pair<'_> {
                 ROUNDING_TOLERANCE * size + part * bars
             }
             Relation::OtherControl => {
-                // What was found and is now given has an error, which the other quantities inherit.
+                // A quantity that was computed and is given in the other scene has an error, which the other quantities inherit.
                 let given = [Some(self.one.normal_force), self.one.indentation_depth];
                 let given = given.iter().flatten().map(Estimate::relative_error);
                 let inherited = given.fold(0.0, f64::max);

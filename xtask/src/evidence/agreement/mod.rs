@@ -19,20 +19,21 @@ use crate::table::{GrowingTable, ROWS_AT_ONCE, markdown_table};
 use judge::{Row, Verdict, judge};
 use relation::Relation;
 
-/// Number of random scenes of a full run and of a quick one; chosen by the time that they may take.
+/// Number of random scenes of a full run and of a quick one. Chosen by the time that they may take.
 const SCENES: [usize; 2] = [5000, 22];
-/// Sliding distances from first touch are drawn from this number of decades up and down in a quick run; long ones take long.
+/// Number of decades, up and down, from which sliding distances from first touch are drawn in a quick run. Chosen: long distances
+/// take long.
 const QUICK_DISTANCE_DECADES: f64 = 0.2;
-/// Largest memory of one solution in a quick run, which bounds the size of its grids.
+/// Largest memory of one solution in a quick run, which bounds the size of its grids. Chosen.
 const QUICK_MEMORY: &str = "16 MiB";
-/// Relative errors requested in a quick run; smaller ones would only repeat the refinement on finer grids.
+/// Relative errors requested in a quick run. Chosen: smaller ones would only repeat the refinement on finer grids.
 const QUICK_ERRORS: [f64; 1] = [0.1];
 /// Fraction of the comparisons within error bars that may deviate by more than the sum of both. Each bar is to hold in 95 % of
 /// the cases, their sum much more often.
 const MAX_OUTSIDE_FRACTION: f64 = 0.01;
-/// Largest deviation of these, over the sum of both bars; chosen.
+/// Largest ratio of the deviation in such a comparison to the sum of both bars. Chosen.
 const MAX_DEVIATION_OVER_BARS: f64 = 3.0;
-/// Number of contradictions that the page lists by name, the worst ones.
+/// Number of contradictions that the page lists by name, the worst ones. Chosen.
 const LISTED_CONTRADICTIONS: usize = 20;
 
 /// Judges random scenes. Those that `agreement.csv` in `out` already has for this seed are not judged again.
@@ -125,7 +126,7 @@ fn calibration(rows: &[Row]) -> comfy_table::Table {
         let held = parts.iter().filter(|part| **part <= 1.0).count();
         let worst = parts.iter().copied().fold(0.0, f64::max);
         let [compared, held] = [parts.len(), held].map(|count| count.to_string());
-        // Elastic contacts have no friction to differ in.
+        // Leave out deviations of exactly 0, as of elastic contacts, which have no friction to differ in.
         let others: Vec<f64> = parts.into_iter().filter(|part| *part > 0.0).collect();
         let middle = (!others.is_empty()).then(|| format!("{:.1}", median(others).recip()));
         let [middle, worst] = [middle.unwrap_or_default(), format!("{worst:.2}")];

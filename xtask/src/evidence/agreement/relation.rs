@@ -82,33 +82,36 @@ pub(super) struct Derived {
     pub(super) truth_difference: f64,
 }
 
-/// Thickness of a layer that acts as a half space, over half the contact length; chosen, so that [`LAYER_DIFFERENCE`] is small.
+/// Ratio of the thickness of a layer that acts as a half space to half the contact length. Chosen, so that [`LAYER_DIFFERENCE`]
+/// is small.
 const THICKNESS_OVER_CONTACT: f64 = 1e6;
-/// Relative difference between such a layer and the half space, at most: ten times half the contact length over the thickness,
-/// if long waves find the material no softer than the contact does.
+/// Largest relative difference between such a layer and the half space, if long waves find the material no softer than the
+/// contact does. Derived: ten times the ratio of half the contact length to the thickness.
 const LAYER_DIFFERENCE: f64 = 1e-5;
-/// Relative difference between layer and half space above which the relation is not tried, because it would say nothing.
+/// Relative difference between layer and half space above which the relation is not tried, because it would say nothing. Chosen.
 const MAX_LAYER_DIFFERENCE: f64 = 0.01;
-/// The larger load over the given one; chosen: well above the error bars of what it changes.
+/// Ratio of the larger load to the given one. Chosen, so that its effects are well above the error bars.
 const LOAD_FACTOR: f64 = 1.5;
-/// Number of elements along a contact for [`Relation::GivenElements`]; chosen, cheap and not a power of two.
+/// Number of elements along a contact for [`Relation::GivenElements`]. Chosen: it is cheap and not a power of two.
 const ELEMENTS: usize = 40;
-/// The same along the period of a surface that slides or rests; a power of two for the Fourier transform.
+/// Number of elements along the period of a surface that slides or rests, for [`Relation::GivenElements`]. Chosen: a power of two
+/// suits the Fourier transform.
 const ELEMENTS_OF_PERIOD: usize = 256;
-/// The same along the period of a surface that reciprocates or follows points. Fewer, since a cycle takes as many steps as
-/// there are elements in a stroke.
+/// Number of elements along the period of a surface that reciprocates or follows points, for [`Relation::GivenElements`]. Chosen
+/// smaller, since a cycle takes as many steps as there are elements in a stroke.
 const ELEMENTS_OF_MOTION: usize = 64;
-/// Relative error that [`other_series`] makes and states; chosen.
+/// Relative error that the series of [`other_series`] has and states. Chosen.
 const SERIES_ERROR: f64 = 1e-4;
-/// Factor by which the times for which that error is stated go beyond the shortest and the longest relaxation time, so that no
-/// scene asks for others.
+/// Factor by which the times for which [`SERIES_ERROR`] is stated go beyond the shortest and the longest relaxation time. Chosen,
+/// so that no scene needs other times.
 const SERIES_RANGE_FACTOR: f64 = 1e12;
-/// Length of a track over half the contact length. By far larger than the ratio of any relaxation time of the drawn materials
-/// to the time of a contact.
+/// Ratio of the length of a track to half the contact length. Chosen far larger than the ratio of any relaxation time of the
+/// drawn materials to the time of a contact.
 const TRACK_OVER_CONTACT: f64 = 1e15;
-/// Date at which the later motion begins, over its duration: an elapsed time that must be subtracted without losing digits.
+/// Ratio of the date at which the later motion begins to its duration. Chosen: the elapsed time must be subtracted without losing
+/// digits.
 const START_OVER_DURATION: f64 = 1e6;
-/// A unit is changed by 2^n with |n| up to this: by factors of up to 4096.
+/// Largest |n| of the factor 2^n by which a unit is changed: factors up to 4096. Chosen.
 const MAX_POWER_OF_TWO: f64 = 12.0;
 
 impl Relation {
@@ -221,7 +224,7 @@ impl Relation {
 /// A random one of the other methods that answer the scene in the same model; `None` where there is none.
 fn other_method(first: Answered, random: &mut Random) -> Option<Method> {
     let scene = &first.case.scene;
-    // Where nothing slides both models are the same.
+    // All methods are compared where nothing slides, because both models are the same there.
     let model = scene.solve.model.unwrap_or(Model::HalfSpace);
     let is_of_model = |method: &Method| {
         presses(scene) || method.model().is_none_or(|of_method| of_method == model)
@@ -325,7 +328,7 @@ fn other_control(scene: &mut Scene, answer: &Answer) -> Option<()> {
         return None;
     }
     let load = &mut scene.load;
-    // A motion has another force at every point of a depth that is held.
+    // A motion is not compared, because it has another force at every point of a depth that is held.
     if load.stroke.is_some() || load.motion.is_some() {
         return None;
     }

@@ -18,7 +18,7 @@ pub(super) fn other_map(case: &mut Case, is_turned: bool) -> Option<()> {
         return None;
     };
     let lengths = case.lengths.as_mut()?;
-    // All heights in the opposite order are the map turned by 180 degrees.
+    // Turn the map by 180 degrees, which puts all heights into the opposite order.
     if is_turned {
         map.direction = 180.0;
         map.heights_are = HeightsAre::Surface;

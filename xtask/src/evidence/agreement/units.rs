@@ -42,7 +42,7 @@ impl Powers {
     pub(super) fn factors(self, is_per_length: bool) -> Result<Factors> {
         let extent = if is_per_length { 1 } else { 2 };
         let mut units = BTreeMap::new();
-        // Without coefficients, whose unit depends on the exponent beside them.
+        // Collect the units of all keys but coefficients, whose unit depends on the exponent beside them.
         for (key, unit) in viscofriction::scene::units() {
             if let Some(unit) = unit {
                 units.insert(key.to_owned(), Unit::parse(unit)?);
@@ -97,7 +97,8 @@ impl Powers {
                 let mut factors = factors.clone();
                 let [length, time] = [self.length, self.time].map(|power| 2.0_f64.powi(power));
                 if let Some(exponent) = table.get("exponent").and_then(Value::as_float) {
-                    // K of a springpot and c of c r^p.
+                    // Compute the factor of a coefficient: K of a springpot is proportional to a stress and a power of the time,
+                    // c of a profile c r^p to a power of the length.
                     let coefficient = if table.contains_key("time_range") {
                         2.0_f64.powi(self.stress) * time.powf(exponent)
                     } else {

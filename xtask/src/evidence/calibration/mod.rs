@@ -87,7 +87,7 @@ struct Reason {
 fn judge(scene: &Scene, requests: &[Request]) -> Result<Vec<Result<Vec<Row>, Refusal>>> {
     let mut judged = Vec::new();
     for of_model in requests.chunk_by(|one, other| one.model == other.model) {
-        // A model may also find that it cannot take what is given.
+        // Keep the requests that the model accepts; it may refuse a scene.
         let is_offered = |request: &&Request| request.is_offered(&scene.file).unwrap_or(false);
         let offered = of_model.iter().filter(is_offered);
         let known = |request: &Request| Ok(request.solve(&scene.file)?.requested_quantity());
@@ -186,7 +186,7 @@ fn table(rows: &[Row], refusals: &[Refusal]) -> comfy_table::Table {
 /// median of bar over deviation, the worst deviation over bar, and the number of refusals.
 fn line(method: &str, bars: &[&Bar], refused: usize) -> [String; 8] {
     let held: Share = bars.iter().map(|bar| bar.holds).collect();
-    // Whether the reference is much more exact than the bar says of the result.
+    // Count the bars whose reference is much more accurate than the bar says of the result.
     let is_sharp = |bar: &&&Bar| bar.reference_error <= SHARP_REFERENCE_RATIO * bar.error_bar;
     let sharp = bars.iter().filter(is_sharp);
     let held_alone: Share = sharp.map(|bar| bar.holds_alone).collect();
@@ -221,7 +221,7 @@ fn short(value: f64) -> String {
     }
 }
 
-/// Smaller relative errors are drawn here, at the rounding of f64: zero has no place on a logarithmic axis.
+/// Relative error at which smaller ones are drawn, because zero has no place on a logarithmic axis: the rounding of f64.
 const MIN_DRAWN_ERROR: f64 = 1e-16;
 
 /// How the points of a method are drawn.

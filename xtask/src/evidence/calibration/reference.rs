@@ -12,17 +12,17 @@ use viscofriction::solve::{Body, Motion, Problem, Revolution, SolveError};
 use super::scene::{FLAT, Scene};
 use crate::evidence::request::{ROUNDING, Reference, Request, first_reached, presses};
 
-/// Half the contact length over the radius of a cylinder is sought between these; above 1 the contact would be wider than the
-/// cylinder.
+/// Range in which the ratio of half the contact length to the radius of a cylinder is sought. Above 1 the contact would be wider
+/// than the cylinder; the lower end is chosen.
 const HALF_LENGTHS: [f64; 2] = [1e-6, 1.0];
-/// Relative error assumed of the friction of Hunter's cylinder: the root is found to rounding, and the formula amplifies it.
+/// Relative error assumed of the friction of Hunter's cylinder. Chosen: the root is found to rounding, and the formula amplifies
+/// it.
 const CYLINDER_ERROR: f64 = 1e-12;
 /// Relative errors requested of references in the one-dimensional model; the first that is reached is taken.
 const LINE_ERRORS: [f64; 3] = [1e-12, 1e-11, 1e-10];
-/// A reference judges an error bar sharply if its own error is at most this part of it.
+/// Largest ratio of the error of a reference to an error bar with which the reference judges the bar sharply. Chosen.
 pub(super) const SHARP_REFERENCE_RATIO: f64 = 1.0 / 3.0;
-/// Relative errors requested of references on the half space are limited to this range, at its lower end because smaller ones
-/// take too long.
+/// Range of the relative errors requested of references on the half space. Chosen: smaller errors take too long.
 const HALF_SPACE_ERRORS: [f64; 2] = [1e-5, 1e-3];
 
 /// The closed form with which a result of another method is compared, sharp for an error bar of the relative length `bar`;

@@ -31,7 +31,7 @@ pub(super) struct Label {
     solve: String,
 }
 
-/// One scene of this number slides from first touch; the others are stationary or pressed.
+/// Number of scenes of which one slides from first touch; the others are stationary or pressed. Chosen.
 const SCENES_PER_FIRST_TOUCH: usize = 6;
 /// Kinds of bodies that end in a flat, at whose edge the pressure has no bound.
 pub(super) const FLAT: &str = "flat-cone truncated-paraboloid";
@@ -45,7 +45,7 @@ impl Scene {
         })?;
         memory.clone_into(&mut source.range.memory);
         let mut file = sample(random, &source, Path::new(""))?.scene;
-        // Both models and several errors are asked of it.
+        // Leave model and error open, because both models and several errors are requested of the same scene.
         (file.solve.model, file.solve.relative_error) = (None, None);
         let label = Label {
             scene: number,
@@ -145,7 +145,7 @@ impl Extent {
             let asked = asked.iter().map(|asked| asked.draw(model, random, scene));
             asked.collect()
         };
-        // Both models are the same where nothing slides.
+        // Request answers of the half space only where nothing slides, because both models are the same there.
         if presses(&scene.file) {
             let mut requests = draw(Model::HalfSpace, &self.pressed);
             requests.retain(|_| !scene.is("self-affine"));
@@ -159,7 +159,8 @@ impl Extent {
         }
         let mut requests = draw(Model::Line, &self.line);
         let on_half_space = draw(Model::HalfSpace, &self.half_space);
-        // At an edge on a dashpot the friction is infinite, and errors of a chain fall too slowly at a cusp or an edge.
+        // Leave out two cases. At an edge on a dashpot the friction is infinite; and the errors of a chain of elements fall too
+        // slowly at a cusp or an edge.
         let is_infinite = scene.is(FLAT) && scene.has_dashpot();
         requests.retain(|request| {
             let is_march = request.method == Method::MdrTransient && !request.is_by_elements();

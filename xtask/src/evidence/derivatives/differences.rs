@@ -13,12 +13,12 @@ use crate::random::Random;
 
 /// Positions in steps h and weights of a central difference of fourth order: `12 h f' = 8 (f₁ − f₋₁) − (f₂ − f₋₂)`.
 const STENCIL: [[f64; 2]; 4] = [[-2.0, 1.0], [-1.0, -8.0], [1.0, 8.0], [2.0, -1.0]];
-/// The sum of weight times value is this times h f'.
+/// Ratio of the sum of weight times value over [`STENCIL`] to h f', by which it is divided.
 const STENCIL_DIVISOR: f64 = 12.0;
-/// Estimates the remainder r₄ = h⁴ f⁽⁵⁾/30 of the fourth order by the remainder r₂ = h² f‴/6 of the second: r₄ = 7.2 r₂²/f′,
-/// which is exact of f = ln |x − x₀| for any x₀, the shape of a quantity that follows a power law near x₀.
+/// Factor in an estimate of the remainder r₄ = h⁴ f⁽⁵⁾/30 of fourth order by the remainder r₂ = h² f‴/6 of second order: r₄ = 7.2
+/// r₂²/f′. It is exact for f = ln |x − x₀| with any x₀, the shape of a power law near x₀.
 const REMAINDER_RATIO: f64 = 7.2;
-/// Bodies that end in a flat or have an edge.
+/// Kinds of bodies that end in a flat or have an edge.
 const FLAT_ENDED: [&str; 3] = ["flat-punch", "flat-cone", "truncated-paraboloid"];
 
 /// A method, on which scenes it is judged, and how accurate its answers are to be; a table of the file of the experiment.
@@ -175,7 +175,7 @@ fn difference(answers: &[Answer], name: &str, step: f64) -> Option<Estimate> {
     let width = STENCIL_DIVISOR * step;
     let fourth = sum / width;
     let second = near / (2.0 * step);
-    // The distance of both orders is the remainder of the second.
+    // Estimate the remainder of the fourth order from that of the second, which is the distance of both orders.
     let apart = (fourth - second).abs();
     let left = apart * (REMAINDER_RATIO * apart / fourth.abs()).min(1.0);
     let known = Estimate::new(fourth, squares.sqrt() / width + left);
@@ -203,7 +203,7 @@ impl Asked {
         }
         let solved = |[steps, _]: [f64; 2]| -> Result<Answer> {
             let scene = self.changed(&exact, parameter, steps)?;
-            // What was reached is a reference with the error that it has.
+            // If the requested error is missed, the answer is still a reference with the error that it states.
             let solved = solve(&Problem::try_from(&scene)?);
             let reached = solved.or_else(|failure| failure.reached().cloned().ok_or(failure));
             Ok(reached?)

@@ -13,9 +13,9 @@ use crate::table::{Column, group_by, table_of};
 use crate::tasks::in_parallel;
 use differences::{Asked, Derivative, Refusal, compared};
 
-/// Fraction of the derivatives of each method whose deviation must be within both error bars.
+/// Smallest fraction of the derivatives of each method whose deviation must be within both error bars. Chosen.
 const MIN_COVERAGE: f64 = 0.95;
-/// Binomial standard deviations by which the observed fraction may fall short of [`MIN_COVERAGE`]; chosen.
+/// Number of binomial standard deviations by which the observed fraction may fall short of [`MIN_COVERAGE`]. Chosen.
 const ALLOWED_SCATTER: f64 = 1.5;
 
 /// What is computed: a table of `requests.toml`.

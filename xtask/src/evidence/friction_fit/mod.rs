@@ -19,14 +19,14 @@ use crate::random::Random;
 use crate::table::Table;
 use crate::tasks::in_parallel;
 
-/// Relative error of the friction on the half space before random errors are added.
+/// Relative error of the friction on the half space before random errors are added. Chosen.
 const TRUTH_ERROR: f64 = 1e-3;
-/// Relative error of the friction in the one-dimensional model before random errors are added.
+/// Relative error of the friction in the one-dimensional model before random errors are added. Chosen.
 const TRUTH_ERROR_ON_LINE: f64 = 1e-9;
-/// Largest deviation of a start: moduli are multiplied by 10^x with |x| up to this. Chosen, a factor of three, as from a data
-/// sheet.
+/// Largest |x| of the factor 10^x by which the moduli of a start deviate from the true ones. Chosen: a factor of three, as from a
+/// data sheet.
 const START_DECADES: f64 = 0.5;
-/// Smallest and largest percentage of the experiments in which an interval that claims 95 % may hold; chosen.
+/// Smallest and largest percentage of the experiments in which an interval that claims 95 % may hold. Chosen.
 const ALLOWED_COVERAGE: [f64; 2] = [93.0, 97.0];
 
 /// What `cases.toml` holds.
@@ -178,7 +178,7 @@ impl Case {
     /// What the fit finds in the experiment of this number: friction gets normally distributed errors, and moduli start from
     /// wrong values, both from a generator of this seed.
     fn findings(&self, truth: &[FrictionPoint], number: u64) -> Result<Vec<Finding>> {
-        // Neighbouring seeds give numbers that have nothing in common.
+        // Draw the errors of each experiment with its own seed; neighbouring seeds give numbers that have nothing in common.
         let mut random = Random::new(number);
         let points: Vec<FrictionPoint> = truth
             .iter()

@@ -176,7 +176,7 @@ impl Experiments {
             noise: [random.between(self.noise), random.between(self.noise)],
             temperature: random.between(self.temperature),
             factor: random.between(self.factor),
-            // Every other time that it is the turn of a material.
+            // A material is entropic every other time that it is used.
             is_entropic: (number as usize / n_materials) % 2 == 1,
             random,
         };
@@ -194,7 +194,8 @@ impl Experiments {
             series(&truth, None, window),
             series(&fit.spectrum, Some(&fit), window),
         ];
-        // Within the window: friction on both materials, and the uncertainty that the covariance of the moduli gives it.
+        // Compute the friction on both materials at a frequency within the window, and the uncertainty that the covariance of the
+        // moduli gives it.
         let part = drawn.random.between(self.inside);
         let omega = (window[0].ln() + part * (window[1] / window[0]).ln()).exp();
         let velocity = self.velocity(&truth, omega)?;
@@ -202,7 +203,7 @@ impl Experiments {
         let scene = self.slid(&fitted_table, velocity);
         let problem = Problem::try_from(&scene)?;
         let found = differentiated(&scene, &problem, solve(&problem)?)?;
-        // Beyond one end of the window: only whether the answer warns.
+        // Compute the friction at a frequency beyond one end of the window, only to see whether the answer warns.
         let factor = drawn.random.between(self.outside);
         let omega = match drawn.random.uniform() {
             ..0.5 => window[0] / factor,

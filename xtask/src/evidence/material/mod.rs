@@ -13,9 +13,9 @@ use experiment::{Experiments, Found};
 
 /// 95 % of a normal distribution are within this number of standard deviations from its mean.
 const OF_95_PERCENT: f64 = 1.96;
-/// Smallest and largest share of the true frictions that may be inside the band of 95 %; chosen.
+/// Smallest and largest fraction of the true frictions that may be inside the band of 95 %. Chosen.
 const ALLOWED_COVERAGE: [f64; 2] = [0.92, 0.98];
-/// Binomial standard deviations by which the share in a quick run may be outside of [`ALLOWED_COVERAGE`].
+/// Number of binomial standard deviations by which this fraction may be outside [`ALLOWED_COVERAGE`] in a quick run. Chosen.
 const ALLOWED_SCATTER: f64 = 3.0;
 
 /// Experiments that have something in common.

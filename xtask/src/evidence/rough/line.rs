@@ -13,14 +13,15 @@ use indenters::rough::{PeriodicSurface, Wave};
 use numerics::{MaxElements, Request};
 use rheology::{Compressible, Material};
 
-/// Length of the line over the period of the surface. Each wave must fit a whole number of times, at least 16 here, so that
-/// rounding changes its length by a thirtieth at most.
+/// Ratio of the length of the line to the period of the surface. Chosen: each wave must fit a whole number of times, at least 16
+/// here, so that rounding changes its length by a thirtieth at most.
 const LINE_PERIODS: f64 = 16.0;
-/// Thickness of the layer over the shortest wavelength; the relative error of the limit of a thin layer is its square.
+/// Ratio of the thickness of the layer to the shortest wavelength. Chosen; the relative error of the limit of a thin layer is its
+/// square.
 const THICKNESS_OVER_WAVE: f64 = 1e-5;
-/// Relative error requested of the friction; half of what still counts as a right theory.
+/// Relative error requested of the friction. Chosen: half of what still counts as a right theory.
 const RELATIVE_ERROR: f64 = 0.05;
-/// Largest number of elements along the line; a power of two, affordable for thousands of lines.
+/// Largest number of elements along the line. Chosen: a power of two, affordable for thousands of lines.
 const MAX_LINE_ELEMENTS: MaxElements = MaxElements(1 << 17);
 
 /// The length L of line that carries the force on an area L²: the theory does not say which.
@@ -49,7 +50,7 @@ pub(super) fn friction(
         let number = q_x.hypot(q_y) * length / std::f64::consts::TAU;
         #[expect(clippy::cast_possible_truncation, reason = "less than 1e5")]
         let whole = number.round() as i32;
-        // The slope stays.
+        // Scale the amplitude with the wavelength, so that the slope of the wave is unchanged.
         wave.amplitude *= number / f64::from(whole);
         wave.numbers = [whole, 0];
     }
@@ -64,7 +65,7 @@ pub(super) fn friction(
         Carrying::LongestWave => longest,
         Carrying::Period => period[0],
     };
-    // The layer has the stiffness 2 G/t.
+    // Choose the mean pressure for the stiffness 2 G/t of the layer, with its shear modulus G and thickness t.
     let load = PeriodicLoad::new(mean_pressure * carrying / (2.0 * thickness), velocity)?;
     let request = Request {
         accuracy: RELATIVE_ERROR.into(),

@@ -51,7 +51,7 @@ const fn area(name: &'static str, predicted: &'static str) -> Theory {
     }
 }
 
-/// All theories, those of friction first; the indices of [`DRAWN_THEORIES`] and of the tables belong to this order.
+/// All theories, those of friction first. The indices of [`DRAWN_THEORIES`] and of the tables refer to this order.
 const THEORIES: [Theory; 7] = [
     friction("friction / Persson (2001)", "persson_friction_coefficient"),
     friction(
@@ -105,7 +105,7 @@ const SOLIDS: [Solid; 3] = [
         marker: (Shape::Diamond, Colour::Green),
     },
 ];
-/// Of each spectrum: Hurst exponent, and how often the longest and the shortest wave fit into the period.
+/// Hurst exponent of each spectrum, and how often its longest and its shortest wave fit into the period.
 const SPECTRA: [[f64; 3]; 10] = [
     [0.6, 2.0, 8.0],
     [0.6, 4.0, 16.0],
@@ -118,15 +118,15 @@ const SPECTRA: [[f64; 3]; 10] = [
     [0.6, 32.0, 128.0],
     [0.6, 4.0, 256.0],
 ];
-/// Surfaces of each spectrum in a full run and in a quick one.
+/// Number of surfaces of each spectrum in a full run and in a quick one. Chosen.
 const SURFACES: [usize; 2] = [10, 2];
-/// Number of speeds under each pressure in a full run and in a quick one.
+/// Number of speeds under each pressure in a full run and in a quick one. Chosen.
 const SPEEDS: [usize; 2] = [5, 2];
-/// A ratio of solution to theory counts as right if it deviates from 1 by no more than this; chosen.
+/// Largest deviation from 1 of the ratio of solution to theory with which the theory counts as right. Chosen.
 const RIGHT_WITHIN: f64 = 0.1;
-/// Ratios of solution to theory that are drawn; those beyond are left out of the picture, not of the tables.
+/// Range of the ratios of solution to theory that are drawn. Chosen; those beyond are left out of the picture, not of the tables.
 const DRAWN_RATIOS: RangeInclusive<f64> = 0.01..=10.0;
-/// Lower ends of the classes of the area fraction in the tables; points below the first are not drawn.
+/// Lower ends of the classes of the area fraction in the tables. Chosen; points below the first are not drawn.
 const AREAS: [f64; 7] = [1e-3, 0.01, 0.03, 0.1, 0.3, 0.6, 0.9];
 
 /// Compares the theories with the solutions of all scenes; those in a file in `out` are not computed again. A quick run takes
@@ -143,7 +143,7 @@ pub(super) fn report(out: &Path, quick: bool) -> Result<Report> {
     let file = out.join(ROWS);
     let rows = read(&file, &plans[0].1)?;
     let mut table = GrowingTable { file, rows };
-    // One surface after the other, so that what is there of a run that was interrupted is of all solids and spectra.
+    // Compute one surface after the other, so that the rows of an interrupted run are of all solids and spectra.
     let mut missing = Vec::new();
     for surface in 0..surfaces {
         for (solid, plan) in &plans {
@@ -269,7 +269,7 @@ fn points(rows: &Rows, surfaces: usize) -> Vec<Point<'_>> {
         "load.mean_pressure",
         "load.velocity",
     ];
-    // Rows of one point differ in the seed only.
+    // Group the rows by the point that they belong to; rows of one point differ in the seed only.
     let groups = group_by(&rows[1..], |row| -> Vec<&str> {
         let of_point = given.iter().filter_map(|name| Some(&*row[place(name)?]));
         std::iter::once(&*row[0]).chain(of_point).collect()

@@ -10,11 +10,12 @@ use crate::table::{group_by, markdown_table};
 
 /// Indices in [`THEORIES`] of the first table: Persson's theories and Wang & Müser's.
 const FRICTIONS: Range<usize> = 0..3;
-/// Indices of the second table: the line and the theories of the area.
+/// Indices in [`THEORIES`] of the second table: the line and the theories of the area.
 const OTHERS: Range<usize> = 3..THEORIES.len();
-/// Longest waves along the period from which a surface counts as large: with fewer it has only a few summits.
+/// Smallest number of the longest waves along the period with which a surface counts as large. Chosen: with fewer it has only a
+/// few summits.
 const MIN_WAVES: f64 = 4.0;
-/// Points with a smaller area fraction do not take part in the fit of γ: no value of it brings the theory close to them.
+/// Smallest area fraction of the points in the fit of γ. Chosen: no value of γ brings the theory close to points below it.
 const MIN_AREA: f64 = 0.03;
 
 /// The page in Markdown: tables by class of area, by solid and class, and by spectrum and class, and the best weight γ of each
@@ -118,7 +119,8 @@ fn weight(solid: &str, points: &[Point]) -> Option<String> {
             && point.area_fraction >= MIN_AREA
             && point.longest_waves_in_period >= MIN_WAVES
     });
-    // Means of the friction, of what S = 1 adds to S = P², and of the friction with that.
+    // For each half of the surfaces, add up the friction, the difference between Persson's theories with S = 1 and with S = P²,
+    // and the theory with S = P².
     let halves = points.map(|point| {
         [0, 1].map(|first| {
             let half = point.frictions.iter().skip(first).step_by(2);

@@ -13,7 +13,7 @@ pub(super) const COLUMNS: [&str; 4] = [
     "line_friction_coefficient_by_period",
     "xu_area_fraction",
 ];
-/// γ of the theory of Xu, who finds 0.42 to 0.45; with 0.42 the area is at most 4 % larger.
+/// Parameter γ of the theory of Xu, who finds 0.42 to 0.45. Chosen; with 0.42 the area is at most 4 % larger.
 const XU_GAMMA: f64 = 0.45;
 
 /// The numbers of [`COLUMNS`]; `None` where the friction of a line does not reach its error. Fails unless the body is a

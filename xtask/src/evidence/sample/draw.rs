@@ -16,9 +16,9 @@ use super::{HEIGHTS, Lengths, Motion, PROFILE, Range, SPECTRUM, keys_of, read};
 use crate::evidence::unit::Unit;
 use crate::random::Random;
 
-/// Relative error requested of motions to and fro or through points on the half space: a smaller one takes too long.
+/// Relative error requested of motions to and fro or through points on the half space. Chosen: a smaller one takes too long.
 const ERROR_OF_MOTION: f64 = 0.1;
-/// Range of validity of drawn shift laws; reference and actual temperature are drawn from it. \[°C].
+/// Range of validity of drawn shift laws, \[°C]. Chosen; reference and actual temperature are drawn from it.
 const TEMPERATURES: [f64; 2] = [10.0, 40.0];
 
 /// A scene that is being drawn.
@@ -335,7 +335,8 @@ impl Sample<'_> {
                 return Ok([pressure * area / compliance, 0.0]);
             }
             Body::Cylinder(cylinder) => {
-                // F' J(t) 2 (1 − ν) = π a²/R.
+                // Choose the force per length F' from F' J(t) 2 (1 − ν) = π a²/R, with the creep compliance J, the Poisson ratio
+                // ν, half the contact length a and the radius R.
                 let force = self.contact * self.contact / cylinder.radius() / compliance;
                 return Ok([force, 0.01 * self.contact]);
             }

@@ -35,9 +35,9 @@ pub(super) struct Options {
     seed: Option<u64>,
 }
 
-/// Seed unless the command line gives one; any number would do.
+/// Seed of the random scenes unless the command line gives one. Chosen; any number would do.
 const SEED: u64 = 2014;
-/// Largest number of scenes that may be asked for, so that a mistyped number is refused.
+/// Largest number of scenes that may be requested. Chosen, so that a mistyped number is refused.
 const MAX_SCENES: usize = 100_000;
 
 impl Options {
@@ -78,13 +78,13 @@ pub(super) struct Lengths {
     pub(super) values: Vec<f64>,
 }
 
-/// Names of files of height maps, which a scene refers to; the others follow.
+/// Names of files of height maps to which a scene refers.
 const HEIGHTS: [&str; 2] = ["heights.npy", "heights.csv"];
-/// Name of the file of a profile.
+/// Name of the file with a profile to which a scene refers.
 const PROFILE: &str = "profile.csv";
-/// Name of the file of a spectrum.
+/// Name of the file with a spectrum to which a scene refers.
 pub(super) const SPECTRUM: &str = "spectrum.csv";
-/// Name of the file of a material.
+/// Name of the file with a material to which a scene refers.
 const MATERIAL: &str = "material.toml";
 
 /// Reads a file of a case, whatever its size; a reader of files as [`Problem::new`] needs one.
@@ -122,7 +122,8 @@ impl Case {
 impl Lengths {
     /// Multiplies all lengths by `factor`; wave numbers and densities accordingly.
     pub(super) fn scale(&mut self, factor: f64) {
-        // Of a spectrum wave numbers and densities.
+        // Choose the powers of the length in the two columns: a spectrum has wave numbers and densities, other files have
+        // lengths.
         let powers = if self.file == SPECTRUM {
             [-1, 4]
         } else {
@@ -357,6 +358,6 @@ pub(super) fn sample(random: &mut Random, source: &Source, folder: &Path) -> Res
     Ok(case)
 }
 
-/// Number of motions that are drawn for a body and a material until some method takes one; the last stays even if refused,
-/// since refusals have to be right too.
+/// Largest number of motions that are drawn for a body and a material until some method takes one. Chosen; the last one stays
+/// even if it is refused, since refusals have to be right too.
 const MAX_DRAWN_MOTIONS: usize = 3;

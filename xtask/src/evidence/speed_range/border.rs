@@ -9,10 +9,10 @@ use super::sliding::LINE_ERROR;
 use super::{Law, MODELS, Prediction, plateau};
 use crate::tasks::in_parallel;
 
-/// Largest |prediction/friction − 1| at which the law counts as right; chosen.
+/// Largest |prediction/friction − 1| at which the law counts as right. Chosen.
 const RIGHT_WITHIN: f64 = 0.1;
-/// Step in ln v of the central difference that gives the slope of the deviation, by which an error of the friction becomes one
-/// of the speed; a rough slope suffices.
+/// Step in ln v, with the speed v, of the central difference that gives the slope of the deviation. By the slope an error of the
+/// friction becomes one of the speed. Chosen; a rough slope suffices.
 const SLOPE_STEP: f64 = 0.02;
 
 /// The range of speeds of one profile and stiffness ratio; without speeds where the law is right at none of the map.
@@ -36,7 +36,7 @@ pub(super) struct Row {
     smallest_deviation_error: f64,
 }
 
-/// Columns that are printed; the file has all.
+/// Names of the columns that are printed; the file has all columns.
 pub(super) const COLUMNS: &str = "exponent model stiffness_ratio lowest_speed highest_speed \
                                   loss_tangent_at_lowest loss_tangent_at_highest smallest_deviation";
 
@@ -59,7 +59,7 @@ fn row(model: Model, speeds: &[Prediction], error: f64) -> Result<Row> {
     let deviations = || speeds.iter().map(|(_, law)| law.deviation(model));
     let right = |deviation: f64| deviation <= RIGHT_WITHIN;
     let crossing = |low, high| crossing(model, speeds, [low, high], error);
-    // The first and the last point where the law is right; the border is between each and its neighbour where it is not.
+    // Find the first and the last point where the law is right; the border is between each and its neighbour where it is not.
     let lowest = deviations().position(right);
     let lowest = lowest.map(|at| crossing(at.checked_sub(1), Some(at)));
     let highest = deviations().rposition(right);
@@ -154,7 +154,7 @@ impl Border {
             let right = |law: &Law| law.deviation(self.model) <= RIGHT_WITHIN;
             let is_low = right(&law) == right(&self.ends[0].1);
             self.ends[usize::from(!is_low)] = (sliding, law);
-            // The slope is that between speeds that are far from each other.
+            // Add the change of the border to its error, because the slope is that between speeds that are far from each other.
             let speed = self.between()?.speed;
             let next = Crossing { speed, slope }.with_error(error);
             border = Estimate::new(next.value, next.error + (next.value - border.value).abs());

@@ -185,7 +185,7 @@ impl Law {
     }
 }
 
-/// Both models, in the order of tables and panels.
+/// Both models, in the order in which tables and panels show them.
 const MODELS: [Model; 2] = [Model::Line, Model::HalfSpace];
 
 /// s_p: friction of the half space over that of the line on a viscous material, which the ratio passes as a plateau between 1/2

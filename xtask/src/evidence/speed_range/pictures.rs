@@ -15,7 +15,7 @@ use crate::scene::solid;
 const COLOURS: [Colour; 3] = [Colour::Blue, Colour::Green, Colour::Red];
 /// Range of the axis of the ratio of half space to line, which is between 1/2 and 1.
 const RATIOS: [f64; 2] = [0.4, 1.1];
-/// Points along each side of the outline of tan δ > 1; chosen, so that it looks smooth.
+/// Number of points along each side of the outline of the region with tan δ > 1. Chosen, so that it looks smooth.
 const WINDOW_STEPS: i32 = 60;
 
 /// Name of a profile of [`super::EXPONENTS`].

@@ -24,9 +24,9 @@ use serde::Serialize;
 
 use crate::scene::{as_far_as_reached, refined_to, solid};
 
-/// Relative error requested of the line; far below that of the half space, with which it is compared.
+/// Relative error requested of the one-dimensional model. Chosen far below that of the half space, with which it is compared.
 pub(super) const LINE_ERROR: f64 = 1e-6;
-/// Lengths between which the contact length b of the viscous law is sought; it is about 1 where the law holds and may be far
+/// Range in which the contact length b of the viscous law is sought. Chosen: it is about 1 where the law holds, and may be far
 /// from it elsewhere.
 const LENGTHS: [f64; 2] = [1e-8, 1e12];
 
@@ -89,7 +89,8 @@ impl Sliding {
         let solid = solid(self.stiffness_ratio)?;
         let modulus = |length: f64| solid.complex_modulus(self.speed / length);
         let loss = |length: f64| modulus(length).map(|modulus| modulus.loss);
-        // ln of F_N = 4 G'' b h̃(b), which rises with b: G'' falls at most like 1/b.
+        // Find the contact length b by the logarithm of F_N = 4 G'' b h̃(b), with the normal force F_N and the height h̃ of the
+        // line. The right side rises with b, because the loss modulus G'' falls at most like 1/b.
         let excess = |logarithm: f64| {
             loss(logarithm.exp()).map_or(f64::NAN, |loss| {
                 (4.0 * loss / normal_force).ln() + (1.0 + self.exponent) * logarithm

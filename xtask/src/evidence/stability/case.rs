@@ -82,7 +82,7 @@ impl Row {
         let deviation = (got - expected).abs() / scale;
         Self {
             quantity: quantity.to_owned(),
-            // NaN and infinity are no numbers of a table.
+            // Leave out a deviation that is NaN or infinite, because a table has finite numbers only.
             deviation: deviation.is_finite().then_some(deviation),
             tolerance: Some(tolerance),
             verdict: Verdict::Accurate.provided(deviation <= tolerance),
@@ -110,7 +110,7 @@ impl Row {
         is_right: impl Fn(&E) -> bool,
     ) -> Self {
         match result {
-            // Enough of a solution that should not be to recognise it.
+            // Show the beginning of a solution that should not exist, by which it is recognised.
             Ok(value) => {
                 let text: String = format!("{value:?}").chars().take(200).collect();
                 Self::wrong(expected, text)

@@ -31,7 +31,7 @@ pub(super) fn cone_on_solid(material: &RelaxationSpectrum, velocity: f64) -> Res
     let branches: Vec<Branch> = material.branches().iter().map(branch).collect();
     let spring = material.equilibrium_modulus();
     let dashpot = material.viscosity() * velocity;
-    // The load at the distance y behind the apex vanishes at the rear of the contact. A dashpot pulls there, so that the
+    // Find the rear of the contact, where the load at a distance y behind the apex vanishes. A dashpot pulls there, so that the
     // contact may end at the apex itself; a material that is nearly elastic is symmetric up to y = x_r.
     let behind = |y: f64| {
         let stresses: f64 = branches.iter().map(|branch| branch.behind(y)).sum();
@@ -44,7 +44,7 @@ pub(super) fn cone_on_solid(material: &RelaxationSpectrum, velocity: f64) -> Res
     } else {
         bracketed_root(behind, [0.0, 1.0]).context("no place where the load vanishes")?
     };
-    // Load and work of the spring and the dashpot in closed form; those of each branch by quadrature.
+    // Compute load and work of the spring and the dashpot in closed form, then add those of each branch by quadrature.
     let left = 1.0 - rear;
     let mut load = 0.5 * spring * (2.0 - left * left) + dashpot * left;
     let mut work = dashpot * (1.0 + rear) + 0.5 * spring * left * left;

@@ -21,7 +21,7 @@ use super::case::{Row, refused};
 use super::line::{on_dashpot, under};
 use crate::scene::{Scene, solid};
 
-/// Accuracy of all stationary cases; the unknowns suffice for each of them, and bound its time.
+/// Accuracy of all stationary cases. The number of unknowns suffices for each of them, and bounds its time.
 const OPTIONS: RefinementOptions = RefinementOptions {
     relative_error: 1e-2,
     aspect: 0.5,
@@ -117,7 +117,8 @@ fn at_limit(gamma: f64, velocity: f64, limit: Limit) -> Result<Row> {
     };
     let limit = limit(&profile, &solid, contact)?;
     let load = SlidingLoad::new(limit.normal_force, velocity)?;
-    // The next order is the speed over that at which the limit ends, some 1e-4.
+    // Allow a relative error of 1e-3 of the limit: the next order is the ratio of the speed to that at which the limit ends, some
+    // 1e-4.
     let expected = Estimate::new(limit.half_space, 1e-3 * limit.half_space);
     judged(&profile, &solid, &load, expected, 0.0)
 }
@@ -160,13 +161,13 @@ pub(super) fn pressed(material: &dyn Material, step: f64) -> Result<Row> {
     let body = PowerProfile::paraboloid(0.1)?;
     let times = [step, 2.0 * step, 3.0 * step];
     let options = GridOptions::new([0.1; 2], Footprint::square(2.0));
-    // A force under which the last contact has a radius of about one.
+    // Choose a force under which the last contact has a radius of about one.
     let force = 1.0 / material.creep_compliance(times[2])?;
     let steps = HistoryPoint::held(Control::NormalForce(force), &times);
     let got = indent_history_on_grid(&body, &material, &steps, &options)?;
     let step = HistoryPoint::held(Control::NormalForce(1.0), &[1.0]);
     let expected = indent_history_on_grid(&body, &Elastic::new(1.0)?, &step, &options)?;
-    // Three solutions, each to the contact tolerance.
+    // The tolerance allows for three solutions, each of which is found to the tolerance of the contact.
     let tolerance = 1e2 * options.contact.tolerance;
     let [got, expected] = [&got[2], &expected[0]];
     let depths = [got.indentation_depth, expected.indentation_depth];
@@ -196,13 +197,14 @@ fn beside_limit(
 ) -> Result<Row> {
     let got = marched(material, ratio, force)?;
     let limit = marched(limit, ratio, force)?;
-    // Part by which a limit is missed after some fifteen steps, and contacts solved to 1e-9.
+    // Allow the fraction by which the limit is missed after some fifteen steps, and the error of contacts solved to 1e-9.
     let tolerance = 1e2 * ratio.min(1.0 / ratio) + 1e-6;
     let depths = [got.indentation_depth, limit.indentation_depth];
     let friction = [got.friction_coefficient, limit.friction_coefficient];
     Ok(Row::worst([
         Row::number("depth", depths, depths[1], tolerance),
-        // Friction is a part of the slope 2 c a, with c = 0.1 and a about one.
+        // Compare friction with 0.2 as the scale, because it is a fraction of the slope 2 c a, with c = 0.1 and the contact
+        // radius a about one.
         Row::number("friction coefficient", friction, 0.2, tolerance),
     ]))
 }

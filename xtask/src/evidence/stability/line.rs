@@ -17,7 +17,8 @@ use super::case::{Row, refused};
 use super::cone_on_solid::cone_on_solid;
 use crate::scene::Scene;
 
-/// Relative error requested of the stationary solver (its default) and of pressing; results must be this close to closed forms.
+/// Relative error requested of the stationary solver (its default) and of pressing. Results must agree with closed forms as
+/// closely.
 const REQUESTED_ERROR: f64 = 1e-8;
 
 /// A profile on a dashpot under such a load that the depth by Eq. (12) of the paper is 0.1 m.
@@ -149,7 +150,7 @@ pub(super) fn cone_at_depth(material: &dyn Material, velocity: f64) -> Result<Ro
 pub(super) fn pressed(material: &dyn Material, time: f64) -> Result<Row> {
     let profile = cone()?;
     let last = material.creep_compliance(time)?;
-    // A force under which the contact has the radius of about one.
+    // Choose a force under which the contact has a radius of about one.
     let force = 1.0 / last;
     let dashpot = Viscous::new(1.0)?;
     let expected = power_indentation_after_impulse(&profile, &dashpot, force * last)?;
@@ -159,7 +160,7 @@ pub(super) fn pressed(material: &dyn Material, time: f64) -> Result<Row> {
     Ok(Row::relative("indentation depth", depths, REQUESTED_ERROR))
 }
 
-/// Elements along the stationary contact of [`march`]; chosen.
+/// Number of elements along the stationary contact of [`march`]. Chosen.
 const MARCH_ELEMENTS: usize = 400;
 
 /// A march of a cone on Maxwell's material into the stationary state, at a speed \[m/s]; compared with the closed form to 4/n
@@ -198,7 +199,7 @@ pub(super) fn under(force: f64) -> Result<Scene> {
 /// which nothing overflows or underflows.
 fn beside_paper([depth, friction]: [f64; 2], force: f64, tolerance: f64) -> Result<Row> {
     let expected = 0.25 * force;
-    // A depth below the normal numbers has fewer digits.
+    // Add one unit in the last place of the smallest numbers, because a depth below the normal numbers has fewer digits.
     let tolerance = tolerance + f64::from_bits(1) / expected;
     let frictions = [friction, 4.0 / 3.0 * 2.0_f64.sqrt() * expected.sqrt()];
     Ok(Row::worst([

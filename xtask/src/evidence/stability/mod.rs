@@ -26,7 +26,7 @@ pub(super) struct Options {
     only: Option<String>,
 }
 
-/// Smaller deviations over tolerance are drawn here: zero has no place on a logarithmic axis.
+/// Ratio of deviation to tolerance at which smaller ones are drawn, because zero has no place on a logarithmic axis. Chosen.
 const MIN_DRAWN_PART: f64 = 1e-9;
 
 /// Runs all cases, also in a quick run.

@@ -170,16 +170,18 @@ struct Baseline<'a> {
     limit: f64,
 }
 
-/// Processor time after which a run is ended, over that with the present value; chosen: such a slow value is useless.
+/// Ratio of the processor time after which a run is ended to that with the present value. Chosen: a value that makes runs so slow
+/// is useless.
 const LIMIT_OVER_PRESENT_TIME: f64 = 20.0;
-/// Shortest processor time after which a run is ended \[s]; chosen, so that short runs are ended rarely.
+/// Shortest processor time after which a run is ended, \[s]. Chosen, so that short runs are ended rarely.
 const MIN_LIMIT: f64 = 5.0;
-/// Runs of a scene are repeated until those with the present value took this processor time \[s], against which the steps of
-/// 10 ms, in which it is counted, are 5 %.
+/// Processor time, \[s], up to which runs of a scene are repeated with the present value. Chosen: the steps of 10 ms in which it
+/// is counted are 5 % of it.
 const MEASURED_SECONDS: f64 = 0.2;
-/// The same where the ratio of both times is not close to 1 \[s], so that a change is not reported by chance.
+/// Processor time, \[s], up to which runs are repeated where the ratio of both times is not close to 1. Chosen, so that a change
+/// is not reported by chance.
 const DOUBTED_SECONDS: f64 = 0.6;
-/// Largest number of runs of a scene, for those too short to be counted at all.
+/// Largest number of runs of a scene that is too short to be counted at all. Chosen.
 const MAX_RUNS: u32 = 250;
 
 impl<'a> Baseline<'a> {
@@ -226,7 +228,7 @@ impl<'a> Baseline<'a> {
             seconds[0] += run.processor_seconds;
             let present = program.solve(self.scene, &self.file, f64::INFINITY, None)?;
             seconds[1] += present.processor_seconds;
-            // A ratio that looks like a change is averaged longer; the same answer in as many iterations is the same work.
+            // Average a ratio of times that looks like a change longer. The same answer in as many iterations is the same work.
             let is_close = (seconds[0] / seconds[1]).ln().abs() <= summary::MAX_TIME_RATIO.ln();
             let needed = if is_close {
                 MEASURED_SECONDS
@@ -252,7 +254,7 @@ impl<'a> Baseline<'a> {
             let reference = self.reference.quantities[name];
             let deviation_over_bar = |estimate: &Estimate| {
                 let deviation = (estimate.value - reference.value).abs();
-                // Exact answers have no bar and no deviation.
+                // Avoid 0/0 for exact answers, which have no bar and no deviation.
                 deviation / (estimate.error + reference.error).max(f64::MIN_POSITIVE)
             };
             let found = answer.ok().map(|answer| answer.quantities[name]);

@@ -54,7 +54,7 @@ pub(super) enum Failure {
     Unfinished(f64),
 }
 
-/// Pause between two looks at whether a run has ended; short against the shortest runs, and almost no load.
+/// Pause between two checks whether a run has ended. Chosen: it is short against the shortest runs, and almost no load.
 const POLLING_INTERVAL: Duration = Duration::from_millis(2);
 
 impl Program {
@@ -136,7 +136,8 @@ impl Answer {
 /// Number of fields in `/proc/PROCESS/stat` between the name of the program, in parentheses, and `utime` and `stime`, the user
 /// and system time of the process (man 5 proc_pid_stat).
 const FIELDS_BEFORE_OWN: usize = 11;
-/// The same before `cutime` and `cstime`, the times of its children that have ended.
+/// Number of fields in the same file between the name of the program and `cutime` and `cstime`, the times of its children that
+/// have ended.
 const FIELDS_BEFORE_CHILDREN: usize = 13;
 /// Clock ticks per second in `/proc` (`USER_HZ` of Linux), on all architectures for which there is a Rust compiler.
 const TICKS_PER_SECOND: f64 = 100.0;

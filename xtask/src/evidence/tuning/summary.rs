@@ -4,13 +4,14 @@ use super::cases::Case;
 use super::{Outcome, Row};
 use crate::table::{known_digits, markdown_table};
 
-/// Largest ratio of processor times, and its inverse the smallest, that counts as no change.
+/// Largest ratio of processor times that counts as no change; the smallest is its inverse. Chosen.
 pub(super) const MAX_TIME_RATIO: f64 = 1.25;
-/// Largest such ratio of runs shorter than [`SHORT_RUN_SECONDS`], whose times scatter by the steps of the clock.
+/// Largest ratio of processor times that counts as no change for runs shorter than [`SHORT_RUN_SECONDS`]. Chosen: their times
+/// scatter by the steps of the clock.
 const MAX_TIME_RATIO_OF_SHORT_RUNS: f64 = 1.5;
-/// Processor time below which a run is short \[s]: three of the steps of 10 ms in which Linux counts.
+/// Processor time below which a run is short, \[s]. Chosen: three of the steps of 10 ms in which Linux counts.
 const SHORT_RUN_SECONDS: f64 = 0.03;
-/// A ratio of error bars between the inverse of this and this counts as no change; chosen, since a bar is an estimate.
+/// Largest ratio of error bars that counts as no change; the smallest is its inverse. Chosen, since a bar is an estimate.
 const MAX_BAR_RATIO: f64 = 2.0;
 
 /// A table in Markdown with one row per constant.
@@ -22,7 +23,7 @@ pub(super) fn summary(cases: &[&Case], rows: &[Row]) -> String {
             (tried.value, changes(&rows.collect::<Vec<_>>()))
         });
         let of_value: Vec<_> = of_value.collect();
-        // The last value on either side before the first that changes something.
+        // Find on either side the last value before the first that changes something.
         let (smaller, larger) = of_value.split_at(case.smaller.len());
         let [low, high] = [smaller, larger].map(|values| {
             let harmless = values.iter().take_while(|(_, changes)| changes.is_empty());
@@ -79,7 +80,8 @@ fn changes(rows: &[&Row]) -> Vec<String> {
         Change::beyond(MAX_BAR_RATIO, bar / row.present_value_error, &row.scene)
     });
     changes.extend(Change::largest("bar", bars));
-    // The same digits are the same work: there the times differ by what else the machine did.
+    // Compare times only where the answer has changed. Where the digits are the same the work is the same, and times differ by
+    // what else the machine did.
     let changed = rows
         .iter()
         .filter(|row| row.value.is_some() && row.outcome != Outcome::Same);

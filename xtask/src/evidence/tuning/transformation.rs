@@ -92,9 +92,9 @@ pub(super) fn transform(cases: &[Case], sources: &Sources) -> Result<BTreeMap<Pa
         let declared = constants.iter().filter(|constant| constant.file == file);
         edits.extend(declared.flat_map(|constant| constant.function(source)));
         if !edits.is_empty() {
-            // From the end, so that earlier places stay where they are.
+            // Replace from the end, so that earlier places stay where they are.
             edits.sort_by_key(|(place, _)| Reverse(place.end));
-            // Several uses may be in one function.
+            // Remove equal edits, because several uses may be in one function.
             edits.dedup();
             let mut text = source.text.clone();
             for (place, replacement) in edits {

@@ -8,18 +8,19 @@ use viscofriction::scene::{Method, Model, Scene};
 use crate::evidence::request::{Reference, Request, first_reached, presses};
 use crate::meter::{measure, measure_median};
 
-/// What is compared in a scene that slides.
+/// Name of the quantity that is compared in a scene that slides.
 const FRICTION: &str = "friction coefficient";
-/// What is compared in a scene that is only pressed.
+/// Name of the quantity that is compared in a scene that is only pressed.
 pub(super) const DEPTH: &str = "indentation depth";
 /// Relative errors requested of references in the one-dimensional model that have no closed form; the first that is reached is
 /// taken.
 const LINE_REFERENCE: [f64; 2] = [1e-12, 1e-11];
-/// Relative errors requested of references on the half space, likewise.
+/// Relative errors requested of references on the half space; the first that is reached is taken. Chosen.
 const HALF_SPACE_REFERENCE: [f64; 3] = [2e-5, 5e-5, 1e-4];
-/// Relative error assumed of closed forms: a few roundings of f64.
+/// Relative error assumed of closed forms. Chosen: a few roundings of f64.
 const CLOSED_ROUNDING: f64 = 1e-15;
-/// Relative errors up to this come from rounding in long sums and follow no power law, so that no order is fitted to them.
+/// Relative error up to which no order of convergence is fitted, because smaller ones come from rounding in long sums and follow
+/// no power law. Chosen.
 const ROUNDING: f64 = 1e-12;
 
 /// The result of a run; errors are relative.

@@ -126,12 +126,12 @@ fn measure(quick: bool) -> Result<Measured> {
     Ok(measured)
 }
 
-/// Relative residual to which the Hertz contact is solved, so far below the discretisation error of its grids that only this is
-/// seen.
+/// Relative residual to which the Hertz contact is solved. Chosen so far below the discretisation error of its grids that only
+/// this error is seen.
 const HERTZ_TOLERANCE: f64 = 1e-9;
 /// Relative residuals to which the rough surface is solved.
 const ROUGH_TOLERANCES: [f64; 5] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-10];
-/// Relative residual of the solution on the same grid with which these are compared.
+/// Relative residual of the solution on the same grid with which those of [`ROUGH_TOLERANCES`] are compared. Chosen.
 const ROUGH_REFERENCE_TOLERANCE: f64 = 1e-12;
 
 /// The depth of the Hertz contact on square grids with these numbers of elements along an edge. The time includes the set-up of
@@ -139,7 +139,7 @@ const ROUGH_REFERENCE_TOLERANCE: f64 = 1e-12;
 fn hertz(measured: &mut Measured, edges: &[usize]) {
     for &edge in edges {
         let run = Row {
-            // All such contacts are similar.
+            // Name the scene by the theory alone, because all Hertz contacts are similar.
             scene: "Hertz".to_owned(),
             quantity: DEPTH,
             resolution_kind: "elements",

@@ -7,7 +7,7 @@ use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series
 use super::measured::Row;
 use crate::picture::{chart as chart_of, guide};
 
-/// Relative errors of references are drawn if larger than this; smaller ones are below all curves of interest.
+/// Relative error above which the error of a reference is drawn. Chosen; smaller ones are below all curves of interest.
 const MIN_DRAWN_FLOOR: f64 = 1e-9;
 
 /// The scenes of one picture; all panels have the same axes.
