@@ -1,9 +1,9 @@
 //! Coarse-space correction of the preconditioner on blocks of elements, for contacts of many patches.
 //!
-//! The inverse S of the influence, restricted to the active set, finds the pressure for the gaps of a patch as if no other patch
-//! were loaded (as for static contacts, `contact/multilevel_correction.rs`). Let w = S 1 be the pressures under the unit gap, and W
-//! their mean over a block. Let s be the means over the blocks of the pressures S r under a gap r, and K the influence between blocks.
-//! The displacement d of the blocks by other patches then satisfies
+//! The preconditioner is the inverse S of the influence, restricted to the active set. It finds the pressure for the gaps of a
+//! patch as if no other patch were loaded (as for static contacts, `contact/multilevel_correction.rs`). Let w = S 1 be the
+//! pressures under the unit gap, and W their mean over a block. Let s be the means over the blocks of the pressures S r under a
+//! gap r, and K the influence between blocks. The displacement d of the blocks by other patches then satisfies
 //!
 //! ```text
 //! d + K W d = K s,        M r = S r − w d.

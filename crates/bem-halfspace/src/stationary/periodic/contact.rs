@@ -158,9 +158,9 @@ impl FixedSetSolver for PeriodicFixedSetSolver<'_> {
     const PERIODIC_ALONG_X: bool = true;
     /// Chosen. With `usual` = 0.1 there are up to a quarter more operator applications in light contact.
     ///
-    /// With a tenth of the area of 4096² elements in contact and moduli that differ by 1000 there are 156 operator applications if
-    /// both terms are equal, and 115 as they are. If `after_growth` holds for residuals that fall by less than a half too, contacts
-    /// of dashpots take a fifth more.
+    /// With a tenth of the area of 4096² elements in contact and moduli that differ by a factor of 1000, there are 115 operator
+    /// applications. If both terms are equal there are 156. If `after_growth` also holds for residuals that fall by less than a
+    /// half, contacts of dashpots take a fifth more.
     const FORCING: ForcingTerms = ForcingTerms {
         usual: 0.2,
         after_growth: 0.06,

@@ -4,11 +4,9 @@
 //! û(q) = 2 p̂(q) M / (|q| E*(−q_x v)) = (1 − ν) [J'(q_x v) + i J''(q_x v)] p̂(q) M / |q|,        q_x ≥ 0
 //! ```
 //!
-//! with the complex creep compliance in shear J* = J' − i J'', the wave vector q, the sliding speed v and the compliance ratio M of
-//! a layer (1 on a half space). In the frame that moves with the surface a wave has the angular frequency −q_x v. The gap of an
-//! element is evaluated at the distance θ Δx from its centre (shifted collocation), θ = −δ/π, with the loss angle δ of the shortest
-//! wave along x. There displacement and pressure of this wave are in phase, and those of all other waves differ by less than a
-//! quarter period, so that the symmetric part of the operator is positive definite: the exchange rule then ends.
+//! with the transforms û of the displacement and p̂ of the pressure, the complex creep compliance in shear J* = J' − i J'', and
+//! the Poisson ratio ν. The wave vector is q, the sliding speed v, and the compliance ratio of a layer M (1 on a half space). In
+//! the frame that moves with the surface a wave has the angular frequency −q_x v.
 //!
 //! Theory: docs/theory/stationary-half-space.md, "Periodic surfaces" and "Where the gap is evaluated".
 

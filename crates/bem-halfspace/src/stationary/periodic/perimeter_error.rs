@@ -1,10 +1,9 @@
 //! Error of the contact area after the perimeter correction.
 //!
 //! Counted areas are corrected by the mean excess of an edge over all directions of the contact boundary (`elements/area.rs`).
-//! The directions on a rough surface are not quite uniform, and unidirectional roughness (grooves) has only one. If a line
-//! passes a elements along x while it passes b along y, the centres of elements lie on parallel lines that are 1/(a + b) of an
-//! edge apart. The area is then unknown by half of that at every edge. The bar √ΣL² of pressed bodies does not hold here: all grooves
-//! are displaced alike, so that 16 grooves erred by 3 of those bars, and oblique ones by 14.
+//! The directions on a rough surface are not quite uniform, and unidirectional roughness (grooves) has only one. Let a line pass
+//! a elements along x while it passes b along y. The centres of elements then lie on lines parallel to it that are 1/(a + b) of
+//! an edge apart. The area is unknown by half of that at every edge.
 //!
 //! Theory: docs/theory/rough-surfaces.md.
 
@@ -34,8 +33,8 @@ pub(super) fn area_fraction(field: &PressureField, surface: &PeriodicSurface) ->
     Estimate::new(found.area, error)
 }
 
-/// Direction of the lines of unidirectional roughness, as the numbers [a, b] of elements along x and y, without a common factor, that a
-/// line passes (head of this file).
+/// Direction of the lines of unidirectional roughness: the numbers [a, b] of elements along x and y, without a common factor,
+/// that a line passes (head of this file).
 ///
 /// `None` if other waves displace the contact boundary by more than [`MAX_WAVINESS`].
 fn groove_direction(surface: &PeriodicSurface, grid: &Grid) -> Option<[usize; 2]> {

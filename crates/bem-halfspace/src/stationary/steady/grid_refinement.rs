@@ -510,8 +510,8 @@ impl ShiftedGrids<'_> {
     }
 
     /// Tolerance of a contact that disturbs the friction by less than the requested error. It is proportional to the ratio of
-    /// friction to mean slope, which is 1 at most and assumed so on the first grid, because a small friction is a difference of
-    /// large slopes.
+    /// friction to mean slope, because a small friction is a difference of large slopes. The ratio is 1 at most, which is assumed
+    /// on the first grid.
     fn tolerance(&self) -> f64 {
         // The friction ratio is that of the last solution, which is on another grid.
         let last = self.reuse.solution.as_ref();

@@ -11,9 +11,9 @@ use numerics::{in_range, positive};
 /// Depth of the lowest point below the undeformed surface, which grows without limit where the material flows.
 ///
 /// On a solid, whose creep ends, `depth_per_e_fold` is 0, and `reference_depth` is the depth after a sliding time much longer
-/// than the retardation times. Now consider a dashpot after the sliding distance s from first touch. At the distances ξ ahead of
-/// a point load, y beside it and r from it, the kernel of the march in time is `asinh((ξ + s)/|y|) − asinh(ξ/|y|) → ln(2s) − ln(ξ
-/// + r)`. Under the normal force F_N, for the viscosity η and the speed v, the depth is therefore
+/// than the retardation times. Now consider a dashpot after the sliding distance s from first touch. A point lies ξ ahead of a
+/// point load, y beside it, and at the distance r from it. There the kernel of the march in time is `asinh((ξ + s)/|y|) −
+/// asinh(ξ/|y|) → ln(2s) − ln(ξ + r)`. Under the normal force F_N, for the viscosity η and the speed v, the depth is therefore
 ///
 /// ```text
 /// d(s) = d_ref + F_N/(4πηv) ln(s / s_ref)

@@ -10,8 +10,8 @@
 //! with lengths in units of the element length Δx, the sliding speed v and the retardation time λ. This is one recursion along
 //! each column of the table, from ahead, for each retardation element.
 //!
-//! On a track of the length L the potential is that of the nearest image of the load, and the recursion, which is the same
-//! within half the length ahead and behind, starts from the integral around the track:
+//! On a track of the length L the potential is that of the nearest image of the load. The recursion is the same within half the
+//! length ahead and behind, and starts from the integral around the track:
 //!
 //! ```text
 //! k(ξ) = q/(1 − e^(−q L)) ∫_0^L e^(−q s) V(ξ + s) ds,      V(ξ) = V(ξ − L) for ξ > L/2

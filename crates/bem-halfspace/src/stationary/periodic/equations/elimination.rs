@@ -1,8 +1,9 @@
 //! Direct solution of the equations if few elements are in contact, or few are open, whatever the ratio of the moduli is.
 //!
-//! On few active elements the dense matrix of their influence coefficients is factorised. Next to few open elements (complement
-//! solve) the pressure that closes all gaps follows from the inverse of K on the whole grid, once the gaps of the open elements
-//! are known. These are the gaps that leave no pressure there. The mean pressure, on which the gaps do not depend, is one more unknown.
+//! If few elements are active, the dense matrix of their influence coefficients is factorised. If few elements are open, their
+//! gaps are the unknowns (complement solve). The inverse of K on the whole grid then gives the pressure that closes all other
+//! gaps. The gaps of the open elements are those that leave no pressure there. The mean pressure, on which the gaps do not
+//! depend, is one more unknown.
 
 use numerics::transforms::Real as _;
 

@@ -362,8 +362,8 @@ fn reversed(field: &[f64], grid: &Grid) -> Vec<f64> {
 
 /// Cross-spectrum of two fields by rows: for each q_x the sum over q_y of conj(left) right, over the number of rows.
 ///
-/// If each row of the transform of `right` is multiplied by a factor, the sum over the elements of left times right becomes the sum
-/// of these values times the factors.
+/// Multiply each row of the transform of `right` by a factor. The sum of left times right over the elements then becomes the sum
+/// of the values of the cross-spectrum times the factors.
 fn row_sums(left: &[f64], right: &[f64], grid: &Grid) -> Vec<Complex<f64>> {
     let [rows, columns] = grid.shape();
     let transform = f64::forward(rows);

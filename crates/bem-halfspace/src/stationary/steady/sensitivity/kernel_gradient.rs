@@ -44,8 +44,9 @@ pub(super) struct KernelGradient {
     pub(super) by_log_track: f64,
 }
 
-/// The change of the creep compliance part by part, \[1/Pa]: of the instantaneous compliance, of the free flow over an element, and for
-/// each retardation element of its compliance, and of the logarithm of its memory length times its compliance.
+/// The change of the creep compliance part by part, \[1/Pa]. The first two entries are the changes of the instantaneous
+/// compliance and of the free flow over an element. Each retardation element adds two: the change of its compliance, and that of
+/// the logarithm of its memory length times its compliance.
 pub(super) struct CreepChange(Vec<f64>);
 
 /// The kernel of a grid: the creep over its elements, and the offsets between them.

@@ -20,10 +20,10 @@
 //! R = ∂J/∂ln λ − (power of λ in J) J,      dJ/dθ → dJ/dθ − R (dG/dθ)/(∂G/∂ln λ)
 //! ```
 //!
-//! with a measure G of the motion of the boundary, in which each pair of elements has the weight of its effect
-//! (`elements/contact_boundary.rs`). The area is a sum over the boundary, too; its derivative is divided by that of the dilation
-//! and multiplied by 2. With this correction all derivatives add up exactly under a change of the unit of length, as they do
-//! without it under changes of the units of stress and time.
+//! with a measure G of the motion of the boundary, the boundary weight, in which each pair of elements has the weight of its
+//! effect (`elements/contact_boundary.rs`). The area is a sum over the boundary, too. Its derivative is divided by that of the
+//! dilation and multiplied by 2, the power of λ in the area. With this correction all derivatives add up exactly under a change
+//! of the unit of length. Under changes of the units of stress and time they do so without it.
 //!
 //! Theory: docs/theory/sensitivities.md, "How they are computed".
 
