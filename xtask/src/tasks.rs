@@ -21,7 +21,7 @@ pub(crate) fn in_parallel<T: Sync, R: Send>(
     results
 }
 
-/// The same as [`in_parallel`] for one item after the other, so that each can be timed; stops at the first error.
+/// Runs one item after the other, unlike [`in_parallel`], so that each can be timed; stops at the first error.
 pub(crate) fn in_turn<T, R>(
     task: impl Into<Cow<'static, str>>,
     items: &[T],

@@ -122,7 +122,7 @@ impl HeightMap {
 
     /// The map together with its mirror images about its last row, its last column and both.
     ///
-    /// Its periodic continuation has no jump of the height.
+    /// The periodic continuation of the mirrored map has no jump of the height.
     #[must_use]
     pub fn mirrored(&self) -> Self {
         let [rows, columns] = self.shape;

@@ -36,7 +36,7 @@ struct Dependency {
     /// `dev` or `build`; none for one that the library itself needs.
     kind: Option<String>,
     optional: bool,
-    /// Its folder, for a crate of the workspace.
+    /// Folder of the dependency, if it is a crate of the workspace.
     path: Option<PathBuf>,
 }
 

@@ -45,7 +45,7 @@ struct Row {
     /// Surfaces of the judged mean; below, those of them that were solved only on a coarse grid.
     surfaces: usize,
     on_coarse_grid: usize,
-    /// The same of the mean with which it is compared.
+    /// Surfaces of the mean with which it is compared; below, those of them that were solved only on a coarse grid.
     compared_surfaces: usize,
     compared_on_coarse_grid: usize,
     /// The judged mean, in the unit of the quantity, and its standard error.
@@ -53,7 +53,7 @@ struct Row {
     standard_error: f64,
     /// The judged mean minus the other one.
     deviation: f64,
-    /// `deviation` over the standard error of the difference of the means.
+    /// Ratio of `deviation` to the standard error of the difference of the means.
     relative_deviation: f64,
 }
 

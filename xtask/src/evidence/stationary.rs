@@ -98,7 +98,7 @@ struct Grid {
     processor_seconds: f64,
     /// Largest memory resident in this process so far, in units of 2²⁰ bytes; none where the system does not tell.
     peak_memory_mib: Option<f64>,
-    /// Friction coefficient on this one grid over the extrapolated one, minus 1.
+    /// Ratio of the friction coefficient on this one grid to the extrapolated one, minus 1.
     relative_deviation: f64,
 }
 

@@ -107,7 +107,7 @@ fn pressure_maps(approaches: &[Approach]) -> Figure {
     Figure::new(maps, 2)
 }
 
-/// Logarithm of the pressure over its mean in contact; lengths in contact lengths of the one-dimensional model.
+/// Logarithm of the ratio of the pressure to its mean in contact; lengths in contact lengths of the one-dimensional model.
 fn pressure_map(approach: &Approach, name: &str) -> Chart {
     let field = &approach.pressure;
     let axis = |axis: usize, label: &str| {

@@ -18,7 +18,8 @@ pub(super) fn figure(contacts: &[Contact]) -> Figure {
     Figure::new(contacts.iter().map(map), 2)
 }
 
-/// Pressure over its mean, the outline of the contact, the circle of the contact length, and the lowest point of the body.
+/// Ratio of the pressure to its mean, the outline of the contact, the circle of the contact length, and the lowest point of the
+/// body.
 fn map(contact: &Contact) -> Chart {
     // Choose the number of cells for the window, which is two contact lengths long and 2.8 wide.
     let cells = [10, 14].map(|fifths| fifths * contact.elements / 5 / ELEMENTS_PER_CELL);

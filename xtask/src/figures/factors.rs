@@ -25,7 +25,7 @@ const RELATIVE_ERROR: f64 = 2e-4;
 /// to be extrapolated. Chosen.
 const DRIFT_TOLERANCE: f64 = 0.02;
 
-/// Factors of one profile, friction of the half space over that of the one-dimensional model:
+/// Factors of one profile, each the ratio of the friction of the half space to that of the one-dimensional model. They satisfy
 /// plain + time_level_bias + distance_bias + grid_bias = converged.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Row {
@@ -33,11 +33,11 @@ pub(super) struct Row {
     pub(super) paper: f64,
     /// Friction ratio at the end of the plain simulation, with the slope at the end of the step.
     pub(super) plain: f64,
-    /// Added by the mean slope over the step.
+    /// Change of the factor if friction is computed with the mean slope over each step.
     time_level_bias: f64,
-    /// Added by an infinite sliding distance.
+    /// Change of the factor by an infinite sliding distance.
     distance_bias: f64,
-    /// Added by an infinitely fine grid.
+    /// Change of the factor by an infinitely fine grid.
     grid_bias: f64,
     pub(super) converged: f64,
     pub(super) error: f64,
@@ -75,7 +75,8 @@ pub(super) fn compute() -> Result<Vec<Row>> {
 pub(super) struct Plain {
     transient: Transient,
     theory: f64,
-    /// Friction at its end, with the slope at the end of each step, over that of the one-dimensional model.
+    /// Ratio of the friction at the end of the simulation, with the slope at the end of each step, to that of the one-dimensional
+    /// model.
     pub(super) ratio: f64,
 }
 

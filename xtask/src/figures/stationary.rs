@@ -66,7 +66,7 @@ pub(super) struct Contact {
 }
 
 impl Contact {
-    /// Pressure of the element at a position, over the mean of the contact.
+    /// Ratio of the pressure of the element at a position to the mean of the contact.
     pub(super) fn pressure(&self, position: [f64; 2]) -> f64 {
         let position = position.map(|coordinate| coordinate * self.contact_length);
         self.solution.pressure.pressure_at(position) / self.mean_pressure

@@ -26,7 +26,7 @@ pub(crate) const MAX_UNKNOWNS: usize = 100_000;
 #[derive(Serialize)]
 pub(crate) struct ScalingFactor {
     exponent: f64,
-    /// Friction of the half space over that of the line.
+    /// Ratio of the friction of the half space to that of the one-dimensional model.
     scaling_factor: f64,
     /// Absolute error bar.
     error: f64,

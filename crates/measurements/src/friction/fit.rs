@@ -101,7 +101,7 @@ impl<'a> FrictionFitting<'a> {
         Ok(fitting)
     }
 
-    /// The same parameters, prior and noise with other points.
+    /// A fit with the same parameters, prior and noise, and with other points.
     #[must_use]
     pub const fn of(&self, points: &'a [FrictionPoint]) -> Self {
         Self { points, ..*self }

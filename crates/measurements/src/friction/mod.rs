@@ -21,7 +21,7 @@ pub use read::{FrictionTable, FrictionTableOptions, friction_points};
 pub struct FrictionPoint {
     /// Sliding or rolling speed v > 0, \[m/s].
     pub velocity: f64,
-    /// Friction coefficient μ > 0: the force along the surface over the normal force.
+    /// Friction coefficient μ > 0, the ratio of the force along the surface to the normal force.
     pub friction_coefficient: f64,
     /// Standard error of the friction coefficient, if known.
     pub standard_error: Option<f64>,

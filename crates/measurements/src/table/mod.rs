@@ -236,7 +236,7 @@ impl<'a> Source<'a> {
 }
 
 impl Column<'_> {
-    /// Its name, for messages.
+    /// Name of the column, shortened for messages.
     fn shown(&self) -> String {
         shown(self.name, 40)
     }

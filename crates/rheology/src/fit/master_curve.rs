@@ -86,7 +86,7 @@ impl MasterCurve {
 
 /// Master curve with log₁₀ a_T given as a function of temperature.
 ///
-/// Its temperature is that of the isotherm nearest to the `temperature` asked for.
+/// The master curve is at the temperature of the isotherm nearest to the requested `temperature`.
 ///
 /// # Errors
 /// The errors of `log10_factor` and of [`MeasuredCurve::oscillation`]; [`RheologyError::TooFewPoints`] without an isotherm.

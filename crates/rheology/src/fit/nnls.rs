@@ -104,7 +104,7 @@ impl ActiveSet {
 
 /// An unknown that limits a step.
 struct Blocking {
-    /// Its index in the passive set.
+    /// Index of the unknown in the passive set.
     passive_index: usize,
     /// Fraction of the step at which it reaches zero.
     fraction: f64,

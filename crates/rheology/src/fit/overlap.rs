@@ -305,7 +305,7 @@ impl ModulusFactor {
         (sum + known * self.centre) / (weight + known)
     }
 
-    /// Cost that is minimised: half of the sum of squares over the variances, less its expectation.
+    /// Cost that is minimised: half of the sum of squares divided by the variances, less its expectation.
     fn cost(self, residuals: &[Residuals; 2], variances: [f64; 2]) -> f64 {
         let log_modulus = self.best_log_modulus(residuals, variances);
         let away = log_modulus - self.centre;

@@ -20,9 +20,9 @@ use crate::output::{OutputFile, folder_of, lock, name_of, not_written, remove_pa
 pub(super) enum Existing {
     /// An error; nothing is computed.
     Refuse,
-    /// Its rows are kept, and missing ones are added.
+    /// The rows of the file are kept, and missing ones are added.
     GoOn,
-    /// Its rows are discarded.
+    /// The rows of the file are discarded.
     Replace,
 }
 

@@ -32,16 +32,16 @@ const TIME: &str = "relaxation_time";
 const MODULUS_BOUNDS: [f64; 2] = [1e-5, 1e3];
 /// Lower and upper bound of the ratio of the relaxation time of a power law to its start value. Chosen: four decades either way.
 const TIME_BOUNDS: [f64; 2] = [1e-4, 1e4];
-/// Lower and upper bound of the WLF constant C₁ (chosen; about 17 for most polymers at the glass transition).
+/// Lower and upper bound of the constant C₁ of the WLF law. Chosen; C₁ is about 17 for most polymers at the glass transition.
 const C1_BOUNDS: [f64; 2] = [0.1, 1e3];
-/// Upper bound of the WLF constant C₂, \[K] (chosen; about 50 K for most polymers at the glass transition).
+/// Upper bound of the constant C₂ of the WLF law, \[K]. Chosen; C₂ is about 50 K for most polymers at the glass transition.
 const MAX_C2: f64 = 1e4;
-/// Lower and upper bound of the activation energy of an Arrhenius law, \[J/mol] (chosen; polymers have some 10⁴ to 10⁶).
+/// Lower and upper bound of the activation energy of an Arrhenius law, \[J/mol]. Chosen; polymers have some 10⁴ to 10⁶.
 const ENERGY_BOUNDS: [f64; 2] = [1e3, 1e7];
 /// Lower and upper bound of the exponent of a power law: the range that scenes accept.
 const EXPONENT_BOUNDS: [f64; 2] = [0.01, 0.99];
-/// Lower bound of C₂ over the distance \[K] of the coldest point below the reference temperature (chosen). The WLF law has its
-/// pole C₂ below the reference; it thus stays 1 % of the distance below that point.
+/// Lower bound of the ratio of C₂ to the distance \[K] of the coldest point below the reference temperature. Chosen. The WLF law
+/// has its pole C₂ below the reference; the pole thus stays 1 % of the distance below that point.
 const MIN_C2_OVER_DISTANCE: f64 = 1.01;
 /// Relative standard deviation of a modulus whose square is added to each variance of the covariance of the moduli. Chosen, below
 /// the accuracy of measured friction. Without it a combination of moduli of zero variance would have infinite weight in the

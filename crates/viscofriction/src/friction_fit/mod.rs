@@ -62,7 +62,7 @@ pub struct FittedFriction {
     pub points: Vec<FrictionPoint>,
     /// Reduced velocity a_T v of each point, at the reference temperature, \[m/s].
     pub shifted_velocities: Vec<f64>,
-    /// Largest relative error of the computed friction over the points.
+    /// Largest relative error of the computed friction among the points.
     pub solver_error: f64,
     /// The prior that was applied.
     pub prior: FrictionPrior,

@@ -66,7 +66,7 @@ pub(super) struct Model<'a> {
     /// correction removes, and its logarithmic derivatives by up to 5 % (measured, docs/fit-friction.md).
     elements: usize,
     pub(super) points: Vec<FrictionPoint>,
-    /// Friction of the fine over that of the coarse solution, for each point; 1 before the first correction.
+    /// Ratio of the friction of the fine solution to that of the coarse one, for each point; 1 before the first correction.
     corrections: Vec<f64>,
     /// The last error of the model; `None` if there was none.
     pub(super) refused: Mutex<Option<FrictionFitError>>,

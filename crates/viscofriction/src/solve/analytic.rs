@@ -274,8 +274,9 @@ fn impulse(material: &dyn Material, force: f64, duration: f64) -> Result<f64> {
     Ok(force * compliance)
 }
 
-/// Force at a depth held for a duration \[s], over the impulse on a dashpot of 1 Pa s that reaches the same depth: G(t)/(2 (1 −
-/// ν)), in units of 1 Pa s. An error if the material has relaxed to 0.
+/// Ratio of the force at a depth held for a duration \[s] to the impulse on a dashpot of 1 Pa s that reaches the same depth:
+/// G(t)/(2 (1 − ν)), in units of 1 Pa s. Here G is the relaxation modulus and ν the Poisson ratio. An error if the material has
+/// relaxed to 0.
 pub(crate) fn stiffness(material: &dyn Material, duration: f64) -> Result<f64> {
     let modulus = material.relaxation_modulus(duration)?;
     let stiffness = modulus / material.half_space_factor();

@@ -21,7 +21,7 @@ use crate::scene::{Method, Model};
 
 /// The answer to one problem, in SI units; quantities that the method does not compute are `None`.
 ///
-/// Its JSON is flat: each quantity is followed by its absolute error, for example `friction_coefficient` by
+/// The JSON of an answer is flat: each quantity is followed by its absolute error, for example `friction_coefficient` by
 /// `friction_coefficient_error`. The error is 0 for quantities that are given or exact.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]

@@ -68,7 +68,7 @@ pub enum SolveError {
         series: f64,
         /// Friction coefficient, or other requested quantity.
         value: f64,
-        /// Its absolute error.
+        /// Absolute error of this quantity.
         error: f64,
     },
     /// The mean over the random surfaces does not have the requested standard error.
@@ -113,7 +113,7 @@ pub enum SolveError {
     OutOfRange {
         /// Name of the quantity.
         quantity: String,
-        /// Its value: infinite, not a number, or so small that digits are lost.
+        /// Value of the quantity: infinite, not a number, or so small that digits are lost.
         value: f64,
     },
     /// Negative friction, by which the material would return more energy than it receives.
@@ -125,7 +125,7 @@ pub enum SolveError {
     NegativeFriction {
         /// Friction coefficient.
         value: f64,
-        /// Its error.
+        /// Absolute error of the friction coefficient.
         error: f64,
     },
     /// The method that was named does not answer the problem.

@@ -103,7 +103,7 @@ fn subdivided(points: &[HistoryPoint]) -> Vec<HistoryPoint> {
     steps
 }
 
-/// Number of parts of an interval, at least 1; `ratio` is its length over that of a part.
+/// Number of parts of an interval, at least 1; `ratio` is the ratio of the length of the interval to that of a part.
 fn whole_parts(ratio: f64) -> u32 {
     (1..=2 * N_STEPS)
         .find(|count| f64::from(*count) >= ratio)

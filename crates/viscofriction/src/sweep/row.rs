@@ -28,7 +28,7 @@ pub enum RowError {
         column: String,
         /// Number of the column, counted from 1.
         number: usize,
-        /// Its contents.
+        /// Contents of the changed cell.
         found: String,
     },
     /// Several cells or the checksum were changed.

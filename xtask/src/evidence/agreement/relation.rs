@@ -74,7 +74,7 @@ pub(super) struct Answered<'a> {
 pub(super) struct Derived {
     /// The derived scene with its files.
     pub(super) case: Case,
-    /// Its units over those of the first scene.
+    /// Ratios of the units of the derived scene to those of the first one.
     pub(super) powers: Powers,
     /// The method that is to solve it; `None` for that of the scene or the one that is chosen for it.
     pub(super) method: Option<Method>,
@@ -276,8 +276,8 @@ fn is_periodic(indenter: &Indenter) -> bool {
     }
 }
 
-/// Creep compliance J(L/v) for the length L of a thick layer over that for half the contact length, at the speed v: how much
-/// softer the material is for waves as long as the layer. 1 at rest; infinite where a compliance is.
+/// Ratio of the creep compliance J(L/v) for the length L of a thick layer to that for half the contact length, at the speed v. It
+/// says how much softer the material is for waves as long as the layer. 1 at rest; infinite where a compliance is.
 fn softening(Answered { case, folder, .. }: Answered) -> Result<f64> {
     let velocity = case.scene.load.velocity.unwrap_or_default();
     if velocity <= 0.0 {
@@ -346,7 +346,7 @@ fn other_control(scene: &mut Scene, answer: &Answer) -> Option<()> {
 struct Names {
     /// For each kind of body a table of the other kind, with the keys of the first for numbers.
     indenter: Table,
-    /// The same of materials.
+    /// For each kind of material a table of the other kind, with the keys of the first for numbers.
     material: Table,
 }
 

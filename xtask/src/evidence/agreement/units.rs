@@ -16,7 +16,7 @@ use crate::evidence::unit::Unit;
 /// A row of `units.csv`: a quantity of answers and its unit.
 #[derive(Deserialize)]
 struct Row {
-    /// Its name in answers.
+    /// Name of the quantity in answers.
     quantity: String,
     #[serde(flatten)]
     unit: Unit,

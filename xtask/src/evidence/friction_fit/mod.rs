@@ -43,13 +43,13 @@ struct Case {
     name: String,
     /// Number of experiments of a full run.
     experiments: usize,
-    /// The same of a quick run; 0 leaves the case out.
+    /// Number of experiments of a quick run; 0 leaves the case out.
     quick: usize,
     /// The slowest and the fastest, \[m/s].
     speeds: [f64; 2],
     /// Number of speeds, evenly spaced in their logarithm.
     points: usize,
-    /// Standard error of a point over its friction.
+    /// Ratio of the standard error of a point to its friction.
     noise: f64,
     /// Whether the fit is told the standard errors; otherwise it estimates them from the residuals.
     is_known: bool,

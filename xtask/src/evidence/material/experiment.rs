@@ -105,18 +105,18 @@ pub(super) struct Found {
     velocity_m_per_s: f64,
     /// Friction coefficient on the fitted material.
     friction: f64,
-    /// The same on the true material.
+    /// Friction coefficient on the true material.
     true_friction: f64,
     /// Standard uncertainty of the friction by the covariance of the moduli.
     pub(super) material_error: f64,
-    /// `friction` minus `true_friction` over this uncertainty.
+    /// Ratio of `friction` minus `true_friction` to this uncertainty.
     pub(super) deviation: f64,
     /// Whether the answer at a speed beyond the window says that the material is extrapolated.
     pub(super) warns_outside: bool,
 }
 
 impl Found {
-    /// Standard uncertainty of the friction by the material over the friction.
+    /// Ratio of the standard uncertainty of the friction, due to the material, to the friction.
     pub(super) fn relative_error(&self) -> f64 {
         self.material_error / self.friction
     }

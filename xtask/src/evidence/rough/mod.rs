@@ -240,7 +240,7 @@ struct Point<'a> {
     frictions: Vec<[f64; 3]>,
 }
 
-/// Mean of the solutions over the mean of what one theory says.
+/// Ratio of the mean of the solutions to the mean that one theory predicts.
 #[derive(Clone, Copy, Serialize)]
 struct Ratio {
     /// Name of the theory.

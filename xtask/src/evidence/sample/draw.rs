@@ -162,7 +162,8 @@ impl Sample<'_> {
         Ok(())
     }
 
-    /// A wave of a height map: amplitude over the unit of length, and how many times it fits into the map along and across.
+    /// A wave of a height map: ratio of the amplitude to the unit of length, and how many times the wave fits into the map along
+    /// and across.
     fn wave(&mut self, slope: f64) -> [f64; 3] {
         let counts = [1.0, 2.0, 3.0, 4.0];
         let [along, across] = [(); 2].map(|()| self.random.choice(&counts));

@@ -70,7 +70,7 @@ pub(super) struct Case {
 /// A file of lengths \[m], or of wave numbers \[1/m] and densities \[m⁴].
 #[derive(Debug, Clone)]
 pub(super) struct Lengths {
-    /// Its name.
+    /// Name of the file.
     pub(super) file: &'static str,
     /// Numbers in a row.
     pub(super) columns: usize,
@@ -211,7 +211,7 @@ struct Recipes {
     range: BTreeMap<String, Range>,
     /// For kinds of bodies that need one: a table in which `$NAME` stands for what was drawn under this name.
     indenter: Table,
-    /// The same for kinds of materials.
+    /// For kinds of materials that need one: a table in which `$NAME` stands for what was drawn under this name.
     material: Table,
 }
 

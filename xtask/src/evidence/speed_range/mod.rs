@@ -188,8 +188,8 @@ impl Law {
 /// Both models, in the order in which tables and panels show them.
 const MODELS: [Model; 2] = [Model::Line, Model::HalfSpace];
 
-/// s_p: friction of the half space over that of the line on a viscous material, which the ratio passes as a plateau between 1/2
-/// of slow and 1 of fast sliding.
+/// Factor s_p, the ratio of the friction of the half space to that of the one-dimensional model on a viscous material. For a
+/// solid the ratio passes it as a plateau between 1/2 of slow and 1 of fast sliding.
 fn plateau(exponent: f64) -> Result<f64> {
     Ok(scaling_factor(exponent)?.value)
 }

@@ -68,7 +68,7 @@ fn compared(got: &SteadySliding, friction: f64, depth: f64) -> Result<Row> {
     ]))
 }
 
-/// The same with the closed form on a dashpot.
+/// Compares friction coefficient and depth \[m] with the closed form on a dashpot; the worse of both.
 fn beside_theorem(got: &SteadySliding, theorem: &StationarySliding) -> Result<Row> {
     compared(got, theorem.friction_coefficient, theorem.indentation_depth)
 }

@@ -101,7 +101,7 @@ fn picture(rows: &[Row]) -> Figure {
     Figure::new(panels.map(|(rows, end)| panel(&rows, end)), 2)
 }
 
-/// Deviation over tolerance over the decimal logarithm of the parameter, from −`end` to `end`.
+/// Ratio of deviation to tolerance as a function of the decimal logarithm of the parameter, from −`end` to `end`.
 fn panel(rows: &[&Row], end: f64) -> Chart {
     let kinds = [
         ("theorem", Shape::Circle, Colour::Black),

@@ -39,7 +39,7 @@ pub(super) struct BenchmarkScene {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Case {
-    /// Its name.
+    /// Name of the constant.
     pub(super) constant: String,
     /// The source file that declares it, or a folder in which one file does, from the root of the checkout.
     pub(super) source: PathBuf,

@@ -47,7 +47,7 @@ struct Row {
     present_value_error: f64,
     reference: f64,
     reference_error: f64,
-    /// Deviation from the reference over the sum of the error bar and the error of the reference.
+    /// Ratio of the deviation from the reference to the sum of the error bar and the error of the reference.
     deviation_over_bar: Option<f64>,
     present_deviation_over_bar: f64,
     unknowns: Option<f64>,

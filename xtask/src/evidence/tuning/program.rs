@@ -23,7 +23,7 @@ pub(super) struct Program {
 #[derive(Clone, Copy)]
 pub(super) struct Tried<'a> {
     pub(super) case: &'a Case,
-    /// Its place among the values of the case, from 1 on.
+    /// Place of the value among those of the case, from 1 on.
     pub(super) place: usize,
     pub(super) value: &'a str,
 }

@@ -98,7 +98,7 @@ fn changes(rows: &[&Row]) -> Vec<String> {
     changes
 }
 
-/// A quantity of a scene over that with the present value of the constant.
+/// Ratio of a quantity of a scene to that with the present value of the constant.
 struct Change<'a> {
     ratio: f64,
     scene: &'a str,

@@ -35,7 +35,7 @@ struct Declaration {
     name: String,
     /// From `const` to the semicolon.
     all: Range<usize>,
-    /// Its type.
+    /// Type of the constant.
     kind: Range<usize>,
     /// Between the equals sign and the semicolon.
     initialiser: Range<usize>,

@@ -184,7 +184,7 @@ struct EffectInResiduals {
 impl EffectInResiduals {
     /// Sums of residuals over the columns of an effect on the weighted data, one unknown error for each column.
     ///
-    /// Their weights are those of the effect in the residuals, R times `effect`, over the variances of the noise.
+    /// The weights of the sums are the effect in the residuals, R times `effect`, divided by the variances of the noise.
     fn new(
         effect: &DMatrix<f64>,
         fit: &Linear,

@@ -33,7 +33,7 @@ const MAX_COARSE_WORK: f64 = 0.25;
 
 /// A coarse grid with its solutions for the first surfaces.
 struct Trial {
-    /// Refinement factor of the grid, over the first grid of an answer.
+    /// Ratio of the number of elements along each axis to that of the first grid of an answer.
     finer: usize,
     /// Solutions of the surfaces that have an answer, in their order.
     found: Vec<Coarse>,
@@ -213,8 +213,8 @@ impl<'a> Drawn<'a> {
         found.collect()
     }
 
-    /// Work for a coarse solution over that for an answer, estimated as the ratio of the numbers of elements; infinite without
-    /// one.
+    /// Ratio of the work for a coarse solution to that for an answer, estimated as the ratio of the numbers of elements; infinite
+    /// without a coarse solution.
     fn coarse_work(&self, coarse: &[Coarse]) -> f64 {
         let on = |elements: Option<usize>| elements.map_or(f64::INFINITY, |n| n as f64);
         let of_answer = self.answers[0]

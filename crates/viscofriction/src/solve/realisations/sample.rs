@@ -54,7 +54,8 @@ fn covariance(pairs: impl ExactSizeIterator<Item = (f64, f64)> + Clone) -> f64 {
 }
 
 impl Sample<'_> {
-    /// Correction ⟨c⟩_N − ⟨c⟩ₙ of the mean over the answers.
+    /// Correction ⟨c⟩_N − ⟨c⟩ₙ of the mean of the answers: the mean c of all N coarse solutions less that of the n surfaces with
+    /// an answer.
     pub(super) fn shift(&self) -> f64 {
         match self.fine.len() == self.coarse.len() {
             true => 0.0,

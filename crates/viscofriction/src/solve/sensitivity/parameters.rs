@@ -54,7 +54,7 @@ pub(crate) struct Numbers<'a> {
 pub(crate) struct Number {
     /// Path from the root of the scene.
     steps: Vec<Step>,
-    /// Its value in SI units.
+    /// Value of the number in SI units.
     pub(crate) value: f64,
 }
 
@@ -310,8 +310,8 @@ impl Number {
         self.path() == TEMPERATURE
     }
 
-    /// The relative standard uncertainty of this number for the stated one `given`: the same, but \[K] over the temperature for
-    /// the temperature.
+    /// The relative standard uncertainty of this number for the stated one `given`. Both are equal, except for the temperature:
+    /// `given` is in kelvins, and is divided by the temperature.
     pub(super) fn relative(&self, given: f64) -> f64 {
         if self.is_temperature() {
             given / self.value
