@@ -263,7 +263,7 @@ pub enum MdrError {
     Material(#[from] RheologyError),
 }
 
-/// Elements that the last contact must have at least. Chosen: with fewer, no element lies inside the contact.
+/// Smallest number of elements that the last contact must have. Chosen: with fewer, no element lies inside the contact.
 const MIN_CONTACT_ELEMENTS: usize = 3;
 
 /// Refuses a contact of fewer than [`MIN_CONTACT_ELEMENTS`] elements of a `spacing` \[m] as [`MdrError::TooCoarse`].

@@ -5,6 +5,9 @@
 //! ∫ (d − h̃)⁺ dx = 2 (1 − ν) J(t) F_N/4           under a force that has been there for the time t
 //! F_N = 4 G(t)/(2 (1 − ν)) ∫ (d − h̃)⁺ dx         at a depth that has been there for the time t
 //! ```
+//! d is the depth and h̃ the height of the line above its lowest point; (d − h̃)⁺ is d − h̃ where that is positive, and 0
+//! elsewhere. G(t) is the relaxation modulus, G_∞ its limit, J(t) the creep compliance, and ν the Poisson ratio.
+//!
 //! Up to the time t the contact only grows, or stays as it is (Lee & Radok 1960).
 
 use indenters::{Control, PressingLoad, RigidLine};

@@ -52,12 +52,13 @@ const EXP_UNDERFLOW: f64 = 745.2;
 /// Argument up to which the mean of e^(−x) is summed as a power series; up to there it is as accurate as the
 /// exponential.
 const SERIES_MAX_ARGUMENT: f64 = 0.5;
-/// Terms of the series of the mean of e^(−x) up to [`SERIES_MAX_ARGUMENT`]: the first one left out is 0.5^14/15! =
+/// Number of terms in the series of the mean of e^(−x) up to [`SERIES_MAX_ARGUMENT`]: the first one left out is 0.5^14/15! =
 /// 5e-17.
 const N_SERIES_TERMS: usize = 14;
 /// Argument up to which [`N_SHORT_SERIES_TERMS`] terms of the series are as accurate as all.
 const SHORT_SERIES_MAX_ARGUMENT: f64 = 0.02;
-/// Terms of the series up to [`SHORT_SERIES_MAX_ARGUMENT`]: the first one left out is 0.02^8/9! = 7e-20.
+/// Number of terms in the series of the mean of e^(−x) up to [`SHORT_SERIES_MAX_ARGUMENT`]: the first one left out is 0.02^8/9!
+/// = 7e-20.
 const N_SHORT_SERIES_TERMS: usize = 8;
 
 /// 1/(n + 1)!, the coefficients of the mean of e^x.

@@ -12,7 +12,8 @@ use super::foundation::{Branch, Foundation, Mode};
 /// Ratio a = Δt/τ up to which differences of φ are summed as series, because their terms cancel; the closed forms lose less than
 /// two digits above it.
 const SERIES_MAX_RATIO: f64 = 0.5;
-/// Terms of the series of φ up to a = [`SERIES_MAX_RATIO`]: the first one left out is at most (2a)^19/20! = 4e-19.
+/// Number of terms in the series of φ(a) = (1 − e^(−a))/a up to a = [`SERIES_MAX_RATIO`]: the first one left out is at most
+/// (2a)^19/20! = 4e-19.
 const N_PHI_TERMS: usize = 18;
 /// Coefficients of a^k, k ≥ 1, in φ(a) − 1, φ(a) − φ(2a), and 1 − 2 φ(a) + φ(2a).
 const PHI_SERIES: [[f64; N_PHI_TERMS]; 3] = [

@@ -122,8 +122,8 @@ pub(super) struct Approach {
     partial_integrals: StepIntegrals,
 }
 
-/// Steps of the search for the edge that are not guarded by bisection; afterwards every other step halves the bracket. Chosen:
-/// more only delay searches in which Halley's method does not converge.
+/// Number of steps of the search for the edge that are not guarded by bisection; afterwards every other step halves the
+/// bracket. Chosen: a larger number only delays searches in which Halley's method does not converge.
 const UNGUARDED_EDGE_STEPS: usize = 16;
 /// Largest number of steps in the search for the edge. By then 91 of them have halved the bracket, which is narrower than
 /// rounding.

@@ -4,6 +4,9 @@
 //! F = 8/(2 (1 − ν)) [η₀ ḋ a + Σ Φ_k]      Φ_k = ∫₀^a σ_k dx
 //! Φ_k(t) = e^(−(t − s)/τ_k) Φ_k(s) + G_k ∫ e^(−(t − s')/τ_k) ḋ a ds'      while the contact grows over new elements
 //! ```
+//! d is the depth, a the contact radius, and ν the Poisson ratio. σ_k is the stress of branch k with the modulus G_k and the
+//! relaxation time τ_k in one element, and η₀ the viscosity of the lone dashpot.
+//!
 //! The contact is a stack of rings in the order in which their elements came into contact. Each ring has the Φ_k of
 //! everything inside it at the moment it began. All elements inside stay in contact from then on, so that the Φ_k follow
 //! from these values at any later time. A contact that shrinks removes rings from the top (Ting 1966, J. Appl. Mech. 33,
@@ -73,8 +76,8 @@ struct LargestContact {
 /// Relative tolerance of the quadrature over rings along a path of the depth, where everything else is exact: 45 units in the
 /// last place.
 const EXACT_QUADRATURE_TOLERANCE: f64 = 1e-14;
-/// Gauss–Lobatto nodes of a panel of the quadrature over a ring. Chosen: a panel is exact up to degree 13 and is halved where
-/// that is not enough.
+/// Number of Gauss–Lobatto nodes of a panel of the quadrature over a ring. Chosen: a panel is exact up to degree 13 and is
+/// halved where that is not enough.
 const N_PANEL_NODES: usize = 8;
 /// Relative size up to which a gap or a load of the wrong sign counts as rounding. Gaps are compared with the largest depth,
 /// loads with the terms that they are the sum of. Chosen: far above rounding, and far below a gap or a tension that is real.
@@ -133,7 +136,7 @@ impl<'a> Contact<'a> {
             let slope = self.radii.radius_and_slope(depths)[1];
             change_of_edge(slope, modulus, self.path.scale(self.path.end()))
         });
-        // Collect the sums with their errors.
+        // The error of the load comes from the quadrature over rings and from the polynomials of the radii.
         let [time, depth] = self.path.last();
         ContactSums {
             time,
@@ -389,7 +392,7 @@ impl<'a> Contact<'a> {
         end: SegmentTime,
         has_turned: bool,
     ) -> Result<SegmentTime, MdrError> {
-        // The stretch ends where the edge turns.
+        // The stretch ends where the edge turns, because an edge that moves outwards brings elements into contact.
         let instant = |part: f64| SegmentTime { part, ..at };
         let direction = |edge: &Option<Edge>, part: f64| match edge {
             Some(edge) => self.path.edge_direction(&edge.stresses, instant(part)),
@@ -407,7 +410,7 @@ impl<'a> Contact<'a> {
             edge = self.edge_inwards(to);
         }
 
-        // Record the elements that separate.
+        // The elements between the new and the old edge separate; their move of the edge is recorded.
         let [inner, outer] = [edge.as_ref().map_or(0.0, |edge| edge.radius), self.radius()];
         if inner < outer {
             self.edge_moves.push(EdgeMove {

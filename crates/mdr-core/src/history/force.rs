@@ -3,6 +3,9 @@
 //! ```text
 //! 8/(2 (1 − ν)) ∫₀^a x h̃' dx = ∫ J(t − s) dF        as long as the contact does not shrink (Lee & Radok 1960)
 //! ```
+//! F is the force, J the creep compliance, a the contact radius, ν the Poisson ratio, and h̃(x) the height of the equivalent
+//! line of the body.
+//!
 //! Once the contact has shrunk, the depth is taken as linear over parts of each segment, at whose ends the force is as given.
 //! The parts are halved until the depth changes by less than the tolerance, with Richardson extrapolation in their length.
 

@@ -173,7 +173,7 @@ impl StepIntegrals {
                 *sum += term * moment;
             }
         }
-        // Advance the integrals of load and depth.
+        // The integrals P_k of the load and q_k of the depth decay over the step, and gain what the ring adds.
         for ((load, decay), sum) in state.load.iter_mut().zip(&self.decays).zip(&self.sums) {
             *load = decay * *load + ring.rise * sum;
         }

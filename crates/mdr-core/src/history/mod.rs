@@ -4,6 +4,9 @@
 //! w(x, t) = η₀ ḋ + ∫_s^t G(t − t') ḋ dt'        of an element in contact since s(x), as long as w > 0
 //! F(t) = 8/(2 (1 − ν)) ∫₀^a w dx
 //! ```
+//! d is the depth, a the contact radius, and ν the Poisson ratio. G is the relaxation modulus without the lone dashpot, whose
+//! viscosity is η₀.
+//!
 //! Each element of the line comes into contact and separates on its own. On a half space that is exact as long as the
 //! contact is a disc (Ting 1966, J. Appl. Mech. 33, 845; Argatov & Popov 2016, ZAMM 96, 956).
 //!

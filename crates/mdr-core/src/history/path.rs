@@ -283,7 +283,7 @@ impl Path {
     }
 }
 
-/// Relative changes of radii and depths below this count as rounding. Chosen.
+/// Relative change of a radius or a depth up to which it counts as rounding, and not as a move of the edge. Chosen.
 pub(super) const EXTENT_ROUNDING: f64 = 1e-10;
 
 /// Decay of the branches between two times, and the stresses gained in between.

@@ -3,6 +3,8 @@
 //! ```text
 //! h̃(a(d)) = d        ∫ e^(−(t − s)/τ) a(d(s)) ḋ ds   is exact for a polynomial
 //! ```
+//! h̃(x) is the height of the equivalent line of the body above its lowest point, and a(d) the contact radius at the depth d.
+//! The integral is that of a branch with the relaxation time τ.
 
 use std::f64::consts::PI;
 
@@ -16,8 +18,8 @@ pub(super) const N_COEFFICIENTS: usize = 16;
 /// Size of the last two coefficients, relative to the radius, below which a piece is not divided. The missing
 /// coefficients are a hundredth of that.
 pub(super) const TAIL_TOLERANCE: f64 = 2e-13;
-/// Distance from a vertical edge, such as the equator of a sphere, relative to its radius, at which a contact has
-/// reached the edge. Chosen.
+/// Distance from a vertical edge, such as the equator of a sphere, up to which a contact counts as having reached the edge. It
+/// is relative to the radius of the edge. Chosen.
 const EDGE_MARGIN: f64 = 1e-10;
 /// A piece is not divided further if its area is at most this fraction of the area a d, with a the largest radius and d the
 /// largest depth. Chosen: 45 units in the last place of the area.
@@ -255,7 +257,7 @@ impl Piece {
     }
 }
 
-/// Coefficients of the Chebyshev polynomials over powers, one polynomial per row.
+/// Coefficients of the powers of ξ in the Chebyshev polynomials, one polynomial in each row.
 const CHEBYSHEV: [[f64; N_COEFFICIENTS]; N_COEFFICIENTS] = {
     let mut rows = [[0.0; N_COEFFICIENTS]; N_COEFFICIENTS];
     (rows[0][0], rows[1][1]) = (1.0, 1.0);

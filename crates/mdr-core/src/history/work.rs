@@ -38,7 +38,7 @@ pub fn work_along(
         let curve = indent_along(body, material, &with_subpoints(history, parts), options)?;
         Ok::<_, MdrError>((cumulative_work(&curve, parts), work_error(&curve)))
     };
-    // Halve the parts until the work converges.
+    // The parts of all segments are halved until the work at all points changes by no more than the error asked for.
     let mut parts = 1;
     let (mut before, _) = work_on(parts)?;
     loop {

@@ -17,7 +17,8 @@ const LOOKOUT_DISTANCE_RATIO: usize = 1024;
 /// Distance from the anchor, in elements, up to which every element is sampled in the search for the last one below the largest
 /// needed height; farther out the stride is the distance over this number. Chosen: see [`ElementHeights::below`].
 const LOOKOUT_STRIDE: usize = 64;
-/// Relative margin above the height asked for, so that rounding cannot lift the contact over the last element. Chosen.
+/// Margin above the height asked for, relative to that height, so that rounding cannot lift the contact beyond the last
+/// element. Chosen.
 const MAX_HEIGHT_MARGIN: f64 = 1e-9;
 
 /// The elements under the part of a line that can come into contact.

@@ -19,10 +19,11 @@ use crate::MdrError;
 /// Number of positions along the whole range at which the polynomials are compared with the line, besides their nodes. Chosen:
 /// narrower details between nodes may be overlooked.
 const N_STATIONS: f64 = 64.0;
-/// Samples of the slope of a piece in the search for its turning points: the slope, of degree nine, has nine zeros at most.
+/// Number of samples of the slope of a piece in the search for its turning points. The slope is a polynomial of degree nine,
+/// and has at most nine zeros.
 const N_SLOPE_SAMPLES: usize = 24;
-/// Length of a piece, relative to the shortest distance of relaxation, below which it acts through the heights of its
-/// ends alone. Chosen.
+/// Ratio of the length of a piece to the shortest distance of relaxation, below which the piece acts through the heights of its
+/// ends alone. Chosen: longer pieces must also have a small tail relative to their rise.
 const SHORT_PIECE_RATIO: f64 = 0.125;
 
 /// Maximum number of polynomials of a line. Chosen: more take seconds for each trial depth.

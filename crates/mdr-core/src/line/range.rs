@@ -8,13 +8,14 @@ use super::profile::MIN_PIECE_LENGTH;
 use crate::MdrError;
 use crate::error::non_finite;
 
-/// Samples of the line per doubling of the distance from the anchor. Chosen: narrower parts that come down again between
-/// kinks may be overlooked.
+/// Number of samples of the line per doubling of the distance from the anchor. Chosen: narrower parts that come down again
+/// between kinks may be overlooked.
 const STATIONS_PER_OCTAVE: f64 = 16.0;
 /// On an endless line the search begins at this multiple of the distance at which the line first rises above the
 /// height limit. Chosen: a part that comes down farther out is overlooked.
 const SEARCH_DISTANCE_RATIO: f64 = 1024.0;
-/// Factor by which the search for a first height above the height limit goes outwards on an endless line. Chosen.
+/// Factor on the distance from the anchor from one step to the next, in the search for a first height above the height limit on
+/// an endless line. Chosen.
 const OUTWARD_STRIDE: f64 = 8.0;
 
 /// Distance from a vertical edge, such as the equator of a sphere, up to which a body is followed, as a part of its

@@ -262,7 +262,7 @@ impl<'a> CycleJacobian<'a> {
                 .collect()
         };
 
-        // Start from the solution of the preconditioner.
+        // The iteration starts from the solution of the preconditioner, which is exact for a prescribed depth.
         let mut v = precondition(free);
         let mut r: Vec<f64> = free.iter().zip(applied(&v)).map(|(f, a)| f - a).collect();
         let mut z = precondition(&r);

@@ -3,6 +3,9 @@
 //! ```text
 //! F_t = 4 Σ Δx w h̃'(X − x),   ∫ F_t dx + ∫ F_N dd = stored and dissipated energy
 //! ```
+//! w is the load of the element at the position X, and Δx the spacing of the elements. The lowest point of the line is at the
+//! position x, the height of the line is h̃, and d is the depth.
+//!
 //! A step moves the line by about one element, or its duration grows after a stop, so that spacing and time step are refined
 //! together. Errors are estimated from several resolutions.
 //!
@@ -37,8 +40,8 @@ pub use slide::{Sliding, SlidingStep, slide, slide_memory};
 /// Largest number of elements along the contact in a refinement. Chosen, to limit the computing time: the refinement stops
 /// there, even if the error is still larger than asked for.
 const MAX_ELEMENTS_ALONG_CONTACT: usize = 4096;
-/// Exponent of the number of elements along the contact in the amount of work: the number of steps grows in proportion to that
-/// number, and so does the work of each step.
+/// The work grows with this power of the number of elements along the contact: the number of steps grows in proportion to it,
+/// and so does the work of each step.
 const WORK_EXPONENT: f64 = 2.0;
 /// Largest order of convergence that is assumed. Smooth bodies have a better one, but the place of their contact boundary
 /// between the elements makes it unsafe to assume more.
@@ -50,9 +53,9 @@ const FOUNDATION_PER_CONTACT: f64 = 4.0;
 /// Largest product of elements, steps and cycles of a resolution that a refinement takes up. Chosen: about a minute of one
 /// thread.
 const MAX_WORK: f64 = 5e8;
-/// Number of elements along the contact from which on the refinement of a limit cycle stops if the friction is smaller than its
-/// change by the last halving of the spacing. The friction is then only an error of the elements. Chosen, to limit the
-/// computing time.
+/// Number of elements along the contact from which on the refinement of a limit cycle may give up. It stops if the friction is
+/// smaller than its change by the last halving of the spacing. The friction is then only an error of the elements. Chosen, to
+/// limit the computing time.
 const MIN_ELEMENTS_TO_GIVE_UP: usize = 128;
 /// Order of convergence that is lost against the exponent p of an apex x^p, because its place between two elements is arbitrary.
 const TIP_ORDER_LOSS: f64 = 0.5;
@@ -64,8 +67,8 @@ const MIN_ELEMENTS_PER_STROKE: f64 = 4.0;
 /// Largest number of elements along the contact on the resolution where a relative error is first sought. Chosen: it is used if
 /// fewer would give a stroke less than [`MIN_ELEMENTS_PER_STROKE`].
 const MAX_FIRST_ELEMENTS: usize = 8 * FIRST_ELEMENTS;
-/// Relative tolerance of the limit cycle on a given number of elements, below the error of any affordable number of
-/// them. Chosen.
+/// Relative tolerance of the limit cycle if a number of elements is asked for. Chosen: below the error by the elements, for
+/// every number of them that can be afforded.
 const CYCLE_TOLERANCE_ON_ELEMENTS: f64 = 1e-5;
 
 /// Moves a line over an undeformed Winkler foundation, through the points of a motion or reciprocating in its limit cycle.
@@ -207,7 +210,8 @@ impl Progress for WorkLimit<'_> {
         if before >= MIN_ELEMENTS_TO_GIVE_UP && self.is_unresolved(before) {
             return false;
         }
-        // The number of steps decides otherwise.
+        // Otherwise a resolution is allowed if its product of elements, steps and cycles is at most `MAX_WORK`, and the
+        // receiver of the progress allows it too.
         let n_cycles = self.solved(before).map_or(1, |(_, n_cycles)| n_cycles) as f64;
         let allowed = MAX_WORK / (n_cycles * elements as f64);
         let spacing = self.length / elements as f64;

@@ -22,8 +22,8 @@ const MAX_STEPS: f64 = 4e6;
 /// Duration of the first pressing, at rest, relative to that of the first step. Measured by `evidence tuning`.
 pub(super) const FIRST_PRESSING_DURATION: f64 = 1e-3;
 
-/// Relative difference between the force and its mean over a step up to which the next step corrects it. Forces that
-/// begin or end differ by more. Measured by `evidence tuning`.
+/// Largest difference between the prescribed force and its mean over a step, relative to the prescribed one, that the next step
+/// corrects. Where a force begins or ends, the difference is larger. Measured by `evidence tuning`.
 const MAX_FORCE_CORRECTION: f64 = 0.25;
 
 /// Distance from the lowest point at which the contact is first assumed to end, in lengths of the contact of the

@@ -32,11 +32,11 @@ use crate::line::{ElementHeights, MAX_ELEMENTS, has_steep_kinks};
 use crate::steady::{LineProblem, SteadyContact};
 use subgrid::{LastContact, SubgridForces};
 
-/// Sliding distance in lengths of the stationary contact after which the search for the stationary state is given up;
-/// about 20 are needed. Chosen.
+/// Largest sliding distance in the search for the stationary state, in lengths of the stationary contact; about 20 are needed.
+/// Chosen: after it the search ends with [`MdrError::NotStationary`].
 const MAX_CONTACT_LENGTHS: f64 = 100.0;
-/// Margin of the first foundation above the stationary depth, relative to it: more than the error with which that depth is
-/// known. Chosen.
+/// Margin of the height of the first foundation above the stationary depth, relative to that depth. Chosen: more than the error
+/// with which the depth is known.
 const DEPTH_MARGIN: f64 = 1e-6;
 /// Relative change of depth and friction coefficient over one contact length below which the state is stationary.
 ///
@@ -52,7 +52,7 @@ const MAX_CHANGE_RATIO: f64 = 0.99;
 /// Error of an end of the contact, as a multiple of the spacing: the end lies within one spacing of the outermost loaded
 /// element, which is loaded within one more.
 const END_ERROR_STEPS: f64 = 2.0;
-/// Steps before the end whose values give the scatter from step to step. Measured by `evidence tuning`.
+/// Number of steps before the end whose values give the scatter from step to step. Measured by `evidence tuning`.
 const N_SCATTER_STEPS: usize = 6;
 
 /// The end of sliding from first touch; an error of 0 means that a quantity is prescribed, or exact.

@@ -23,13 +23,15 @@ use crate::branches::{Foundation, TimeStep};
 use crate::error::finite;
 use crate::line::{ElementHeights, HeightRow, HeightTable};
 
-/// Elements of the foundation beyond each end of the range of the line, because a step moves it by up to one element.
+/// Number of elements of the foundation beyond each end of the range in which the line moves: a step moves the line by up to
+/// one element.
 const FOUNDATION_MARGIN: f64 = 2.0;
 
-/// Gap, relative to the depth, up to which an element with a dashpot counts as in contact when the foundation is
-/// reloaded: the rounding of positions and heights. Chosen.
+/// Gap, relative to the depth, up to which an element with a dashpot counts as in contact when the foundation is reloaded.
+/// Chosen: such a gap may be rounding of positions and heights.
 const DASHPOT_CONTACT_TOLERANCE: f64 = 1e-9;
-/// Motion in a step, relative to the spacing, up to which the line counts as at rest: rounding of positions. Chosen.
+/// Motion in a step, relative to the spacing, up to which the line counts as at rest. Chosen: such a motion may be rounding of
+/// positions.
 const REST_DISPLACEMENT: f64 = 1e-7;
 /// Height up to which elements are in the window of a step, relative to the depth before it. A deeper step enlarges
 /// the window and is repeated. Measured by `evidence tuning`.
@@ -178,7 +180,7 @@ impl<'a> WinklerFoundation<'a> {
             limit = self.sampled.max_height;
         };
 
-        // Advance the elements of the window.
+        // All elements of the window advance to the end of the step, and their loads and energies are summed.
         let to = BodyState {
             time,
             position,
@@ -372,7 +374,7 @@ impl<'a> WinklerFoundation<'a> {
     /// Brings the elements into contact again that [`unload_all`](Self::unload_all) separated; returns the energy stored in
     /// them.
     pub(super) fn reload(&mut self) -> Result<f64, MdrError> {
-        // Find the elements near the line.
+        // The window is set to the elements near the line at its present position.
         let height_limit = WINDOW_HEIGHT_FACTOR * self.body.depth;
         self.update_window(
             self.body.position,

@@ -16,9 +16,10 @@ const MAX_SECANT_STEPS: usize = 12;
 /// Relative margin of the bracket that proportion gives. Chosen: proportion may be exact, and the force then rounded to the
 /// wrong side.
 const BRACKET_MARGIN: f64 = 1e-6;
-/// Factor by which a bracket is widened if it does not contain the depth. Chosen.
+/// Factor on the far end of a bracket that does not contain the depth. Chosen: a larger one takes fewer steps, and leaves a
+/// wider bracket.
 const BRACKET_STRIDE: f64 = 8.0;
-/// How often a bracket is widened at most. Chosen: 8^200 spans 180 decades.
+/// Largest number of times that a bracket is widened. Chosen: 8^200 spans 180 decades.
 const MAX_BRACKET_STRIDES: usize = 200;
 
 /// The depth \[m] at which `load`, a function of the depth, is `target`, in the same unit.

@@ -8,6 +8,10 @@
 //! w = G_∞ u + η₀ du/dt + Σ e_i,   τ_i de_i/dt + e_i = τ_i G_i du/dt        in contact, d/dt = −v d/dx
 //! F_N = 4 ∫ w dx,   F_h = 4 ∫ w h̃' dx
 //! ```
+//! w is the load of an element, a quarter of the force per length; d is the depth, h̃ the height of the line, and v the speed.
+//! Branch i has the stress e_i, the relaxation time τ_i and the modulus G_i. G_∞ is the equilibrium modulus, and η₀ the lone
+//! dashpot.
+//!
 //! The line is a sequence of polynomials, and between two events everything is integrated in closed form: boundary layers
 //! of the width v τ_i need no mesh. F_h is summed as the energy that the dashpots dissipate and that is lost at release.
 //! These terms do not cancel, so that small friction keeps its digits.

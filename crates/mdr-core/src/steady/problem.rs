@@ -28,7 +28,7 @@ const SEARCH_TOLERANCE: f64 = 1e-3;
 /// Smallest tolerance of the polynomials, in depths: 45 units in the last place. An error that is too large even with it is
 /// [`MdrError::NotConverged`].
 const MIN_TOLERANCE: f64 = 1e-14;
-/// Tolerance of the polynomials, in depths, for lengths that only decide on the size of elements. Chosen.
+/// Tolerance of the polynomials, in depths, where the contact length only decides on the size of elements. Chosen.
 const LENGTH_TOLERANCE: f64 = 1e-9;
 /// Factor on the tolerance of a second solution, whose distance from the first is the error of the ends of the contact. Chosen:
 /// the error of the second is negligible.
@@ -148,7 +148,7 @@ impl<'a> LineProblem<'a> {
     /// The depth \[m] that carries a force \[N], with polynomials of a `tolerance` in depths.
     fn depth_of_force(&self, force: f64, tolerance: f64) -> Result<f64, MdrError> {
         let target = 0.25 * positive("normal_force", force)?;
-        // Most of the search needs few polynomials.
+        // Most of the search needs only a rough line with few polynomials; the last steps use the tolerance asked for.
         let search_tolerance = tolerance.max(SEARCH_TOLERANCE);
         let start = depth_of_load(|depth| self.quarter_force(depth, search_tolerance), target)?;
         refined_depth(|depth| self.quarter_force(depth, tolerance), target, start)

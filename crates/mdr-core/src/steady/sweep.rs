@@ -25,11 +25,12 @@ const MIN_LAYER_WIDTH: f64 = 1e-9;
 /// Deviation of the load from its chord, relative to the load, up to which the list of loads is straight between two
 /// positions. Chosen: it concerns the returned list of loads only.
 const CHORD_TOLERANCE: f64 = 1e-3;
-/// Compression, in depths, by which a contact may begin late through rounding of positions; more is a jump. Chosen.
+/// Largest compression, in depths, that counts as rounding of positions where a contact begins; a larger one is a jump of the
+/// displacement. Chosen.
 const MAX_MISSED_COMPRESSION: f64 = 1e-12;
-/// Shortest contact in units of t. A contact that ends earlier ends at the start of its segment, and one that begins
-/// so close to the end begins there: the dissipation of a dashpot in so short a part is the square of rounding over
-/// its length.
+/// Shortest part of a contact in a segment, in units of −1 ≤ t ≤ 1. A shorter part at the front of the segment is left out, and
+/// a contact that would begin as close to the rear begins at the end. In so short a part the dissipation of a dashpot would be
+/// the square of rounding divided by the length.
 const MIN_CONTACT_PART: f64 = 1e-13;
 /// Largest number of contact intervals of one line. Chosen, to limit the computing time: more are refused as
 /// [`MdrError::TooMuchDetail`].

@@ -82,7 +82,7 @@ impl Contact<'_> {
         let panels = radii.windows(2).map(|ends| panel([ends[0], ends[1]]));
         let mut open: Vec<([f64; 2], Vec<f64>, u32)> = panels.collect();
 
-        // Halve the panels whose sums still change.
+        // Each panel is halved until its sums change by no more than the tolerance, or it has been halved as often as allowed.
         while let Some((ends, whole, divisions)) = open.pop() {
             let middle = 0.5 * (ends[0] + ends[1]);
             let halves = [[ends[0], middle], [middle, ends[1]]];

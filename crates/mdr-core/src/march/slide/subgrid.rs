@@ -24,7 +24,7 @@ use crate::line::{ElementHeights, has_steep_kinks};
 /// Number of chords that approximate the profile on either side of the lowest point over one element: the innermost ends at 1e-8
 /// of the element.
 const N_TIP_CHORDS: usize = 64;
-/// Distance from the lowest point to the inner end of a chord, relative to that to its outer end. Chosen.
+/// Ratio of the distances from the lowest point to the inner and to the outer end of a chord. Chosen.
 const TIP_CHORD_RATIO: f64 = 0.75;
 /// Factor on the sum over the chords of a tip. Chords leave out a part of the integral: of a power x⁴ it is a tenth.
 const TIP_EXCESS_FACTOR: f64 = 1.25;
