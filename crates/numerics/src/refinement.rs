@@ -223,7 +223,7 @@ pub const MIN_CONVERGENCE_ORDER: f64 = 0.1;
 /// Chosen: with shares from 1e-3 to 0.3 no error bar of `evidence tuning` changes by more than a factor of 1.5 in the
 /// one-dimensional model. With 0.01 to 0.1 no digit changes on the half space.
 pub const ITERATION_SHARE: f64 = 0.05;
-/// Rounding error of the many sums behind a value, relative to it.
+/// Rounding error of the many sums behind a value, relative to the value.
 ///
 /// Sums of up to 4·10⁶ terms have a rounding error of at most √n ε = 4e-13 of the sum of their absolute values, if roundings are
 /// independent.

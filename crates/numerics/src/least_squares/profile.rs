@@ -25,11 +25,11 @@ const MAX_TRIALS: usize = 20;
 /// If it is not enough, the sum after the predicted decrease of the last model is used. In a curved valley that is
 /// too small rather than too large, and the interval becomes wider.
 const MAX_EVALUATIONS: usize = 12;
-/// Sufficient decrease of the inner minimisation, as a fraction of `rise` times the relative tolerance: it moves
-/// √(rise of the minimal sum/`rise`) by 0.15 of the tolerance at most.
+/// Ratio of the sufficient decrease of the inner minimisation to the product of `rise` and the relative tolerance. It moves
+/// √(rise of the minimal sum/`rise`) by at most 0.15 of the tolerance.
 const INNER_TOLERANCE: f64 = 0.3;
-/// Bounds of the relative position of the next trial between the last two, which keep the bracket shrinking by 2 % at
-/// least. Chosen.
+/// Bounds of the position of the next trial in the bracket, as a fraction of its length: each trial shortens the bracket by at
+/// least 2 %. Chosen.
 const INTERPOLATION_RANGE: [f64; 2] = [0.02, 0.98];
 
 /// The value of one parameter at which the minimal sum over all others, within their ranges, has risen as required.
