@@ -3,6 +3,8 @@
 //! ```text
 //! h̃(x_d) = d        μ = (1/d) ∫₀^x_d h̃'(x)² dx        (16)
 //! ```
+//! h̃ is the height of the equivalent line of the body above its lowest point, d the stationary depth, x_d the front of the
+//! contact, and μ the coefficient of friction.
 
 use indenters::{Axisymmetric, IndenterError, SlidingLoad, contact_radius};
 use numerics::Estimate;

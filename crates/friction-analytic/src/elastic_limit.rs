@@ -5,6 +5,8 @@
 //! slow:  F_h = 8 η_0 v ∫₀^a h̃'² dx on the line, exactly half of it on the half space,   η_0 = ∫₀^∞ (G(t) − G_∞) dt
 //! fast:  F_h = (8 α/v) ∫₀^a (d − h̃)² dx on both,                                        α = −dG/dt(0+)
 //! ```
+//! h̃ is the height of the equivalent line, a the contact radius, d = h̃(a) the depth, and v the speed. The moduli and
+//! viscosities of the material are divided by 2 (1 − ν).
 //!
 //! Slow, on the half space: inside the contact the pressure is the elastic one, shifted by x_s = η_0 v/G_∞, so that
 //! F_h = (x_s/2) ∫ p ∇²h dA, and ∫ p ∇²h dA = 8 G ∫₀^a h̃'² dx. Fast: F_h = 2 (α/G) W/v with the elastic energy W, which

@@ -3,6 +3,7 @@
 //! ```text
 //! ∫ F_N dt = 8 η ∫₀^a x h̃'(x) dx = 8 η ∫₀^a h'(r) r² / √(a² − r²) dr,     d = h̃(a)
 //! ```
+//! h(r) is the profile of the body, h̃(x) its equivalent line, a the contact radius, d the depth, and η the viscosity.
 //!
 //! The force enters only through its impulse, and every force F(t) ≥ 0 is allowed (Kürschner & Filippov 2012, Phys. Mesomech.
 //! 15, 270, for power profiles; Radok 1957 for the principle). While the force vanishes, the body rests. The solvers are

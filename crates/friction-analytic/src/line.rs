@@ -3,6 +3,7 @@
 //! ```text
 //! d = F_N/(4 η v)        (12)        μ = (1/d) Σ_i ∫_{A_i} h̃'(x)² dx,   A_d = ∪ A_i        (11), (16)
 //! ```
+//! F_N is the normal force, η the viscosity, v the speed, h̃ the height of the line, and A_i are the intervals of the contact.
 
 use indenters::{RigidLine, SlidingLoad, contact_line};
 use numerics::Estimate;

@@ -3,6 +3,8 @@
 //! ```text
 //! x_d = (d / (κ c))^(1/p)        μ = p² / (2p − 1) · d / x_d,    p > 1/2        (21) for p = 1, (22) for p = 2
 //! ```
+//! The profile c r^p has the equivalent line κ c x^p. d is the stationary depth, x_d the length of the contact, and μ the
+//! coefficient of friction.
 
 use indenters::{PowerProfile, SlidingLoad};
 use rheology::Viscous;

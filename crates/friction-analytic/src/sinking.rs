@@ -4,6 +4,8 @@
 //! v_z = F_N/(4 η a) − (v/a) Σ_i [h̃(β_i) − h̃(α_i)],   a = Σ_i (β_i − α_i)
 //! v_z = F_N/(4 η a) − v d/a        (15)
 //! ```
+//! α_i and β_i are the rear and the front of the contact intervals, h̃ the height of the line, d the depth, η the viscosity and
+//! v the speed.
 //!
 //! (15) is the first line with Σ [h̃(β) − h̃(α)] = d. Kürschner (2014) gives (15) "without the assumption" of a stationary
 //! state. It holds only if the contact starts at the lowest point of the line and follows the leading edge. From first touch on
@@ -93,7 +95,7 @@ impl ContactSums {
             }
             lower = end;
         }
-        // Sum their rises and lengths.
+        // The rises and the lengths of all intervals are summed; a rise that is not finite is refused.
         let rise: f64 = contact
             .iter()
             .map(|[start, end]| line.height(*end) - line.height(*start))

@@ -4,6 +4,8 @@
 //! F_h = E* v [m₁ ∫₀^a h̃'² dx − (2/3π) Λ v h̃'(a)² − (8/3π) n₂ v h̃'(0)²]        E* = 4 G_∞/(2 (1 − ν))
 //! m₁ = η_0/G_∞      n_k = Σ (G_i/G_∞) τ_i^k      Λ = m₁² + 2 n₂
 //! ```
+//! h̃ is the height of the equivalent line, a the contact radius, and v the speed. G_i and τ_i are the branches, G_∞ is the
+//! equilibrium modulus, and η_0 = ∫₀^∞ (G(t) − G_∞) dt.
 //!
 //! The load that an elastic half space would need for the same displacements, p* = Φ p with Φ = G_∞/G, depends on p at and
 //! ahead of a point only: it ends at the front where p does, and inside the contact it is the elastic one.

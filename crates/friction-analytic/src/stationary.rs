@@ -3,6 +3,7 @@
 //! ```text
 //! d = F_N / (4 η v)        (12)
 //! ```
+//! d is the indentation depth, F_N the normal force, η the viscosity of the foundation, and v the speed.
 
 use indenters::{Control, SlidingLoad};
 use numerics::Estimate;

@@ -3,6 +3,8 @@
 //! ```text
 //! h̃ = Σ h̃_i,  h̃_i = κ(p_i) c_i x^(p_i)        μ = 1/(d x_d) Σ_i Σ_j p_i p_j / (p_i + p_j − 1) h̃_i(x_d) h̃_j(x_d)
 //! ```
+//! h̃_i is the equivalent line of the term c_i r^(p_i), d the stationary depth, x_d the length of the contact, and μ the
+//! coefficient of friction.
 
 use indenters::{Axisymmetric, PowerProfile, PowerTerm, SlidingLoad, Superposition};
 use rheology::Viscous;

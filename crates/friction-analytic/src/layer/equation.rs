@@ -4,8 +4,9 @@
 //! q(x) − (2/π) ∫₀^∞ [1 − M(ξ)] cos ξx ∫₀^a q(s) cos ξs ds dξ = d − g(x)  for 0 ≤ x < a,      F = 2 E* ∫₀^a q dx,
 //! ```
 //!
-//! with the equivalent line g of the body on a half space; where the body is smooth at the edge, q(a) = 0. The kernel is
-//! analytic, and so is q + g for any g: Gauss–Lobatto rules for both integrals converge exponentially.
+//! Here g is the equivalent line of the body on a half space, a the contact radius, and d the depth. M(ξ) is the ratio of the
+//! compliance of the layer to that of the half space, for a wave of the wave number ξ. Where the body is smooth at the edge,
+//! q(a) = 0. The kernel is analytic, and so is q + g for any g: Gauss–Lobatto rules for both integrals converge exponentially.
 //!
 //! With q = d φ − ψ, φ = 1 + …, the force of a flat punch is that of a half space under one of the radius ∫₀^a φ dx.
 //! Comparisons with other solutions: docs/layers.md, "What it was compared with".

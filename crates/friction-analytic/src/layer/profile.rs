@@ -26,8 +26,8 @@ use crate::FrictionError;
 /// Largest absolute value of the last coefficients, relative to the radius, at which a Chebyshev series is not refined
 /// further. Chosen at the accuracy of the equations (case of `evidence tuning`).
 const SERIES_TOLERANCE: f64 = 1e-8;
-/// Largest sum of the last coefficients of both series with which a profile is still accepted: 1e-6 of the radius
-/// over [`ERROR_OVER_TAIL`], so that radii are known to 1e-6.
+/// Largest sum of the last coefficients of both series, relative to the radius, with which a profile is accepted. It is 1e-6
+/// divided by [`ERROR_OVER_TAIL`], so that radii are known to 1e-6.
 const MAX_TAIL: f64 = 1e-6 / ERROR_OVER_TAIL;
 /// Upper bound of the ratio of the relative error of a radius to the sum of the last coefficients of both series behind it.
 ///
@@ -176,7 +176,7 @@ impl LayerProfile {
             .min(layer.max_contact_radius())
             .min(MAX_RADIUS_RATIO * half_space_radius);
 
-        // Find a radius that reaches the depth.
+        // The contact on the half space is the start of the search for a radius that reaches the wanted depth.
         let search_waves = WaveQuadrature::new(layer.poisson_ratio, max_radius / layer.thickness);
         let search_problem = LayerProblem::new(body, layer, &search_waves, max_radius);
         let start = half_space_radius.min(max_radius);
@@ -422,7 +422,7 @@ impl<'a> LayerProblem<'a> {
         for grading in GRADING_EXPONENTS {
             let contacts = self.contact_series(radii, grading)?;
             let piece = self.invert_depth(&contacts, start_depth, grading)?;
-            // The errors of both expansions add up.
+            // The last coefficients of both expansions add up to the tail that bounds the error of the radii.
             let tail = contacts.ratios.tail + piece.radii.tail / piece.radii.evaluate(1.0)[1];
             if tail <= MAX_TAIL {
                 return Ok((piece, ERROR_OVER_TAIL * tail + LEFT_OUT_TERMS_ERROR));
