@@ -122,7 +122,7 @@ pub fn leading_edge_with(
         .collect::<Result<_, _>>()?;
     check_min_length(1, "monotone_breaks", breaks.len())?;
     let last = breaks.len() - 1;
-    // Walk backwards from the end of the line with the minimum over all breaks to the right of the piece.
+    // Walk backwards from the end of the line, and keep the lowest height at all breaks to the right of the present piece.
     let mut backwards = vec![[breaks[last]; 2]];
     let mut later = f64::INFINITY;
     for (ends, heights) in breaks.windows(2).zip(heights.windows(2)).rev() {

@@ -30,7 +30,8 @@ mod tests {
 
     #[test]
     fn a_thin_slice_keeps_its_digits() {
-        // arcsin(1) − arcsin(1 − ε) = √(2ε) (1 + ε/12 + …); 1 − ε is exact for this ε.
+        // Compare with the series arcsin(1) − arcsin(1 − ε) = √(2ε) (1 + ε/12 + …), whose next term is below rounding; 1 − ε is
+        // exact for this ε.
         let epsilon = 2.0_f64.powi(-40);
         let expected = (2.0 * epsilon).sqrt() * (1.0 + epsilon / 12.0);
         for actual in [

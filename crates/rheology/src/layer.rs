@@ -7,7 +7,8 @@
 //!
 //! With a constant Poisson ratio the ratio does not depend on time, whatever the relaxation spectrum.
 
-/// Argument s above which M is computed as 1 − [`layer_deficit`] (chosen): the deficit is then below rounding.
+/// Argument s above which the ratio M(s) of the compliances is computed as 1 − [`layer_deficit`]. Chosen: the deficit is then
+/// below rounding.
 const DEFICIT_FORM_FROM: f64 = 24.0;
 /// Largest argument s that is distinguished from larger ones: e^(−2s) is 0 there, and s² does not overflow.
 const MAX_ARGUMENT: f64 = 1e3;

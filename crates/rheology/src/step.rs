@@ -93,7 +93,8 @@ impl ExponentialStep {
             .map(|(lead, field)| lead * field.gain)
             .sum();
         let alternation = whole / (step.response() - whole);
-        // Move a share of each gain to the previous input, less than all where the ratio is too large.
+        // Move a share of each gain to the previous input. The share is 1 unless the ratio β/α exceeds [`MAX_ALTERNATION`], and
+        // falls to 0 as the ratio reaches 1.
         let share = ((1.0 - alternation) / (1.0 - MAX_ALTERNATION)).clamp(0.0, 1.0);
         for (lead, field) in leads.zip(&mut step.fields) {
             field.gain_before = share * lead * field.gain;

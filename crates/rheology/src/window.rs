@@ -60,7 +60,7 @@ impl CreepSpectrum {
                 }
             };
             all += part(band);
-            // Add the parts outside the window.
+            // Add the parts of the band below and above the window to the two sums.
             if end <= lowest {
                 below += part(band);
             } else if start < lowest {

@@ -77,7 +77,7 @@ impl TabulatedSpectrum {
     pub fn rms_slope(&self) -> f64 {
         let between = self.wave_numbers.windows(2).zip(self.densities.windows(2));
         let squares = between.map(|(q, c)| {
-            // Next to a row without waves C is linear in q: ∫ q³ C dq is a polynomial.
+            // Next to a row without waves the density C is linear in the wave number q, and ∫ q³ C dq is a polynomial.
             if c.contains(&0.0) {
                 let slope = (c[1] - c[0]) / (q[1] - q[0]);
                 let powers =
@@ -85,7 +85,8 @@ impl TabulatedSpectrum {
                 return TAU * ((c[0] - slope * q[0]) * powers[0] + slope * powers[1]);
             }
             let (range, change) = ((q[1] / q[0]).ln(), (c[1] / c[0]).ln());
-            // Between two rows q⁴ C is a power of q: ∫ q³ C dq = q₀⁴ C₀ ln(q₁/q₀) (e^x − 1)/x with x = ln(q₁⁴C₁/(q₀⁴C₀)).
+            // Between two rows the density C times q⁴ is a power of the wave number q. Hence ∫ q³ C dq = q₀⁴ C₀ ln(q₁/q₀) (e^x −
+            // 1)/x with x = ln(q₁⁴C₁/(q₀⁴C₀)).
             let exponent = 4.0 * range + change;
             let growth = if exponent.abs() < f64::EPSILON {
                 1.0
@@ -144,7 +145,8 @@ impl TabulatedSpectrum {
             shortest_wavelength,
             seed,
         };
-        // The mean square amplitude 4 C Δq_x Δq_y of a wave is twice the square of the given amplitude.
+        // The mean square amplitude of a wave, 4 C Δq_x Δq_y with the density C and the spacings Δq of wave numbers, is twice the
+        // square of the given amplitude.
         let cell = TAU / period[0] * (TAU / period[1]);
         random.surface(|inverse| (2.0 * cell * self.density(TAU * inverse)).sqrt())
     }

@@ -32,7 +32,7 @@ pub struct FrictionPoint {
 }
 
 impl FrictionPoint {
-    /// Largest plausible friction coefficient (chosen): a larger number is another quantity, or in another unit.
+    /// Largest plausible friction coefficient. Chosen: a larger number is another quantity, or in another unit.
     pub const LARGEST_COEFFICIENT: f64 = 10.0;
 
     /// Checks measured points.

@@ -10,8 +10,8 @@ use super::start::{MIN_POINTS, Start};
 
 /// Ratio of a time step to the longer one of its two neighbours, above which points are missing and the curve is refused. Chosen.
 const MIN_GAP_RATIO: f64 = 20.0;
-/// Number of successive points with exactly the largest force, from which the sensor counts as saturated if the body moves on
-/// (chosen).
+/// Number of successive points with exactly the largest force from which the sensor counts as saturated, if the body moves on.
+/// Chosen.
 const SATURATED_POINTS: usize = 5;
 /// Ratio of the speed of the body at the largest force to its speed before, above which the body counts as moving on. Chosen.
 const MIN_SPEED_RATIO: f64 = 0.3;

@@ -6,7 +6,8 @@ use super::{IndentationCurve, Note};
 use crate::MeasurementError;
 use crate::table::Source;
 
-/// Largest distance of the beginning of a part from the beginning or the end of the previous one (chosen).
+/// Largest distance at which the beginning of a part continues, or repeats, the previous part: from its end or its beginning.
+/// Chosen.
 ///
 /// It is relative to the duration of the previous part for times, and to its range for depths.
 const JOIN_TOLERANCE: f64 = 0.1;

@@ -20,7 +20,7 @@ use super::start::{MIN_POINTS, Start, free_points};
 pub(super) const MAX_FORCE_DEFECT: f64 = 0.05;
 /// Ratio of the force of adhesion, or of the drift of the force, to the peak force, above which a fit is flagged. Chosen.
 pub(super) const MIN_FORCE_DEFECT: f64 = 0.01;
-/// Smallest number of points without contact that determine the noise (chosen).
+/// Smallest number of points without contact from which the noise is determined. Chosen.
 const MIN_BASELINE_POINTS: usize = 10;
 /// Rise of the deviance, if the points before the contact and all others share one noise, above which a misfit is reported.
 /// Chosen.

@@ -187,7 +187,8 @@ pub fn fit_indentation(
     let spectrum = found.model.spectrum(&found.parameters);
     let material = spectrum.and_then(Prony::new).map_err(MdrError::from)?;
     let findings = statistics.findings(&found, options.profile);
-    // Of too many branches none is determined, but the contact point is.
+    // Refuse a fit in which the contact point and everything before it are undetermined. Of too many branches none is determined,
+    // but the contact point is.
     let with_contact_point = &findings[..=found.model.contact_point()];
     if with_contact_point.iter().all(|one| one.estimate.is_none()) {
         return Err(MeasurementError::NotDetermined);

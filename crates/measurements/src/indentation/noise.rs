@@ -68,7 +68,7 @@ impl Likelihood {
 const TIME_RATIO: f64 = 2.5;
 /// Candidates of the fraction λ of the variance of the noise that is correlated; the rest is white. Chosen.
 const CORRELATED_FRACTIONS: [f64; 7] = [0.01, 0.05, 0.2, 0.5, 0.8, 0.95, 1.0];
-/// Prior probability of white noise (chosen); all other candidates share the rest equally.
+/// Prior probability of white noise. Chosen; all other candidates share the rest equally.
 const WHITE: f64 = 0.5;
 /// Smallest ratio of the posterior probability of a noise to the largest one, with which the noise is kept. Chosen.
 const MIN_RELATIVE_PROBABILITY: f64 = 1e-3;

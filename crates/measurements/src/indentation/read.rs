@@ -185,7 +185,8 @@ struct Stated {
 impl Stated {
     /// The constants in a text; `None` for those that it does not state.
     fn of(text: &str) -> Self {
-        // JPK and Asylum, afmformats, AFM Workshop (whose default of 1 says nothing), and Optics11.
+        // Read the constants as JPK and Asylum, afmformats, Optics11 and AFM Workshop write them. A 1 of AFM Workshop is its
+        // default and says nothing.
         let workshop = |name| number_after(text, name).filter(|number| differs(*number, 1.0));
         let stiffness = ["pringConstant:", "\"spring constant\":", "k (N/m)"];
         let stiffness = stiffness.iter().find_map(|name| number_after(text, name));

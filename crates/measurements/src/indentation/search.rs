@@ -13,7 +13,7 @@ use crate::MeasurementError;
 
 /// Largest number of branches that a fit may have. Chosen: one curve never determines more.
 pub(super) const MAX_BRANCHES: usize = 6;
-/// Approximate number of points of the first search, in which all initial values are followed (chosen).
+/// Approximate number of points of the first search, in which all initial values are followed. Chosen.
 const COARSE_POINTS: usize = 200;
 /// Difference of two criteria from which on there is strong evidence for the lower one (Kass and Raftery 1995,
 /// DOI 10.1080/01621459.1995.10476572).

@@ -29,9 +29,9 @@ pub(super) struct Start {
 
 /// Number of points of a curve below which it is not fitted. Chosen.
 pub(super) const MIN_POINTS: usize = 30;
-/// Approximate number of points of the approach in the elastic fit (chosen).
+/// Approximate number of points to which the approach is reduced for the elastic fit. Chosen.
 const APPROACH_POINTS: usize = 100;
-/// Number of equally spaced candidates of the contact point in the first search (chosen).
+/// Number of equally spaced candidates of the contact point in the first search. Chosen.
 const CONTACT_POINT_CANDIDATES: usize = 24;
 /// Number of halvings of the distance between candidates of the contact point around the best one. Chosen.
 const CONTACT_POINT_REFINEMENTS: i32 = 6;

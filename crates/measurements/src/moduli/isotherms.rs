@@ -56,7 +56,7 @@ pub(super) fn insert(groups: &mut Vec<Group>, row: IsothermRow) -> Result<(), &'
     {
         return Err("a value that no row before has at this temperature");
     }
-    // Of equally near temperatures the latest isotherm takes the row.
+    // Insert the row into the isotherm with the nearest temperature; among equally near ones the latest takes it.
     let latest = groups.iter_mut().rev();
     let free = latest.filter(|group| !group.rows.contains_key(&key));
     let near = free.filter_map(|group| Some((distance(group)?, group)));

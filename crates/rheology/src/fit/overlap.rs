@@ -89,7 +89,7 @@ impl LogCurves {
             let logs = points
                 .iter()
                 .map(|point| [point.angular_frequency, modulus(point)].map(f64::ln));
-            // A modulus of zero has no logarithm.
+            // Omit a modulus of zero, because it has no logarithm.
             LogCurve(logs.filter(|point| point[1].is_finite()).collect())
         };
         Self([line(|point| point.storage), line(|point| point.loss)])

@@ -112,14 +112,15 @@ pub(super) struct Superposed {
 
 /// Smallest natural logarithm of the likelihood ratio that decides between two kinds of vertical shift. Chosen: odds of 20 to 1.
 const MIN_LOG_LIKELIHOOD_RATIO: f64 = 3.0;
-/// Largest deviation of a free ln b from that of a bound vertical shift (b_T = 1 or T/T_r) that an instrument explains.
+/// Largest deviation of the logarithm of a free modulus factor b, from that of a bound vertical shift (b_T = 1 or T/T_r), that an
+/// instrument explains.
 ///
 /// Derived: three times the prior scale of the factors in the covariance of the moduli.
 const INSTRUMENT_FACTOR: f64 = 0.03;
 /// Largest ratio of the residuals to the scatter of single points with which isotherms agree. Chosen.
 const MAX_RESIDUAL_RATIO: f64 = 2.0;
-/// Prior standard deviation of a free ln b around that of the better bound vertical shift, b_T = 1 or T/T_r (chosen): a larger one
-/// lets factors compensate wrong shifts.
+/// Prior standard deviation of the logarithm of a free modulus factor b around that of the better bound vertical shift, b_T = 1
+/// or T/T_r. Chosen: a larger one lets factors compensate wrong shifts.
 const PRIOR_MODULUS_SPREAD: f64 = 0.1;
 /// Ratio of the residuals of a pair to the median of all pairs above which its placement is rejected. Chosen.
 const FORCED_RESIDUAL_RATIO: f64 = 4.0;

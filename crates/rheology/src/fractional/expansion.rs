@@ -96,7 +96,8 @@ impl ContinuousSpectrum<'_> {
         let [first, last] = [slowest, fastest].map(|rate| (rate.ln() - middle) / step);
         let [first, last] = [first.floor(), last.ceil()];
         let log_rate = |index: f64| middle + index * step;
-        // Moments of the relaxation time at a node: its modulus (k = 0) and its viscosity (k = 1).
+        // Compute the modulus (k = 0) or the viscosity (k = 1) of the branch at a node: the density times the step and the k-th
+        // power of the relaxation time.
         let moment = |k: f64, index: f64| {
             let log_rate = log_rate(index);
             step * ((self.log_density)(log_rate) - k * log_rate).exp()

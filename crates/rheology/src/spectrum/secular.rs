@@ -128,7 +128,7 @@ impl Secular<'_> {
             let trusted = newton > low && newton < high && step.abs() <= 0.5 * last_step;
             let next = if trusted { newton } else { middle(low, high) };
             if next <= low || next >= high {
-                // The bracket of subnormal ends cannot be divided.
+                // Stop if the interval between subnormal ends cannot be divided.
                 break;
             }
             last_step = (next / distance).ln().abs();

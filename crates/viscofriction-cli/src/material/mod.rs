@@ -107,7 +107,7 @@ pub(crate) fn fit(options: &FitMaterial) -> Result<()> {
         .map_or("", |celsius| if celsius { "°C" } else { "K" });
     let (points, shifted) = joined_points(moduli, options).map_err(wrong)?;
     let curve = match &shifted {
-        // The curve of the master keeps track of the isotherms.
+        // Fit the curve of the master curve, which keeps track of the isotherms.
         Some(shifted) => shifted.master.curve.clone(),
         None => points.curve().map_err(wrong)?,
     };

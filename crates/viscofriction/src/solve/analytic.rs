@@ -47,7 +47,8 @@ pub(crate) fn viscous_line(
     let per_depth = 4.0 * material.viscosity() * velocity;
     let force = match load.control() {
         Control::NormalForce(force) => force,
-        // d = F_N/(4 η v), (12).
+        // The force follows from the depth d = F_N/(4 η v), Eq. (12) of Kürschner (2014), with the normal force F_N, viscosity η
+        // and speed v.
         Control::IndentationDepth(depth) => per_depth * depth,
     };
     let under_force = SlidingLoad::new(force, velocity)?;
@@ -245,7 +246,8 @@ pub(crate) fn pressed(
             (force, depth, contact_radius(&**body, depth)?)
         }
     };
-    // The peak pressure depends on the history of the contact unless the material is elastic; it has no bound for p ≤ 1.
+    // State the peak pressure only for an elastic material, because otherwise it depends on the history of the contact. For
+    // exponents p ≤ 1 of the profile it has no bound.
     let peak_pressure = match (body, simple(material)?) {
         (Revolution::Power(profile), Some(Simple::Elastic)) if profile.exponent() > 1.0 => {
             Some(stiffness(material, duration)? * power_peak_pressure(profile, radius)?)

@@ -52,7 +52,7 @@ impl WithoutShortestOctave {
         };
         let found = match solve(&left, request) {
             Ok(found) => found,
-            // A solution that misses the requested error still states a valid one.
+            // Use a solution that misses the requested error too, because it still states a valid error.
             Err(BemError::NotReached { reached, .. }) => match *reached {
                 Reached::Periodic(found) => found,
                 _ => return None,

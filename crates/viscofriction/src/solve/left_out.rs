@@ -111,9 +111,11 @@ fn candidates(problem: &Problem, answer: &Answer) -> Vec<Omission> {
         (MdrSteady, _) => vec![Some(Omission::TimeSteps)],
         (Analytic | MdrTransient, Pressing(_)) => vec![Some(Omission::HalfSpace)],
         (BemSteady, Sliding(load)) => {
-            // At a finite sliding distance the friction has not reached its stationary value.
+            // The computation leaves out time steps only without a sliding distance: at a finite one the friction has not reached
+            // its stationary value.
             let is_stationary = load.sliding_distance().is_none();
-            // Without a factorisation the bounding box of the contact is Fourier transformed.
+            // Fourier transforms are left out only with a factorisation; without one the bounding box of the contact is
+            // transformed.
             let is_factorised = answer.grid.is_some_and(|grid| grid.factorised);
             let transforms = is_factorised.then_some(Omission::Transforms);
             vec![

@@ -59,14 +59,14 @@ impl Problem {
         if let Motion::History { .. } = self.motion() {
             return Ok(match answer.method {
                 Method::BemTransient => answer.curve_widened(relative),
-                // The one-dimensional model includes the modulus error already.
+                // Answers of the one-dimensional model remain as they are, because they include the modulus error already.
                 _ => answer,
             });
         }
         let slope = mean_slope(self.body(), &answer).unwrap_or(0.0);
         let mut answer = answer.widened(relative, slope);
         if answer.model == Model::HalfSpace && matches!(self.motion(), Motion::Sliding(_)) {
-            // Far from a sliding contact the surface subsides by creep at times beyond every range.
+            // State no depth, because far from a sliding contact the surface subsides by creep at times beyond every range.
             answer.indentation_depth = None;
         }
         self.with_long_waves(answer, &expansion)
@@ -80,7 +80,8 @@ impl Problem {
         };
         let length = answer.contact_box.as_ref();
         let length = length.map_or(0.0, |contact| contact.x[1] - contact.x[0]);
-        // Waves longer than the thickness of a layer cause negligible displacement.
+        // If only waves longer than the thickness of a layer are slower than the series, leave the error: they cause negligible
+        // displacement.
         if self.thickness() < expansion.creeps_until * load.velocity() {
             return Ok(answer);
         }

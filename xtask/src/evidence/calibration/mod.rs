@@ -196,7 +196,7 @@ fn line(method: &str, bars: &[&Bar], refused: usize) -> [String; 8] {
         _ => 0.0,
     };
     let worst = bars.iter().map(part_of_bar).reduce(f64::max);
-    // The friction of an elastic material is known to be zero.
+    // Leave out references of zero, because the friction of an elastic material is known to be zero.
     let unknown = bars.iter().filter(|bar| bar.reference.abs() > 0.0);
     let parts: Vec<f64> = unknown.map(part_of_bar).collect();
     let middle = (!parts.is_empty()).then(|| 1.0 / median(parts));

@@ -74,7 +74,7 @@ const PRINTED: [(f64, &str); 5] = [
 
 /// Measures on one thread; a quick run takes a few scenes at coarse resolutions only, each timed once.
 pub(super) fn report(quick: bool) -> Result<Report> {
-    // On one thread processor time is the time on an idle machine.
+    // Measure on one thread, on which the processor time is the time on an idle machine.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
     let Measured { rows, refused, .. } = pool.install(|| measure(quick))?;
     let series = || rows.chunk_by(Row::is_of_series);

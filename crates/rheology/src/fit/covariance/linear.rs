@@ -126,7 +126,8 @@ impl Residuals {
 
     /// Diagonal of R Rᵀ: the fraction of the variance of every number that remains in its residual.
     pub(super) fn remaining_variances(&self) -> Vec<f64> {
-        // With R = 1 − L M the diagonal is 1 − 2 (L M)_ii + (L M Mᵀ Lᵀ)_ii, without the square matrix R.
+        // With R = 1 − L M, where L and M are the matrices `left` and `right`, the diagonal is 1 − 2 (L M)_ii + (L M Mᵀ Lᵀ)_ii.
+        // It needs no square matrix R.
         let products = &self.left * outer_square(&self.right);
         let part = |row: usize| {
             let left = self.left.row(row);

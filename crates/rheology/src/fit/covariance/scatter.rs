@@ -93,9 +93,9 @@ impl Scatter {
             .column_iter()
             .map(|one| one.norm_squared())
             .collect();
-        // Subtract the factor that each isotherm has in common.
+        // Subtract from the residuals of each isotherm the relative factor that its points have in common.
         let of_isotherms = effects.factors.column_iter().zip(&squares);
-        // Sums are 0 for an isotherm all of whose points were averaged with those of others.
+        // Avoid a division by 0 for an isotherm all of whose points were averaged with those of others.
         let means = of_isotherms
             .map(|(factors, squares)| factors.dot(&fit.residuals) / squares.max(f64::MIN_POSITIVE));
         let means = DVector::from_vec(means.collect::<Vec<_>>());
@@ -192,7 +192,7 @@ impl EffectInResiduals {
         residuals: &Residuals,
         scatter: &Scatter,
     ) -> Self {
-        // Weight the residuals by the effect over the variances, and find what else contributes to these sums.
+        // Weight the residuals by the effect divided by the variances, and find what else contributes to these sums.
         let left = residuals.apply(effect);
         let mut weights = left.clone();
         for (mut row, variance) in weights.row_iter_mut().zip(scatter.noise.iter()) {

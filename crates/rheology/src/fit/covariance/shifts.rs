@@ -228,7 +228,7 @@ fn pair_gain(fit: &Linear, rows: &[Measurement], link: &Link) -> [RowDVector<f64
         let [fixed, moved] = [link.fixed, link.moved].map(|isotherm| {
             let is_own = |row: &usize| {
                 let row = &rows[*row];
-                // A modulus of zero has no logarithm.
+                // Omit a modulus of zero, because it has no logarithm.
                 row.isotherm == isotherm && row.quantity == quantity && row.value > 0.0
             };
             (0..rows.len()).filter(is_own).collect::<Vec<_>>()

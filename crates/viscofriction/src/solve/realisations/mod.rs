@@ -197,7 +197,7 @@ fn mean_of(answers: &[Answer], seeds: &[u64]) -> Answer {
         }),
         ..answers[0].clone()
     };
-    // Quantities that some answer lacks have no mean.
+    // Average each quantity over the surfaces; one that some answer lacks has no mean.
     for quantity in &QUANTITIES {
         if let Some(field) = quantity.field {
             *field(&mut mean) = mean_estimate(answers.iter().map(quantity.of));

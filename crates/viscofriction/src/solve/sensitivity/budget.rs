@@ -72,7 +72,7 @@ pub(super) fn budget(
     }
     let mut budget = Budget { entries };
     if !budget.entries.is_empty() {
-        // Without derivatives the error of the computation alone is not a budget.
+        // Add the error of the computation only to quantities with derivatives, because alone it is no budget.
         let total = budget.total();
         let numerics = ByQuantity::new(|quantity| {
             let known = total.of(quantity.key).and((quantity.of)(answer))?;

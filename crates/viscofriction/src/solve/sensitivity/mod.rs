@@ -82,7 +82,7 @@ pub fn with_sensitivity(
     sensitivity.iter_mut().for_each(|one| one.widen(series));
     let material = numbers.scene()?.material;
     let budget = budget(&material, scene, &all, &sensitivity, &answer);
-    // A temperature in °C has no logarithmic derivative.
+    // Remove the derivative by the temperature, because a temperature in °C has no logarithmic one.
     sensitivity.retain(|one| one.parameter != TEMPERATURE);
     Ok(Answer {
         sensitivity,

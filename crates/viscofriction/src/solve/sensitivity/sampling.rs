@@ -28,7 +28,7 @@ pub fn sampled(
     }
     let mut normal = Normal::new(sample);
     let mut numbers = Numbers::new(scene, folder, read)?;
-    // The temperature comes first, because moduli and times at other temperatures follow from it.
+    // Draw the temperature first, because moduli and times at other temperatures follow from it.
     if let Some(temperature) = numbers.uncertain_temperature() {
         let drawn = temperature.value + numbers.uncertainty(&temperature) * normal.next();
         numbers = Numbers::new(&numbers.scene_with(&temperature, drawn)?, folder, read)?;
