@@ -62,7 +62,7 @@ impl ContactEvent<'_> {
     }
 
     /// Separates a loaded element immediately; returns the displacement u_∞ to which it recovers \[m], and the energy that was
-    /// stored in it, over the unit of stress, \[m²].
+    /// stored in it, divided by the unit of stress, \[m²].
     pub(crate) fn separate_instantly(&mut self, displacement: f64) -> (f64, f64) {
         let foundation = self.foundation;
         let n_branches = foundation.branches.len();
@@ -127,9 +127,9 @@ impl ContactEvent<'_> {
         work
     }
 
-    /// Brings a free element that recovers to the displacement `limit` into contact with a line that imposes a displacement, \[m]:
-    /// its amplitudes are replaced by stresses. Returns its displacement \[m], and the energy stored in it, over the unit of
-    /// stress, \[m²].
+    /// Brings a free element that recovers to the displacement `limit` into contact with a line that imposes a displacement,
+    /// \[m]: its amplitudes are replaced by stresses. Returns its displacement \[m], and the energy stored in it, divided by the
+    /// unit of stress, \[m²].
     pub(crate) fn make_contact_instantly(&mut self, limit: f64, imposed: f64) -> (f64, f64) {
         let foundation = self.foundation;
         let remaining = self.history[..foundation.modes.len()].to_vec();

@@ -23,9 +23,9 @@ pub(crate) struct Foundation {
     /// Unit of all stresses, \[Pa], so that their squares stay in range: the instantaneous modulus, or η₀ v over 1 m for a lone
     /// dashpot.
     pub(crate) unit: f64,
-    /// Equilibrium modulus G_∞ over the unit.
+    /// Equilibrium modulus G_∞ divided by the unit.
     pub(crate) spring: f64,
-    /// Lone dashpot η₀ v over the unit, \[m].
+    /// Lone dashpot η₀ v divided by the unit, \[m].
     pub(crate) dashpot: f64,
     /// Maxwell branches, which carry the load in contact.
     pub(crate) branches: Vec<Branch>,
@@ -35,7 +35,7 @@ pub(crate) struct Foundation {
 
 /// Maxwell branch of the foundation, in its units.
 pub(crate) struct Branch {
-    /// Modulus G_i over the unit.
+    /// Modulus G_i divided by the unit.
     pub(crate) modulus: f64,
     /// Distance of relaxation l_i = v τ_i, \[m].
     pub(crate) length: f64,
@@ -133,7 +133,8 @@ impl Foundation {
         self.branches.is_empty() && !self.has_dashpot()
     }
 
-    /// Mean ∫₀^t G dt'/t of the relaxation modulus over a time t after an instantaneous compression, over the unit; 0 for t ≤ 0.
+    /// Mean ∫₀^t G dt'/t of the relaxation modulus over a time t after an instantaneous compression, divided by the unit; 0 for t
+    /// ≤ 0.
     ///
     /// `time` is in the unit of the lengths of branches and modes.
     pub(crate) fn mean_modulus(&self, time: f64) -> f64 {
@@ -153,7 +154,7 @@ impl Foundation {
         }
     }
 
-    /// Elastic energy (G_∞ u² + Σ e_i²/G_i)/2 of the springs of an element, over the unit of stress.
+    /// Elastic energy (G_∞ u² + Σ e_i²/G_i)/2 of the springs of an element, divided by the unit of stress.
     pub(crate) fn stored_energy(&self, displacement: f64, stresses: &[f64]) -> f64 {
         let branches = self.branches.iter().zip(stresses);
         let stored: f64 = branches.map(|(b, e)| e * (e / b.modulus)).sum();

@@ -36,7 +36,7 @@ pub(crate) struct TimeStep {
     pub(crate) duration: f64,
     /// Load of an element at the end per compression in the step: G_∞ + η₀/Δt + Σ G φ.
     pub(crate) stiffness: f64,
-    /// Equilibrium modulus G_∞ over the unit.
+    /// Equilibrium modulus G_∞ divided by the unit of stress.
     spring: f64,
     /// Stiffness η₀/Δt of the lone dashpot over the step.
     dashpot: f64,
@@ -66,9 +66,9 @@ struct BranchGroup {
 /// Impulse and dissipation of an element in a step, in the units of the foundation.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct StepWork {
-    /// Impulse ∫ w dt over the unit of stress, \[m s].
+    /// Impulse ∫ w dt divided by the unit of stress, \[m s].
     pub(crate) impulse: f64,
-    /// Energy that the dashpots of the element dissipate, over the unit of stress, \[m²].
+    /// Energy that the dashpots of the element dissipate, divided by the unit of stress, \[m²].
     pub(crate) dissipated: f64,
 }
 
@@ -161,7 +161,8 @@ impl TimeStep {
         }
     }
 
-    /// Load G_∞ u + Σ e_i e^(−Δt/τ_i) of an element at the end of a step without compression, over the unit of stress, \[m].
+    /// Load G_∞ u + Σ e_i e^(−Δt/τ_i) of an element at the end of a step without compression, divided by the unit of stress,
+    /// \[m].
     pub(crate) fn relaxed_load(&self, displacement: f64, stresses: &[f64]) -> f64 {
         let branches = self.branches.iter().zip(stresses.as_chunks().0);
         let relaxed = branches.fold([0.0; LANES], |sum, (branches, stresses)| {

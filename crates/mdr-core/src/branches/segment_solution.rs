@@ -11,11 +11,11 @@ use crate::line::{Segment, derivative, square_integral, start_value, value};
 /// ‖δr‖ = 4 δ.
 const DISSIPATION_SENSITIVITY: f64 = 8.0;
 
-/// Bounds of the changes of a contact by a jump δ of the displacement, over δ; displacements are in depths.
+/// Bounds of the changes of a contact by a jump δ of the displacement, divided by δ; displacements are in depths.
 pub(crate) struct JumpSensitivity {
-    /// Change of the load ∫ w dξ over δ, \[m].
+    /// Change of the load ∫ w dξ divided by δ, \[m].
     pub(crate) load: f64,
-    /// Change of the work ∫ w h̃' dξ over δ.
+    /// Change of the work ∫ w h̃' dξ divided by δ.
     pub(crate) work: f64,
 }
 
@@ -35,9 +35,10 @@ pub(crate) struct SegmentSolution {
     n_terms: usize,
     /// Boundary layers of w.
     pub(crate) layers: Vec<Layer>,
-    /// Load ∫ w dξ on the segment over depth and unit of stress, \[m].
+    /// Load ∫ w dξ on the segment, divided by depth and unit of stress, \[m].
     pub(crate) load: f64,
-    /// Energy ∫ (η₀ v u'² + Σ e_i²/(G_i l_i)) dξ that the dashpots dissipate, over the squared depth and the unit of stress.
+    /// Energy ∫ (η₀ v u'² + Σ e_i²/(G_i l_i)) dξ that the dashpots dissipate, divided by the squared depth and the unit of
+    /// stress.
     pub(crate) dissipation: f64,
     /// Bound of the change of the dissipation per change of the displacement by δ, see [`DISSIPATION_SENSITIVITY`].
     pub(crate) dissipation_change: f64,
@@ -57,8 +58,8 @@ impl Foundation {
         lengths.fold(f64::INFINITY, f64::min)
     }
 
-    /// Bound of the change of ∫ w dξ by a change δ of the displacement on a segment of a length \[m], over δ, \[m]: a branch keeps
-    /// its stress over its distance of relaxation at most.
+    /// Bound of the change of ∫ w dξ by a change δ of the displacement on a segment of a length \[m], divided by δ, \[m]: a
+    /// branch keeps its stress over its distance of relaxation at most.
     pub(crate) fn stiffness(&self, length: f64) -> f64 {
         let branches = self.branches.iter();
         let relaxing: f64 = branches.map(|b| b.modulus * length.min(b.length)).sum();

@@ -80,7 +80,7 @@ pub(super) struct EdgeElement {
 
 /// A body that follows a path of the depth, and the integrals over its history.
 pub(super) struct Approach {
-    /// Contact radius over the depth.
+    /// Contact radius as a function of the depth.
     radii: Radii,
     /// Error of the sum of the loads by the polynomials of the radii, \[Pa m²].
     load_error: f64,

@@ -38,7 +38,7 @@ pub(super) struct Contact<'a> {
     pub(super) body: &'a dyn EquivalentProfile,
     /// Depth over time, and the response of the material to it.
     pub(super) path: Path,
-    /// Contact radius over the depth.
+    /// Contact radius as a function of the depth.
     pub(super) radii: Radii,
     /// Rings in contact, from the centre outwards.
     pub(super) rings: Vec<EdgeMove>,

@@ -1,4 +1,4 @@
-//! The radius of the contact circle over the depth, as polynomials.
+//! The radius of the contact circle as a function of the depth, in polynomials.
 //!
 //! ```text
 //! h̃(a(d)) = d        ∫ e^(−(t − s)/τ) a(d(s)) ḋ ds   is exact for a polynomial

@@ -186,8 +186,8 @@ impl<'a> Elements<'a> {
         self.history_of(last).fill(0.0);
     }
 
-    /// Separates a loaded element instantly at a `time` \[s]; returns the energy that was stored in it, over the unit of stress,
-    /// \[m²], and 0 if it is not loaded.
+    /// Separates a loaded element instantly at a `time` \[s]; returns the energy that was stored in it, divided by the unit of
+    /// stress, \[m²], and 0 if it is not loaded.
     pub(super) fn separate_instantly(&mut self, element: usize, time: f64) -> f64 {
         let ElementState::Loaded { displacement } = self.states[element] else {
             return 0.0;
@@ -198,7 +198,7 @@ impl<'a> Elements<'a> {
     }
 
     /// Brings an element that recovers to the displacement `limit` into contact instantly, with the displacement that the line
-    /// imposes, \[m]; returns the energy stored in it, over the unit of stress, \[m²].
+    /// imposes, \[m]; returns the energy stored in it, divided by the unit of stress, \[m²].
     pub(crate) fn make_contact_instantly(
         &mut self,
         element: usize,

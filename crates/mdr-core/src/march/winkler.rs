@@ -65,7 +65,7 @@ pub(super) struct WinklerFoundation<'a> {
     foundation: &'a Foundation,
     /// Heights of the line over elements, and their spacing.
     sampled: &'a ElementHeights,
-    /// Position of the first element over the spacing.
+    /// Position of the first element divided by the spacing.
     first: f64,
     /// States and history variables of the elements.
     elements: Elements<'a>,
@@ -85,7 +85,7 @@ pub(super) struct WinklerFoundation<'a> {
     contact_history: ContactHistory,
 }
 
-/// Sums over the elements in a step, over the unit of stress of the foundation.
+/// Sums over the elements in a step, divided by the unit of stress of the foundation.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct StepSums {
     /// Mean of Σ w over the step, \[m].

@@ -39,10 +39,10 @@ const MAX_CONTACTS: usize = 1 << 12;
 /// Sums over one pass.
 #[derive(Debug, Clone, Default)]
 pub(super) struct SweepSums {
-    /// Load ∫ w dx, a quarter of the normal force over depth and unit of stress, \[m].
+    /// Load ∫ w dx, a quarter of the normal force divided by depth and unit of stress, \[m].
     pub(super) load: f64,
-    /// Work ∫ w h̃' dx, a quarter of the friction force over the square of the depth and the unit of stress, summed as dissipated
-    /// energy.
+    /// Work ∫ w h̃' dx, a quarter of the friction force divided by the square of the depth and the unit of stress, summed as
+    /// dissipated energy.
     pub(super) work: f64,
     /// Error of `load` by the polynomials of the line, \[m].
     pub(super) load_error: f64,
