@@ -144,12 +144,12 @@ pub fn cylinder_half_width_after_impulse(
     representable("half width", half_width)
 }
 
-/// Pressure under a body that is pressed without sliding, over the modulus G/(2 (1 − ν)) of an elastic half space.
+/// Pressure under a body that is pressed without sliding, divided by the modulus G/(2 (1 − ν)) of an elastic half space.
 ///
 /// At a `radius` r inside the contact \[m] and an indentation `depth` d > 0 \[m] it is (Sneddon 1965, Int. J. Eng. Sci. 3, 47)
 /// `(4/π) [∫_r^a h̃'(x)/√(x² − r²) dx + (d − h̃(a))/√(a² − r²)]`.
 ///
-/// On a viscous half space it is the impulse per area ∫ p dt since first touch, over the viscosity.
+/// On a viscous half space it is the impulse per area ∫ p dt since first touch, divided by the viscosity.
 ///
 /// # Errors
 /// Like [`impulse_to_depth`]; [`FrictionError::InvalidParameter`] for a radius outside the contact, or under the tip of a
@@ -184,7 +184,7 @@ pub fn indentation_pressure(
     Ok(4.0 / PI * (smooth_part + punch_part))
 }
 
-/// Largest pressure under a power profile with p > 1 and a `contact_radius` a \[m], over the modulus G/(2 (1 − ν)) as in
+/// Largest pressure under a power profile with p > 1 and a `contact_radius` a \[m], divided by the modulus G/(2 (1 − ν)) as in
 /// [`indentation_pressure`]: `(4/π) p h̃(a)/a` times the maximum of
 ///
 /// ```text

@@ -76,9 +76,9 @@ impl EnergyFactor {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
 pub struct PerssonSliding {
-    /// Real area of contact over the nominal one.
+    /// Ratio of the real area of contact to the nominal one.
     pub area_fraction: Estimate,
-    /// Variance of the pressure in full contact over the square of the mean pressure: 2 G of all waves.
+    /// Variance of the pressure in full contact, divided by the square of the mean pressure: 2 G of all waves.
     pub pressure_variance: Estimate,
     /// Friction coefficients with S = 1, P² and P⁴, the terms of an [`EnergyFactor`].
     parts: [Estimate; N_TERMS],
@@ -278,7 +278,7 @@ impl SelfAffineSpectrum {
 struct LoadedMaterial {
     /// Relaxation spectrum in shear.
     relaxation: RelaxationSpectrum,
-    /// Ratio E*/(G* σ₀) of the modulus of the half space to the shear modulus, over the mean pressure, \[1/Pa].
+    /// Ratio E*/(G* σ₀) of the modulus of the half space to the shear modulus, divided by the mean pressure, \[1/Pa].
     factor: f64,
     /// Sliding speed, \[m/s].
     velocity: f64,
@@ -371,7 +371,7 @@ impl LoadedMaterial {
 /// The integrals up to a wave number.
 #[derive(Debug, Clone, Copy, Default)]
 struct SpectralIntegrals {
-    /// Integral G, half the variance of the pressure over the square of the mean pressure.
+    /// Integral G, half the variance of the pressure divided by the square of the mean pressure.
     g: f64,
     /// Friction coefficients with S = 1, P² and P⁴.
     friction_terms: [f64; N_TERMS],
@@ -396,7 +396,7 @@ impl SpectralIntegrals {
     }
 }
 
-/// Persson's area fraction erf(1/√(2V)) for a variance V of the pressure over the square of the mean pressure.
+/// Persson's area fraction erf(1/√(2V)) for a variance V of the pressure divided by the square of the mean pressure.
 fn area_fraction(variance: f64) -> f64 {
     libm::erf((0.5 / variance).sqrt())
 }

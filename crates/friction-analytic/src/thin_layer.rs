@@ -50,7 +50,7 @@ impl ThinLayer {
         })
     }
 
-    /// Pressure over depth of the Winkler foundation, 2G (1 − ν)/((1 − 2ν) t), \[Pa/m].
+    /// Ratio of pressure to depth of the Winkler foundation, 2G (1 − ν)/((1 − 2ν) t), \[Pa/m].
     ///
     /// A thin compressible layer is displaced at every point by the pressure there only (Johnson 1985, eq. 5.69). The error
     /// relative to the layer is of the order (t/a)² in the force at a depth, and t/a in the contact radius.

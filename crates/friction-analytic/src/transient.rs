@@ -180,7 +180,7 @@ impl TransientScales {
 }
 
 impl PowerShape {
-    /// Sliding distance at which the trailing flank lifts off, over x_d: v t*/x_d.
+    /// Sliding distance at which the trailing flank lifts off, divided by x_d: v t*/x_d.
     const fn lift_off(self) -> f64 {
         match self {
             Self::Cone => 0.25,
@@ -189,14 +189,14 @@ impl PowerShape {
     }
 }
 
-/// Whether both flanks touch at a sliding distance over x_d.
+/// Whether both flanks touch at a sliding distance, given as a multiple of x_d.
 ///
 /// The time t* itself belongs to the two-sided state, also if rounding makes it later by a few units in the last place.
 fn is_two_sided(shape: PowerShape, distance: f64) -> bool {
     distance <= shape.lift_off() * (1.0 + 16.0 * f64::EPSILON)
 }
 
-/// Distance T(y) = y − ln y − ½ − ln 2, the sliding distance after t* over x_d.
+/// Distance T(y) = y − ln y − ½ − ln 2, the sliding distance after t* divided by x_d.
 fn distance_since_lift_off(y: f64) -> f64 {
     y - y.ln() - 0.5 - LN_2
 }
@@ -204,8 +204,8 @@ fn distance_since_lift_off(y: f64) -> f64 {
 /// Number of Newton steps for y: the start is within e^z < ½ of the root, and 6 steps of quadratic convergence reach rounding.
 const NEWTON_STEPS: usize = 8;
 
-/// Relative distance y from the stationary state at the distance T ≥ 0 since lift-off, over x_d: y = −W₀(−½ e^(−1/2 − T)) ≤ ½ with
-/// Lambert's function, or y e^(−y) = ½ e^(−1/2 − T).
+/// Relative distance y from the stationary state at the distance T ≥ 0 since lift-off, as a multiple of x_d: y = −W₀(−½ e^(−1/2 −
+/// T)) ≤ ½ with Lambert's function, or y e^(−y) = ½ e^(−1/2 − T).
 ///
 /// Newton's method for z = ln y in e^z − z = c, c = ½ + ln 2 + T: the function is convex and falls where y < 1, so from
 /// z = −c, which is left of the root, the steps approach it from one side, and neither late nor early times lose digits.
@@ -227,7 +227,7 @@ fn missing_fraction(since_lift_off: f64) -> f64 {
 /// difference enlarges rounding by a factor of 20 at most.
 const MAX_LOG_SERIES_Q: f64 = 0.1;
 
-/// Sliding distance of a cone to d/D = q by Eq. (15), over x_d: −q − ln(1 − q) for 0 ≤ q ≤ 1, without cancellation.
+/// Sliding distance of a cone to d/D = q by Eq. (15), divided by x_d: −q − ln(1 − q) for 0 ≤ q ≤ 1, without cancellation.
 fn distance_by_equation_15(q: f64) -> f64 {
     if q > MAX_LOG_SERIES_Q {
         return -q - (-q).ln_1p();

@@ -112,11 +112,11 @@ pub fn maxwell_sliding(
 
 /// Rear, load and friction of a contact in units of its front and depth.
 struct RelativeSliding {
-    /// Position of the rear end over that of the front, x_l/x_r.
+    /// Ratio of the position of the rear end to that of the front, x_l/x_r.
     rear: f64,
-    /// Normal force over the product of four times the modulus, depth and front, ∫ w dx/(G d x_r).
+    /// Normal force divided by the product of four times the modulus, depth and front, ∫ w dx/(G d x_r).
     load: f64,
-    /// Friction coefficient over depth/front, μ x_r/d.
+    /// Friction coefficient divided by the ratio of depth and front, μ x_r/d.
     friction: f64,
 }
 

@@ -154,7 +154,7 @@ pub(super) struct LineIntegrals {
     radius: f64,
     /// Height g of the line at the radius, \[m].
     height: f64,
-    /// Area below the line, ∫₀^x g ds, over the thickness, \[m].
+    /// Area below the line, ∫₀^x g ds, divided by the thickness, \[m].
     area: f64,
     /// Cosine transform of the line, ∫₀^x g(s) cos ξs ds, for all wave numbers, with the factors of [`WaveQuadrature::cosines_at`].
     waves: DVector<f64>,
@@ -237,7 +237,7 @@ pub(super) struct ContactDisc {
     punch: DVector<f64>,
     /// Root of the weight of the node at the edge, √w.
     root_weight_at_edge: f64,
-    /// Radius of the flat punch of the same stiffness on the half space, ∫ φ dx, over the thickness.
+    /// Radius of the flat punch of the same stiffness on the half space, ∫ φ dx, divided by the thickness.
     equivalent_radius: f64,
 }
 
@@ -290,7 +290,7 @@ impl ContactDisc {
         (integrals.height + at_edge) / self.punch_at_edge()
     }
 
-    /// Load ∫₀^a q dx at a depth, from ∫ φ (d − g) dx, over the thickness, \[m].
+    /// Load ∫₀^a q dx at a depth, from ∫ φ (d − g) dx, divided by the thickness, \[m].
     pub(super) fn load(&self, integrals: &LineIntegrals, depth: f64) -> f64 {
         let correction = self.cosines.tr_mul(&self.punch).dot(&integrals.waves);
         self.equivalent_radius * depth - (integrals.area + correction)

@@ -35,7 +35,7 @@ pub struct BondedLayer {
 pub struct LayerContact {
     /// Indentation depth d, \[m].
     pub indentation_depth: f64,
-    /// Normal force over the modulus E* = 2G/(1 − ν), \[m²].
+    /// Normal force divided by the modulus E* = 2G/(1 − ν), \[m²].
     pub force_per_modulus: f64,
 }
 

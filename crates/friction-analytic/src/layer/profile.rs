@@ -459,8 +459,8 @@ impl<'a> LayerProblem<'a> {
         })
     }
 
-    /// Inverts the depth of a series of contacts, and expands both radii over the depth from `start_depth` on, \[m], on a map with
-    /// the same exponent `grading`.
+    /// Inverts the depth of a series of contacts, and expands both radii as functions of the depth from `start_depth` on, \[m],
+    /// on a map with the same exponent `grading`.
     fn invert_depth(
         &self,
         contacts: &ContactSeries,

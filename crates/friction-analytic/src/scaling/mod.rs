@@ -1,4 +1,4 @@
-//! Scaling factor s(p): friction of the viscous half space over that of the one-dimensional model.
+//! Scaling factor s(p): ratio of the friction of the viscous half space to that of the one-dimensional model.
 //!
 //! For a power profile h = c r^p it depends neither on force, speed and viscosity nor on c. Kürschner (2014, Sect. 5) gives
 //! s(1) ≈ 0.55 and s(2) ≈ 0.67 and leaves the function open. Here it is interpolated in a table of converged values with
@@ -27,7 +27,8 @@ static TABLE: LazyLock<Vec<(f64, Estimate)>> = LazyLock::new(|| {
 /// Chosen.
 const STENCIL_NODES: usize = 6;
 
-/// Scaling factor s(p) of the profile c r^p: friction of the viscous half space over that of the one-dimensional model.
+/// Scaling factor s(p) of the profile c r^p: ratio of the friction of the viscous half space to that of the one-dimensional
+/// model.
 ///
 /// It is a polynomial of the fifth degree in ln(2p − 1) through the nearest nodes of a table. Its error is that of the nodes
 /// with their weights: at most about 1e-3 of the value for cusps with p < 0.65, and about 1e-4 for the others.
