@@ -75,8 +75,8 @@ const RELATIONS_PER_SCENE: usize = 2;
 /// Relative difference allowed between answers to two forms of the same scene, which differ by rounding only. Chosen: many
 /// roundings are amplified by ill-conditioned contacts, but no discretisation error that matters is smaller.
 const ROUNDING_TOLERANCE: f64 = 1e-9;
-/// Ratio of the difference between such answers, which iterations that stop at their tolerance may leave, to the sum of the error
-/// bars. Chosen.
+/// Ratio of the difference between answers to two forms of the same scene to the sum of their error bars, which iterations that
+/// stop at their tolerance may leave. Chosen.
 const ITERATION_TOLERANCE: f64 = 0.05;
 /// Assumed bound of d ln F/d ln d and d ln μ/d ln d of the bodies that are drawn, with the normal force F, the depth d and the
 /// friction μ. It bounds how much an error of the given quantity is amplified in the others.

@@ -31,7 +31,8 @@ const QUICK_ERRORS: [f64; 1] = [0.1];
 /// Fraction of the comparisons within error bars that may deviate by more than the sum of both. Each bar is to hold in 95 % of
 /// the cases, their sum much more often.
 const MAX_OUTSIDE_FRACTION: f64 = 0.01;
-/// Largest ratio of the deviation in such a comparison to the sum of both bars. Chosen.
+/// Largest ratio of the deviation to the sum of both bars in the comparisons that [`MAX_OUTSIDE_FRACTION`] admits outside the
+/// error bars. Chosen.
 const MAX_DEVIATION_OVER_BARS: f64 = 3.0;
 /// Number of contradictions that the page lists by name, the worst ones. Chosen.
 const LISTED_CONTRADICTIONS: usize = 20;
