@@ -51,7 +51,7 @@ pub(crate) fn radius_with_friction(
     Ok(radius)
 }
 
-/// Translates a body that is not high enough into the absence of a stationary state, Remark 4.
+/// Translates the error that a body is not high enough into the absence of a stationary state, Remark 4 of Kürschner (2014).
 pub(crate) fn no_stationary_state(error: IndenterError) -> FrictionError {
     match error {
         IndenterError::NotHighEnough { available, depth } => FrictionError::NoStationaryState {

@@ -63,7 +63,7 @@ pub enum FrictionError {
         /// Length of the contact line, \[m].
         contact_length: f64,
     },
-    /// The leading edge does not reach the stationary depth, Remark 4.
+    /// The leading edge does not reach the stationary depth, Remark 4 of Kürschner (2014).
     #[error(
         "no stationary state: a depth of {} m is needed, but the leading edge rises only {} m",
         Rounded(*needed_depth), Rounded(*available_depth)

@@ -1,4 +1,4 @@
-//! Stationary sliding of an arbitrary rigid line on a viscous foundation, Theorems 3 and 6.
+//! Stationary sliding of an arbitrary rigid line on a viscous foundation, Theorems 3 and 6 of Kürschner (2014).
 //!
 //! ```text
 //! d = F_N/(4 η v)        (12)        μ = (1/d) Σ_i ∫_{A_i} h̃'(x)² dx,   A_d = ∪ A_i        (11), (16)

@@ -1,4 +1,4 @@
-//! Sinking velocity of a sliding line, Remark 5 and its correction.
+//! Sinking velocity of a sliding line, by Remark 5 of Kürschner (2014) and its correction.
 //!
 //! ```text
 //! v_z = F_N/(4 η a) − (v/a) Σ_i [h̃(β_i) − h̃(α_i)],   a = Σ_i (β_i − α_i)
