@@ -13,7 +13,7 @@
 //! let y = Axis::linear("coefficient of friction μ", [0.0, 0.2]);
 //! let chart = Chart::new(x, y, vec![curve.labelled("half space")]);
 //! let drawing = draw(&Figure::single(chart))?;
-//! assert!(drawing.svg.contains("sliding speed <tspan font-style=\"italic\">v</tspan> [m/s]</text>"));
+//! assert!(drawing.svg.contains("aria-label=\"sliding speed v [mm/s]\""));
 //! assert_eq!(render_png(&drawing, PNG_WIDTH)?[1..4], *b"PNG");
 //! # Ok::<(), viscofriction_plot::PlotError>(())
 //! ```
