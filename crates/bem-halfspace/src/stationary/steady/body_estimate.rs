@@ -206,13 +206,11 @@ fn refine_state(
             let options = grid_of_plan(plan, elements);
             let state = steady_on_grid(surface, elastomer, load, &options)
                 .map_err(|error| with_needed_elements(error, request.accuracy, elements))?;
-            Ok(state.on_grid(
-                surface,
-                &creep,
-                plan.kinks,
-                options,
-                load.sliding_distance(),
-            ))
+            // Straight contact boundaries, as those of height maps, let grids agree by chance.
+            let uncertainty = state.pressure.friction_uncertainty(surface);
+            let mut on_grid = state.on_grid(&creep, plan.kinks, options, load.sliding_distance());
+            on_grid.target_uncertainty = uncertainty;
+            Ok(on_grid)
         };
         bars::resolve(&resolution, solve, finish)
     })

@@ -125,11 +125,9 @@ pub fn steady_line<'w>(
         let spacing = 2.0 * half_length / elements as f64;
         let options = SteadyOptions::new([spacing, strip.length], plan.footprint);
         let state = solve(&strip, loading, &options, &mut Reuse::default())?;
-        let mut on_grid = state.on_grid(&strip, &loading.creep, 0.0, options, None);
+        let mut on_grid = state.on_grid(&loading.creep, 0.0, options, None);
         // A width of whole elements has an error of at least one element.
         on_grid.area_uncertainty = spacing;
-        // The bars of cylinders hold without the bound for straight boundaries (docs/calibration.md).
-        on_grid.target_uncertainty = 0.0;
         Ok(on_grid)
     };
     bars::resolve(&resolution, solve, finish)

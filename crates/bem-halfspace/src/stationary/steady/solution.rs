@@ -2,8 +2,6 @@
 
 use numerics::ErrorParts;
 
-use indenters::Surface;
-
 use crate::BemError;
 use crate::elements::area::boundary_uncertainty;
 use crate::elements::bounds::Bounds;
@@ -78,7 +76,6 @@ impl SteadySliding {
     /// the body in the contact.
     pub(super) fn on_grid(
         self,
-        surface: &dyn Surface,
         creep: &SlidingCreep,
         kinks: f64,
         options: SteadyOptions,
@@ -100,7 +97,7 @@ impl SteadySliding {
                 iteration: Some(self.iteration_error()),
                 ..ErrorParts::discretisation_only(subgrid_friction)
             },
-            target_uncertainty: self.pressure.friction_uncertainty(surface),
+            target_uncertainty: 0.0,
             area_uncertainty: self.area_uncertainty(),
             area_order: None,
             spacing: options.spacing[0],
