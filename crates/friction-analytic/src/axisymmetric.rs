@@ -34,7 +34,7 @@ pub fn axisymmetric_sliding(
 ) -> Result<StationarySliding, FrictionError> {
     let depth = checked_depth(material, load)?;
     let radius = radius_with_friction(body, depth)?;
-    let energy = slope_energy(body, radius)?;
+    let energy = squared_slope_integral(body, radius)?;
     // The rounding of the contact radius moves the end of the integral.
     let end = body.line_slope(radius).powi(2) * radius;
     let contact = vec![[0.0, radius]];
@@ -93,19 +93,19 @@ pub(crate) fn refuse_divergence(
 }
 
 /// Integral of the squared slope, ∫₀^a h̃'(x)² dx, \[m], for a line over which it does not diverge.
-pub(crate) fn slope_energy(
+pub(crate) fn squared_slope_integral(
     body: &dyn Axisymmetric,
     radius: f64,
 ) -> Result<Estimate, FrictionError> {
     // The slope may be singular at the apex only; between kinks the line is smooth.
     let ends = ends_outside_apex(body, radius);
-    let inner = slope_energy_at_apex(body, ends[0]);
+    let inner = squared_slope_integral_at_apex(body, ends[0]);
     let outer = integrate_pieces(|x| body.line_slope(x).powi(2), &ends);
     accept_accurate("integral of the squared slope", inner + outer)
 }
 
 /// Integral of the squared slope, ∫ h̃'² dx, from the apex, where h̃' ∼ x^(p−1) may be singular, to `end`, \[m].
-fn slope_energy_at_apex(body: &dyn Axisymmetric, end: f64) -> Estimate {
+fn squared_slope_integral_at_apex(body: &dyn Axisymmetric, end: f64) -> Estimate {
     let square = |x: f64| body.line_slope(x).powi(2);
     let exponent = body.profile_exponent();
     if exponent >= 1.0 {

@@ -17,7 +17,7 @@ use numerics::positive;
 use rheology::{Material, check_spectra};
 
 use crate::FrictionError;
-use crate::axisymmetric::{refuse_divergence, slope_energy};
+use crate::axisymmetric::{refuse_divergence, squared_slope_integral};
 use crate::error::representable;
 use crate::indentation::checked_moment;
 use crate::pieces::{accept_accurate, ends_outside_apex, integrate_pieces};
@@ -68,7 +68,7 @@ pub fn low_speed_friction(
     let modulus = positive("equilibrium_modulus", relaxation.equilibrium_modulus())?;
     // `shift` is x_s = η_0 v/G_∞; the viscosity η_0 contains the lone dashpot and all branches.
     let shift = relaxation.zero_shear_viscosity() * contact.velocity / modulus;
-    let line = shift * (slope_energy(body, radius)?.value / moment);
+    let line = shift * (squared_slope_integral(body, radius)?.value / moment);
     let force = 8.0 * (modulus / solid.half_space_factor()) * moment;
     checked_limit(force, line, 0.5 * line)
 }

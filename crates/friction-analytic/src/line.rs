@@ -30,7 +30,7 @@ pub fn line_sliding(
     let depth = checked_depth(material, load)?;
     // The contact consists of the parts of the leading edge that lie below the stationary depth.
     let contact = contact_line(line, depth).map_err(no_stationary_state)?;
-    let energy = slope_energy(line, &contact.intervals)?;
+    let energy = squared_slope_integral(line, &contact.intervals)?;
     let intervals = contact.intervals;
     let fronts = intervals.iter().map(|[_, front]| *front);
     let ends = fronts.map(|front| end_sensitivity(line, front)).sum();
@@ -47,7 +47,10 @@ fn end_sensitivity(line: &dyn RigidLine, front: f64) -> f64 {
 }
 
 /// Integral of the squared slope, ∫ h̃'² dx, over the contact intervals, (11), \[m], with separate integrals between the kinks of the line.
-fn slope_energy(line: &dyn RigidLine, intervals: &[[f64; 2]]) -> Result<Estimate, FrictionError> {
+fn squared_slope_integral(
+    line: &dyn RigidLine,
+    intervals: &[[f64; 2]],
+) -> Result<Estimate, FrictionError> {
     let kinks = line.kinks();
     let square = |x: f64| line.slope(x).powi(2);
     let energy = |&[start, end]: &[f64; 2]| {

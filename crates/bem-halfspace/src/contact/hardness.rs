@@ -132,7 +132,7 @@ impl<'a> SaturatedSet<'a> {
             let violations = self.violations(state, test);
             if violations.is_empty() {
                 if tolerance <= criterion.tolerance {
-                    return Ok(self.finish(state, solved, iterations));
+                    return Ok(self.with_saturated_set(state, solved, iterations));
                 }
                 tolerance = criterion.tolerance;
                 continue;
@@ -207,7 +207,7 @@ impl<'a> SaturatedSet<'a> {
     }
 
     /// Adds loads and displacement of the saturated set to those of the other elements in `state`; returns the whole solution.
-    fn finish(
+    fn with_saturated_set(
         self,
         state: &mut LoadState,
         solved: LoadSolution,

@@ -112,7 +112,7 @@ pub(super) fn sweep(
             };
         }
     }
-    Ok(march.finish())
+    Ok(march.release_at_end())
 }
 
 /// A pass along the line, from event to event.
@@ -285,7 +285,7 @@ impl SurfaceMarch<'_> {
     }
 
     /// Ends the pass; a surface that is still loaded is released.
-    fn finish(mut self) -> (SweepSums, FreeSurface) {
+    fn release_at_end(mut self) -> (SweepSums, FreeSurface) {
         let surface = std::mem::replace(&mut self.surface, Surface::Free(FreeSurface::untouched()));
         let behind = match (surface, self.profile.pieces.last()) {
             (Surface::Loaded { stresses, .. }, Some(piece)) => {

@@ -123,7 +123,7 @@ impl ContactDerivatives {
             normal_force: None,
             contact_area: measures.map(|[area, _]| system.measure_gradient(&adjoint[2], area)),
         };
-        let by_slope_term = contact.with_images(&contact.loads).into_iter();
+        let by_slope_term = contact.weighted_by_images(&contact.loads).into_iter();
         let slope_factor = points.slope_unit() / contact.total;
         let friction_gradient = &mut gradients.friction_coefficient;
         friction_gradient.by_slope_term = by_slope_term.map(|load| slope_factor * load).collect();
@@ -329,7 +329,7 @@ impl BorderedSystem<'_> {
         let mut correlation = self.contact.correlation(&loads);
         correlation.scale(self.compliance.recip());
         Gradient {
-            by_height: self.contact.with_images(&loads),
+            by_height: self.contact.weighted_by_images(&loads),
             by_slope_term: Vec::new(),
             by_force: unit * eta / self.force_per_load,
             kernel: KernelGradient::new(correlation),

@@ -257,17 +257,17 @@ impl GridKernel {
     /// The kernel of another material on the base and track of this one.
     pub(super) fn of_material(&self, creep: SlidingCreep) -> Result<KernelTable, BemError> {
         let (base, track) = (self.material.base().clone(), self.material.track());
-        self.of_creep(&creep.on_base(base, track))
+        self.of_creep_with_base(&creep.on_base(base, track))
     }
 
     /// The kernel of another elastomer on the track of this one.
     pub(super) fn of_elastomer(&self, creep: SlidingCreep) -> Result<KernelTable, BemError> {
         let base = creep.base().clone();
-        self.of_creep(&creep.on_base(base, self.material.track()))
+        self.of_creep_with_base(&creep.on_base(base, self.material.track()))
     }
 
     /// The kernel of a creep on its own base and track.
-    fn of_creep(&self, creep: &SlidingCreep) -> Result<KernelTable, BemError> {
+    fn of_creep_with_base(&self, creep: &SlidingCreep) -> Result<KernelTable, BemError> {
         let compliance = creep.compliance(self.spacing)?;
         Ok(self.table(compliance, &creep.over_element(self.spacing)?))
     }

@@ -74,7 +74,7 @@ impl<'a> LoadedContact<'a> {
     }
 
     /// Loads of all elements, times the number of elements that each represents.
-    pub(super) fn with_images(&self, loads: &[f64]) -> Vec<f64> {
+    pub(super) fn weighted_by_images(&self, loads: &[f64]) -> Vec<f64> {
         let pairs = self.elements.iter().zip(loads);
         pairs
             .map(|(&element, load)| self.mesh.n_images(element) * load)
@@ -86,7 +86,7 @@ impl<'a> LoadedContact<'a> {
         let [mut left, mut right] = [0; 2].map(|_| vec![0.0; self.region.n_box_elements()]);
         // Adjoint loads are placed on one of two mirror images, with twice the weight.
         let indices = self.region.indices().iter();
-        for ([index, _], load) in indices.zip(self.with_images(adjoint)) {
+        for ([index, _], load) in indices.zip(self.weighted_by_images(adjoint)) {
             left[*index] = load;
         }
         self.region.scatter(&self.loads, &mut right);
@@ -136,7 +136,10 @@ impl<'a> LoadedContact<'a> {
             by_others = self.differences_along_x(&region.reversed());
         }
 
-        let weighted = self.with_images(&self.loads).into_iter().zip(&slopes);
+        let weighted = self
+            .weighted_by_images(&self.loads)
+            .into_iter()
+            .zip(&slopes);
         let value = weighted.map(|(load, slope)| load * slope).sum::<f64>() / self.total;
         let pairs = slopes.iter().zip(by_others);
         let by_loads = pairs.map(|(here, others)| (here + others - value) / self.total);
