@@ -46,7 +46,7 @@ impl ErrorParts {
         *self == Self::NONE
     }
 
-    /// The parts with their names in JSON and CSV.
+    /// Parts of the error with their names in JSON and CSV; `None` for a part that the method does not have.
     pub const fn named(&self) -> [(&'static str, Option<f64>); 5] {
         [
             ("discretisation", self.discretisation),
@@ -62,7 +62,7 @@ impl ErrorParts {
         self.named().iter().filter_map(|(_, part)| *part).sum()
     }
 
-    /// The parts of a value that is larger by a factor ≥ 0.
+    /// Error parts of the product of the value and a factor ≥ 0.
     #[must_use]
     pub fn scaled(self, factor: f64) -> Self {
         self.combined_by(Self::NONE, |part, _| part.map(|part| factor * part))

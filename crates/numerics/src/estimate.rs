@@ -66,12 +66,14 @@ impl fmt::Display for Estimate {
     }
 }
 
-/// Smallest relative error that is written; a smaller one comes from rounding, and is written as this one. Chosen.
+/// Smallest relative error that is written; a smaller one comes from rounding, and is written as this one. Chosen: it limits a
+/// number to eleven digits, and no computation depends on it.
 const MIN_RELATIVE_ERROR: f64 = 1e-9;
 /// Largest number of characters of an exact number that is not rounded: those of 0.1234567.
 const MAX_EXACT_LENGTH: usize = 9;
 
-/// Powers of ten of the first digit of numbers that are written without a power of ten: from 0.001 to below a million. Chosen.
+/// Powers of ten of the first digit of numbers that are written without a power of ten: from 0.001 to below a million. Chosen for
+/// the reader; no computation depends on it.
 const PLAIN_POWERS: Range<i32> = -3..6;
 
 /// The power of ten of the first digit of an error that is rounded to two digits.

@@ -7,11 +7,11 @@
 
 use std::cmp::Ordering;
 
-/// Number of Newton steps per node. The first guess has two digits, each step doubles their number, and the fourth changes a
-/// node by less than rounding.
+/// Number of Newton steps per node. Derived: the first guess has two digits, each step doubles their number, and the fourth
+/// changes a node by less than rounding.
 const NEWTON_STEPS: usize = 4;
-/// Number of nodes that are computed together, because the recursion over the degree of one node is sequential: a
-/// vector register of eight numbers. It changes the time only.
+/// Number of nodes that are computed together, because the recursion over the degree of one node is sequential. Chosen as a
+/// vector register of eight numbers; it changes the time only.
 const NODES_PER_BATCH: usize = 8;
 
 /// The values P_0(t), P_1(t), …, P_(N−1)(t).

@@ -88,7 +88,7 @@ pub struct WorkProgress<'a> {
 }
 
 impl<'a> WorkProgress<'a> {
-    /// The beginning of work of which `expected` is the total amount.
+    /// Progress of work of which nothing is done yet, and `expected` is the total amount.
     pub const fn new(watch: &'a dyn Progress, expected: f64) -> Self {
         Self {
             watch,

@@ -40,7 +40,7 @@ impl Accuracy {
 }
 
 impl From<f64> for Accuracy {
-    /// A relative error.
+    /// The request of a relative error.
     fn from(relative_error: f64) -> Self {
         Self::RelativeError(relative_error)
     }
@@ -97,7 +97,7 @@ pub struct Goal<'a> {
 /// One number that is refined.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Quantity {
-    /// Value on one resolution.
+    /// Value on one resolution, in the unit of the quantity.
     pub value: f64,
     /// Scale that the requested relative error refers to: the absolute value, unless the value may vanish.
     pub scale: f64,
@@ -211,7 +211,7 @@ pub const FIRST_ELEMENTS: usize = 16;
 /// estimate, with 6 elements on the coarsest resolution.
 const MIN_ELEMENTS_FOR_THREE_EIGHTHS: usize = FIRST_ELEMENTS;
 /// Factors on the error estimates by n/2, 3n/4 and 3n/8 elements; chosen on random scenes (docs/calibration.md, "What was
-/// measured").
+/// measured"; case of `evidence tuning`).
 const ESTIMATE_WEIGHTS: [f64; 3] = [1.25, 0.625, 0.85];
 /// Factor on the larger of the estimates by n/2 and 3n/4 elements if there is no third one (docs/calibration.md, "What was
 /// measured").

@@ -50,8 +50,8 @@ pub struct Minimum {
 /// Largest number of steps that lower the sum. Chosen, to limit the computing time: after them the search returns the point
 /// that it has reached.
 const MAX_STEPS: usize = 100;
-/// Damping λ of the first step, relative to the diagonal: the customary 1e-3. It changes the path to the minimum, not
-/// the minimum.
+/// Damping λ of the first step, relative to the diagonal: the value that Press et al., Numerical Recipes, section "Nonlinear
+/// Models", advise. It changes the path to the minimum, not the minimum.
 const INITIAL_DAMPING: f64 = 1e-3;
 /// Factor on the damping after a step that lowers the sum. Chosen; it changes the number of steps, not the minimum.
 const DAMPING_DECREASE: f64 = 0.2;
@@ -61,13 +61,15 @@ const DAMPING_INCREASE: f64 = 4.0;
 /// Damping at which the search gives up lowering the sum, to limit the computing time. A step is then 1e-9 of that without
 /// damping along each parameter.
 const MAX_DAMPING: f64 = 1e9;
-/// Damping of a step by the model alone, relative to the diagonal, which keeps a singular matrix positive definite. Chosen:
-/// above rounding, and far below what changes a step.
+/// Damping of a step by the model alone, relative to the diagonal, which keeps a singular matrix positive definite. Chosen far
+/// above the rounding 2e-16 of the matrix; where the smallest eigenvalue of the scaled matrix is far above 1e-9, it does not
+/// change the step.
 const MODEL_STEP_DAMPING: f64 = 1e-9;
 /// Fraction of the sufficient decrease below which a step counts as no decrease, so that the search ends. Chosen: a larger one
 /// ends searches earlier.
 const STAGNATION_FRACTION: f64 = 0.1;
-/// Fraction of the largest step above which a step counts as limited by it; below 1 because of rounding.
+/// Fraction of the largest step above which a step counts as limited by it. Chosen below 1 because of rounding: a limited step is
+/// not the last one, so that a smaller fraction can only add a step.
 const LIMITED_STEP_FRACTION: f64 = 0.999;
 
 /// Minimises a sum from a start within the ranges. The last step is the first whose relative decrease is below

@@ -17,19 +17,19 @@ pub struct IntervalEnd {
     pub relative_tolerance: f64,
 }
 
-/// Largest number of trials in the search for one end of an interval, to limit the computing time. After them the closest trial
-/// outside the interval is returned.
+/// Largest number of trials in the search for one end of an interval. Chosen to limit the computing time: after them the closest
+/// trial outside the interval is returned, so that the interval is too wide rather than too narrow.
 const MAX_TRIALS: usize = 20;
-/// Largest number of evaluations of the sum per trial, to limit the computing time.
+/// Largest number of evaluations of the sum per trial. Chosen to limit the computing time.
 ///
-/// If it is not enough, the sum after the predicted decrease of the last model is used. In a curved valley that is
-/// too small rather than too large, and the interval becomes wider.
+/// If it is not enough, the sum after the predicted decrease of the last model is used. In a curved valley that is too small
+/// rather than too large, and the interval becomes wider.
 const MAX_EVALUATIONS: usize = 12;
 /// Ratio of the sufficient decrease of the inner minimisation to the product of `rise` and the relative tolerance. It moves
 /// √(rise of the minimal sum/`rise`) by at most 0.15 of the tolerance.
 const INNER_TOLERANCE: f64 = 0.3;
-/// Bounds of the position of the next trial in the bracket, as a fraction of its length: each trial shortens the bracket by at
-/// least 2 %. Chosen.
+/// Bounds of the position of the next trial in the bracket, as a fraction of its length. Chosen: each trial shortens the bracket
+/// by at least 2 %. It changes the number of trials, not the end.
 const INTERPOLATION_RANGE: [f64; 2] = [0.02, 0.98];
 
 /// The value of one parameter at which the minimal sum over all others, within their ranges, has risen as required.
