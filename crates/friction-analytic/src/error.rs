@@ -28,7 +28,7 @@ pub enum DivergenceCause {
     SlopeJump {
         /// Radius of the jump, \[m].
         radius: f64,
-        /// Increase of the slope.
+        /// Increase of the slope at the jump, without unit.
         jump: f64,
     },
     /// The contact reaches a vertical edge.
@@ -91,7 +91,7 @@ pub enum FrictionError {
         quantity: &'static str,
         /// Value that was reached.
         value: f64,
-        /// Its estimated absolute error.
+        /// Estimated absolute error of the value.
         error: f64,
     },
     /// A result is too large or too small for a floating-point number.

@@ -237,7 +237,7 @@ fn moment(body: &dyn Axisymmetric, radius: f64) -> Estimate {
     angular * radius * radius
 }
 
-/// The contact moment, \[m²], if its error is small enough.
+/// Contact moment of a body at a radius, \[m²]; fails if its relative error is larger than is accepted.
 pub(crate) fn checked_moment(body: &dyn Axisymmetric, radius: f64) -> Result<f64, FrictionError> {
     let end = body.max_radius();
     match accept_accurate("contact moment", moment(body, radius)) {

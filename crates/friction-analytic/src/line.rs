@@ -46,7 +46,7 @@ fn end_sensitivity(line: &dyn RigidLine, front: f64) -> f64 {
     slope * (slope * front.abs() + line.height(front).abs())
 }
 
-/// Integral of the squared slope, ∫ h̃'² dx, over the contact intervals, (11), \[m], with separate integrals between the kinks of the line.
+/// Integral ∫ h̃'² dx over the contact intervals (11), \[m], with separate integrals between the kinks of the line.
 fn squared_slope_integral(
     line: &dyn RigidLine,
     intervals: &[[f64; 2]],

@@ -233,13 +233,13 @@ const N_RESULTS: usize = N_TERMS + 2;
 /// place, for the rounding of their components.
 const EQUAL_LENGTHS: f64 = 1e-12;
 /// Number of steps of Simpson's rule on each of the two ranges below and above the roll-off, on the coarsest grid. Chosen: they
-/// are doubled until the requested error is reached.
+/// are doubled until the requested error is reached, so that fewer steps take one more doubling.
 const MIN_STEPS: usize = 16;
 /// Number of steps of Simpson's rule on each of the two ranges from which on they are not doubled, to limit the computing time.
 /// A larger error than asked for is then [`FrictionError::NotConverged`].
 const MAX_STEPS: usize = 1 << 14;
-/// Requested relative error of the integrals over the angle. Chosen: a few hundred units in the last place. The error that is
-/// reached is part of the error bar.
+/// Requested relative error of the integrals over the angle. Chosen: 450 units in the last place, which the integrands allow. The
+/// error that is reached is part of the error bar.
 const ANGULAR_TOLERANCE: f64 = 1e-13;
 
 impl SelfAffineSpectrum {
@@ -285,7 +285,7 @@ struct LoadedMaterial {
 }
 
 impl LoadedMaterial {
-    /// Checks the material, the pressure and the speed.
+    /// The relaxation spectrum of a material with the mean pressure and the speed of a load, which are checked.
     fn new(material: &dyn Material, load: RoughLoad) -> Result<Self, FrictionError> {
         check_spectra(material)?;
         let mean_pressure = positive("mean_pressure", load.mean_pressure)?;

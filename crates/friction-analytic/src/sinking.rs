@@ -79,7 +79,7 @@ struct ContactSums {
 }
 
 impl ContactSums {
-    /// The sums over intervals \[m] that must be in order and not empty.
+    /// Sums over the contact intervals \[m], which must be in order and not empty.
     fn new(line: &dyn RigidLine, contact: &[[f64; 2]]) -> Result<Self, FrictionError> {
         // Check that the intervals follow one another and are not empty.
         let mut lower = f64::NEG_INFINITY;

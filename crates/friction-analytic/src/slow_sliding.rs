@@ -49,35 +49,40 @@ pub struct SlowSliding {
 /// Bound on the third-order terms relative to the first term: this factor times Λ₃ v²/(m₁ a²), with the third moment Λ₃ v³ of
 /// [`MemoryMoments`].
 ///
-/// Boundary elements find up to 0.19 for 1 ≤ p ≤ 10.
+/// Measured: boundary elements find up to 0.19 for 1 ≤ p ≤ 10; the rest is a safety factor.
 const THIRD_ORDER_BOUND: f64 = 0.3;
 /// Bound on the third-order terms relative to the first term: this factor times the square of the second-order term at the rear
 /// edge, relative to the first term.
 ///
-/// Boundary elements find up to 1.1 for 1 ≤ p ≤ 10.
+/// Measured: boundary elements find up to 1.1 for 1 ≤ p ≤ 10; the rest is a safety factor.
 const SQUARED_SECOND_ORDER_BOUND: f64 = 1.5;
-/// Bound on the next term of an apex between cone and paraboloid, relative to the first term: this factor times (Λ v/(m₁
-/// a))^(2p − 1).
+/// Bound on the next term of an apex between cone and paraboloid, relative to the first term: this factor times (Λ v/(m₁ a))^(2p
+/// − 1).
 ///
-/// Boundary elements find up to 0.45 for 1 ≤ p ≤ 10.
+/// Measured: boundary elements find up to 0.45 for 1 ≤ p ≤ 10; the rest is a safety factor.
 const APEX_BOUND: f64 = 0.6;
 /// Bound on the relative growth of the third order per factor e of a/x_s.
 ///
-/// Behind the tip of a cone a part of the contact opens, which makes the third order grow with the logarithm of a/x_s.
-/// Boundary elements find up to 0.3.
+/// Behind the tip of a cone a part of the contact opens, which makes the third order grow with the logarithm of a/x_s. Measured:
+/// boundary elements find up to 0.3; the rest is a safety factor.
 const OPENING_BOUND: f64 = 0.5;
-/// Largest steepness a h̃'(a)/h̃(a) of a line for which the bounds were compared with boundary elements.
+/// Largest steepness a h̃'(a)/h̃(a) of a line for which slow sliding is answered. Measured: the bounds of the terms of higher
+/// order were compared with boundary elements up to this steepness.
 const MAX_STEEPNESS: f64 = 10.0;
-/// Largest ratio of the memory length Λ v/m₁ to the contact radius a for which the bounds of the terms of higher order were compared with
-/// boundary elements; the symbols are those of the module.
+/// Largest ratio of the memory length Λ v/m₁ to the contact radius a for which slow sliding is answered; the symbols are those of
+/// the module. Measured: the bounds of the terms of higher order were compared with boundary elements up to this ratio.
 const MAX_MEMORY_OVER_RADIUS: f64 = 1.0;
-/// Bound on the next term of the contact area: this factor times Λ v². Boundary elements find factors up to 1.3.
+/// Bound on the next term of the contact area: this factor times Λ v². Measured: boundary elements find factors up to 1.3; the
+/// rest is a safety factor.
 const AREA_BOUND: f64 = 2.5;
-/// Bound on the next term of the position of the rear end: this factor times Λ v²/a. Boundary elements find factors up to 1.
+/// Bound on the next term of the position of the rear end: this factor times Λ v²/a. Measured: boundary elements find factors up
+/// to 1; the rest is a safety factor.
 const REAR_BOUND: f64 = 2.0;
-/// Bound on the relative change of the depth: this factor times Λ v² h̃'(a)/(a d). Boundary elements find factors up to 0.13.
+/// Bound on the relative change of the depth: this factor times Λ v² h̃'(a)/(a d). Measured: boundary elements find factors up to
+/// 0.13; the rest is a safety factor.
 const DEPTH_BOUND: f64 = 0.25;
-/// Upper bound of the relative error of the integrals of the first term: those with a larger error are refused.
+/// Upper bound of the relative error of the integrals of the first term. Chosen far below the bounds on the terms of higher
+/// order; an integral with a larger error is refused.
 const QUADRATURE_ERROR: f64 = 1e-10;
 /// Distance from the apex, divided by the contact radius, beyond which changes of the slope count in the other terms. Chosen;
 /// the bounds of the terms were measured with it.
@@ -204,7 +209,7 @@ struct MemoryMoments {
 }
 
 impl MemoryMoments {
-    /// The moments of a viscoelastic solid at a speed, \[m/s].
+    /// Moments m₁ v, n₂ v², … of the memory of a viscoelastic solid at a speed v, \[m/s].
     fn new(solid: &dyn Material, velocity: f64) -> Result<Self, FrictionError> {
         let relaxation = solid.relaxation();
         let modulus = positive("equilibrium_modulus", relaxation.equilibrium_modulus())?;

@@ -17,7 +17,8 @@ use crate::ElasticContact;
 /// Number of midpoints of the load on the equivalent line, in the cosine transform: 25 per wave at the largest of
 /// [`WAVE_NUMBER_DECADES`].
 const LOAD_POINTS: u32 = 400;
-/// Number of angles θ in a quarter turn. Chosen: the spectrum weighs frequencies by decades, and is no part of a bar.
+/// Number of angles θ in a quarter turn. Chosen: neighbouring frequencies v q cos θ then differ by far less than a decade over
+/// most of the turn. The spectrum weighs frequencies by decades, and is no part of a bar.
 const ANGLES: u32 = 32;
 /// Decadic logarithms of the smallest and the largest wave number times the contact radius.
 ///

@@ -124,7 +124,7 @@ pub fn cone_depth_by_equation_15(
 }
 
 impl TransientScales {
-    /// The stationary state of a cone or paraboloid under a load.
+    /// Stationary depth and contact length of a cone or paraboloid on a viscous foundation, which the transient approaches.
     fn new(
         profile: &PowerProfile,
         material: &Viscous,

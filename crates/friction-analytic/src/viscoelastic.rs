@@ -235,7 +235,7 @@ struct SlidingProfile {
 }
 
 impl SlidingProfile {
-    /// Checks the front and the speed, and computes the depth.
+    /// The profile with its front at the position of the contact, which is checked, and the depth that belongs to it.
     fn new(profile: &PowerProfile, contact: SlidingContact) -> Result<Self, FrictionError> {
         let front = positive("front", contact.front)?;
         positive("velocity", contact.velocity)?;

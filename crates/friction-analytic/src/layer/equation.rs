@@ -36,8 +36,8 @@ const CONTACT_POINTS: PointCount = PointCount::new(16.0, 4.0);
 /// Number of points of the rule over one smooth piece of the equivalent line, which grows with the length of the piece. Chosen
 /// as [`WAVE_POINTS`] are.
 const LINE_POINTS: PointCount = PointCount::new(30.0, 6.0);
-/// Every number of points is a multiple of this one, so that similar radii share a rule. It only raises the numbers
-/// of points.
+/// Number of which every number of points is a multiple, so that similar radii share a rule. Chosen: it only raises the numbers
+/// of points, by up to seven.
 const POINT_MULTIPLE: usize = 8;
 
 /// Number of points of a rule as a function of a length.
@@ -50,7 +50,7 @@ struct PointCount {
 }
 
 impl PointCount {
-    /// A number of points that grows linearly with the length.
+    /// A number of points that grows linearly with the length: `fixed` plus `per_thickness` times the length in thicknesses.
     const fn new(fixed: f64, per_thickness: f64) -> Self {
         Self {
             fixed,
@@ -86,7 +86,7 @@ struct WavePair {
 }
 
 impl WaveQuadrature {
-    /// The quadrature for contacts up to a radius in thicknesses.
+    /// Nodes and weights over the wave number, for contacts up to a radius in thicknesses.
     pub(super) fn new(poisson_ratio: f64, max_radius: f64) -> Self {
         let rule = unit_rule(WAVE_POINTS.for_length(max_radius));
         let root_weight = |part: f64, weight: f64| {
@@ -242,7 +242,7 @@ pub(super) struct ContactDisc {
 }
 
 impl ContactDisc {
-    /// The equations of a disc whose radius is given in thicknesses.
+    /// Factorises the equations of a contact disc, for all right-hand sides. The radius is given in thicknesses.
     pub(super) fn new(waves: &WaveQuadrature, radius: f64) -> Result<Self, FrictionError> {
         // Each node is a position x_i in the contact with the root √w_i of its weight.
         let nodes: Vec<[f64; 2]> = waves
@@ -283,7 +283,7 @@ impl ContactDisc {
         self.punch[self.punch.len() - 1] / self.root_weight_at_edge
     }
 
-    /// The depth at which q vanishes at the edge, \[m].
+    /// The depth \[m] at which the load per length q of the line vanishes at the edge of the contact.
     pub(super) fn depth(&self, integrals: &LineIntegrals) -> f64 {
         let correction = self.factors.solve(&(&self.cosines * &integrals.waves));
         let at_edge = correction[correction.len() - 1] / self.root_weight_at_edge;

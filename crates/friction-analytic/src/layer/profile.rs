@@ -30,29 +30,34 @@ const SERIES_TOLERANCE: f64 = 1e-8;
 /// divided by [`ERROR_OVER_TAIL`], so that radii are known to 1e-6.
 const MAX_TAIL: f64 = 1e-6 / ERROR_OVER_TAIL;
 /// Upper bound of the ratio of the relative error of a radius to the sum of the last coefficients of both series behind it.
+/// Chosen (case of `evidence tuning`).
 ///
 /// The test `the_profile_is_known_within_its_error` compares it with single contacts.
 const ERROR_OVER_TAIL: f64 = 20.0;
-/// Upper bound of the relative error of a radius by the small terms that the series skip; the error of the truncated tail is added to it.
+/// Upper bound of the relative error of a radius by the small terms that the series skip; the error of the truncated tail is
+/// added to it. Derived: up to a hundred dropped terms of either of two series add up to its tolerance, [`SERIES_TOLERANCE`].
 const LEFT_OUT_TERMS_ERROR: f64 = 2e-8;
-/// Upper bound of the ratio of the contact radius on a layer to that on the half space at the same depth; the ratio is largest
-/// on a film. A larger bound costs wave numbers that are not needed.
+/// Upper bound of the ratio of the contact radius on a layer to that on the half space at the same depth. Derived: it is largest
+/// on a film, on which the profile c r^p has the height (1 + p/2) d at the contact boundary. The ratio [(1 + p/2) √π Γ(p/2 +
+/// 1)/Γ(p/2 + 1/2)]^(1/p) falls with p, from 2.7 at p = 1/2. A larger bound costs wave numbers that are not needed.
 const MAX_RADIUS_RATIO: f64 = 3.0;
 /// Factor on the radius per step of the search for a depth. Chosen: it changes the number of evaluations only.
 const SEARCH_GROWTH: f64 = 1.25;
 /// Ratio of the depth at which the interpolated radius aims to the depth that is sought. Chosen close to 1: the cost of the
-/// equations grows like the cube of the radius.
+/// equations grows like the cube of the radius (case of `evidence tuning`).
 const DEPTH_MARGIN: f64 = 1.02;
-/// Largest parameter σ of a [`GradedMap`]. With it, x ↦ y is linear to 2e-3, the relative size 1/(6 σ²) of the next term.
+/// Largest parameter σ of a [`GradedMap`]. Derived: with it, x ↦ y is linear to 2e-3, the relative size 1/(6 σ²) of the next
+/// term. It decides the number of coefficients, not the radii. It has a case of `evidence tuning`.
 const MAX_SIGMA: f64 = 10.0;
-/// Grading exponents of the maps that are tried one after the other. The first is a plain map; the second is needed
-/// for bodies of several powers, such as r + r^1.3. Chosen; the tail decides which is taken.
+/// Grading exponents of the maps that are tried one after the other. The first is a plain map; the second is needed for bodies of
+/// several powers, such as r + r^1.3. Chosen (case of `evidence tuning`); the tail decides which is taken.
 const GRADING_EXPONENTS: [f64; 2] = [1.0, 6.0];
-/// Largest ratio of the contact radius to the radius of a vertical edge of the body, such as the equator of a sphere. Closer to
-/// the edge the slope grows without limit, and series converge slowly. Chosen.
+/// Largest ratio of the contact radius to the radius of a vertical edge of the body, such as the equator of a sphere. Chosen:
+/// closer to the edge the slope grows without limit, and series converge slowly. Depths that would need a larger contact are
+/// refused as [`FrictionError::BeyondEdge`].
 const MAX_RADIUS_OVER_EDGE: f64 = 0.99;
-/// Number of intervals between two kinks at whose ends the depth is checked to increase. Chosen; it only refuses
-/// bodies.
+/// Number of intervals between two kinks at whose ends the depth is checked to increase. Chosen: it only refuses bodies, and a
+/// depth that falls and rises within one interval is not noticed.
 const MONOTONICITY_INTERVALS: u8 = 64;
 
 /// The equivalent profile of a body on a layer, up to a depth.
@@ -82,9 +87,9 @@ struct Piece {
 /// Map of x from −1 to 1 onto an interval: start + length yᵐ, y = σ sinh(½ (1 + x) asinh(1/σ)).
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct GradedMap {
-    /// Start and end of the interval.
+    /// Start and end of the interval onto which the map goes, in its unit.
     ends: [f64; 2],
-    /// Exponent m.
+    /// Grading exponent m of the map.
     power: f64,
     /// Scale σ of y on which the nodes are dense at the start.
     sigma: f64,
@@ -201,7 +206,7 @@ impl LayerProfile {
         })
     }
 
-    /// A flat punch has the same contact at all depths.
+    /// The profile of a flat punch, which has the same contact radius and equivalent radius at all depths.
     fn of_punch(layer: &BondedLayer, radius: f64) -> Result<Self, FrictionError> {
         let equivalent_radius = layer.equivalent_punch_radius(radius)?;
         let constant = |_| Ok::<_, FrictionError>([equivalent_radius, radius]);
@@ -337,7 +342,7 @@ struct ContactSeries {
 }
 
 impl<'a> LayerProblem<'a> {
-    /// The problem for contacts up to a radius, \[m].
+    /// The contacts of a body on a layer up to a largest radius, \[m], with the quadrature over wave numbers for it.
     fn new(
         body: &'a dyn Axisymmetric,
         layer: &BondedLayer,
@@ -353,7 +358,7 @@ impl<'a> LayerProblem<'a> {
         }
     }
 
-    /// The contact of a radius \[m], from the equations of its disc.
+    /// Equivalent radius and depth of the contact of a radius \[m], from the equations of its disc.
     fn contact(&self, radius: f64) -> Result<ContactOnLayer, FrictionError> {
         let disc = ContactDisc::new(self.waves, radius / self.thickness)?;
         Ok(ContactOnLayer {

@@ -23,8 +23,8 @@ static TABLE: LazyLock<Vec<(f64, Estimate)>> = LazyLock::new(|| {
     .collect()
 });
 
-/// Number of nodes of one interpolating polynomial of the fifth degree, whose error is below that of the nodes.
-/// Chosen.
+/// Number of nodes of one interpolating polynomial of the fifth degree, whose error is below that of the nodes. Chosen; the test
+/// `the_nodes_are_dense_enough` predicts every other node from the rest.
 const STENCIL_NODES: usize = 6;
 
 /// Scaling factor s(p) of the profile c r^p: ratio of the friction of the viscous half space to that of the one-dimensional
