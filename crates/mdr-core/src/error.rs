@@ -35,7 +35,7 @@ pub enum MdrError {
         "more than {allowed} elements of spacing {spacing} lie less than {height} above the lowest point of the line"
     )]
     TooManyElements {
-        /// Elements of a foundation at most.
+        /// Largest number of elements of a foundation.
         allowed: usize,
         /// Spacing of the elements, \[m].
         spacing: f64,
@@ -49,9 +49,9 @@ pub enum MdrError {
         Rounded(*position), Rounded(*carried_force), MessageNumber(*normal_force)
     )]
     ForceBeyondEdge {
-        /// Where the line ends, \[m].
+        /// Position of the end of the line, \[m].
         position: f64,
-        /// Height of the line there, above its lowest point, \[m].
+        /// Height of the end of the line above its lowest point, \[m].
         available: f64,
         /// An upper bound of the force that is carried up to there, \[N].
         carried_force: f64,
@@ -65,9 +65,9 @@ pub enum MdrError {
         Rounded(*position), Rounded(*available), MessageNumber(*indentation_depth)
     )]
     DepthBeyondEdge {
-        /// Where the line ends, \[m].
+        /// Position of the end of the line, \[m].
         position: f64,
-        /// Height of the line there, above its lowest point, \[m].
+        /// Height of the end of the line above its lowest point, \[m].
         available: f64,
         /// Depth asked for, \[m].
         indentation_depth: f64,
@@ -81,11 +81,11 @@ pub enum MdrError {
     /// The line touches more often, or has more detail, than can be followed.
     #[error("more than {allowed} {parts} are needed, those at position {} among them", Rounded(*position))]
     TooMuchDetail {
-        /// What there is too much of: contact intervals, or polynomials of the line.
+        /// Name of the parts that are too many: contact intervals, or polynomials of the line.
         parts: &'static str,
-        /// Their largest number.
+        /// Largest number of these parts.
         allowed: usize,
-        /// Where there are too many, \[m].
+        /// Position on the line at which the largest number is exceeded, \[m].
         position: f64,
     },
     /// The friction of a lone dashpot grows without limit at a cusp or kink (16), or too slowly to be summed.
@@ -94,7 +94,7 @@ pub enum MdrError {
         Rounded(*position)
     )]
     FrictionDiverges {
-        /// Where the line is too steep, \[m].
+        /// Position at which the line is too steep, \[m].
         position: f64,
     },
     /// The friction coefficient of a stationary state, or the force or depth of a static one, has a larger error than asked
@@ -106,13 +106,13 @@ pub enum MdrError {
     NotConverged {
         /// Name of the quantity, and its unit.
         quantity: &'static str,
-        /// Value reached.
+        /// Value reached, in the unit of the quantity.
         value: f64,
-        /// Its estimated absolute error.
+        /// Estimated absolute error of the value.
         error: f64,
         /// Relative error asked for.
         relative_error: f64,
-        /// The result, with its errors; of a static state on springs.
+        /// Whole result with its errors; in a static state that on springs.
         reached: Box<SteadySliding>,
     },
     /// The work along a history has a larger error than asked for with the shortest parts allowed.
@@ -127,7 +127,7 @@ pub enum MdrError {
         Estimate::new(missed.value, missed.error)
     )]
     HistoryNotReached {
-        /// The quantity, its value and its error.
+        /// Quantity that misses its error, with value and error.
         missed: NotReached,
         /// The result, with its errors.
         reached: Vec<CurvePoint>,
@@ -135,7 +135,7 @@ pub enum MdrError {
     /// The friction coefficient of sliding has a larger error than asked for on the finest resolution allowed.
     #[error("the friction coefficient {missed}")]
     SlidingNotReached {
-        /// The quantity, its value and its error.
+        /// Quantity that misses its error, with value and error.
         missed: NotReached,
         /// The result, with its errors.
         reached: Box<Sliding>,
@@ -143,7 +143,7 @@ pub enum MdrError {
     /// A quantity of a motion has a larger error than asked for on the finest resolution allowed.
     #[error("the {} {missed}", MotionView::quantity_name(missed.quantity))]
     MotionNotReached {
-        /// The quantity, its value and its error.
+        /// Quantity that misses its error, with value and error.
         missed: NotReached,
         /// The result, with its errors.
         reached: Box<Moved>,
@@ -160,9 +160,9 @@ pub enum MdrError {
          {tolerance:.1e}: the material remembers too many cycles"
     )]
     NotPeriodic {
-        /// Cycles that were followed.
+        /// Number of cycles, or of passes of the track, that were followed.
         cycles: usize,
-        /// Relative change that may remain.
+        /// Upper bound of the relative change that remains.
         change: f64,
         /// Largest relative change that counts as periodic.
         tolerance: f64,
@@ -223,9 +223,9 @@ pub enum MdrError {
         Rounded(*spacing)
     )]
     TooCoarse {
-        /// Elements in contact.
+        /// Number of elements in contact.
         n_contact: usize,
-        /// Elements needed.
+        /// Smallest number of elements in contact that is allowed.
         needed: usize,
         /// Spacing of the elements, \[m].
         spacing: f64,
@@ -238,11 +238,11 @@ pub enum MdrError {
     NotStationary {
         /// Relative change over the last contact length; 1 while the body has not slid over one.
         drift: f64,
-        /// The tolerance asked for.
+        /// Largest drift that counts as stationary.
         drift_tolerance: f64,
         /// Distance slid, \[m].
         sliding_distance: f64,
-        /// The steps up to there.
+        /// Steps up to that distance.
         steps: Vec<SlidingStep>,
     },
     /// A quantity left the range of floating-point numbers.
@@ -250,7 +250,7 @@ pub enum MdrError {
     NonFinite {
         /// Name of the quantity.
         quantity: &'static str,
-        /// Its value in the unit of the quantity.
+        /// Value that is not finite, in the unit of the quantity.
         value: f64,
         /// Time since first contact, \[s].
         time: f64,
@@ -263,7 +263,8 @@ pub enum MdrError {
     Material(#[from] RheologyError),
 }
 
-/// Smallest number of elements that the last contact must have. Chosen: with fewer, no element lies inside the contact.
+/// Smallest number of elements that the last contact must have. Derived: one at either end, which is loaded as a whole or not at
+/// all, and one between them.
 const MIN_CONTACT_ELEMENTS: usize = 3;
 
 /// Refuses a contact of fewer than [`MIN_CONTACT_ELEMENTS`] elements of a `spacing` \[m] as [`MdrError::TooCoarse`].

@@ -49,13 +49,13 @@ fn series<const N: usize>(x: f64) -> f64 {
 
 /// Argument x from which on e^(−x) is less than the smallest positive number, −ln(2^−1075) = 745.13.
 const EXP_UNDERFLOW: f64 = 745.2;
-/// Argument up to which the mean of e^(−x) is summed as a power series; up to there it is as accurate as the
-/// exponential.
+/// Argument up to which the mean of e^(−x) is summed as a power series. Chosen: below it the closed form (1 − e^(−x))/x loses 1.3
+/// or more binary digits by cancellation. With a larger argument the series needs more than [`N_SERIES_TERMS`].
 const SERIES_MAX_ARGUMENT: f64 = 0.5;
 /// Number of terms in the series of the mean of e^(−x) up to [`SERIES_MAX_ARGUMENT`]: the first one left out is 0.5^14/15! =
 /// 5e-17.
 const N_SERIES_TERMS: usize = 14;
-/// Argument up to which [`N_SHORT_SERIES_TERMS`] terms of the series are as accurate as all.
+/// Argument up to which [`N_SHORT_SERIES_TERMS`] terms of the series are as accurate as all. Chosen: it changes the time only.
 const SHORT_SERIES_MAX_ARGUMENT: f64 = 0.02;
 /// Number of terms in the series of the mean of e^(−x) up to [`SHORT_SERIES_MAX_ARGUMENT`]: the first one left out is 0.02^8/9!
 /// = 7e-20.

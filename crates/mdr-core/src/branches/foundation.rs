@@ -62,7 +62,7 @@ impl Mode {
 }
 
 impl Foundation {
-    /// The foundation of a line that moves with `velocity` \[m/s].
+    /// The Winkler foundation of a material under a line that moves with `velocity` \[m/s].
     pub(crate) fn new(material: &dyn Material, velocity: f64) -> Result<Self, MdrError> {
         check_spectra(material)?;
         let (relaxation, creep) = (material.relaxation(), material.creep());

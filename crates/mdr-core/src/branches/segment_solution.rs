@@ -23,7 +23,7 @@ pub(crate) struct JumpSensitivity {
 pub(crate) struct Layer {
     /// Amplitude at t = −1, in the unit of stress.
     pub(crate) amplitude: f64,
-    /// Rate of the decay with t.
+    /// Rate a of the decay e^(−a (1 + t)) with t, without unit.
     pub(crate) ratio: f64,
 }
 
@@ -33,7 +33,7 @@ pub(crate) struct SegmentSolution {
     smooth: [f64; MAX_TERMS],
     /// Number of these coefficients that may differ from 0.
     n_terms: usize,
-    /// Boundary layers of w.
+    /// Boundary layers of the load w, which decay from the front end of the segment.
     pub(crate) layers: Vec<Layer>,
     /// Load ∫ w dξ on the segment, divided by depth and unit of stress, \[m].
     pub(crate) load: f64,
@@ -42,9 +42,9 @@ pub(crate) struct SegmentSolution {
     pub(crate) dissipation: f64,
     /// Bound of the change of the dissipation per change of the displacement by δ, see [`DISSIPATION_SENSITIVITY`].
     pub(crate) dissipation_change: f64,
-    /// Error of the dissipation by rounding.
+    /// Rounding error of `dissipation`, in the same unit.
     pub(crate) dissipation_rounding: f64,
-    /// Stresses of the branches at the end.
+    /// Stress e_i of each branch at the rear end of the segment, in depths times the unit of stress.
     pub(crate) stresses: Vec<f64>,
 }
 

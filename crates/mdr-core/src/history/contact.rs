@@ -50,7 +50,7 @@ pub(super) struct Contact<'a> {
     pub(super) sums: Vec<f64>,
     /// Stresses σ_k of the element at the edge, \[Pa m].
     edge_stresses: Vec<f64>,
-    /// The largest contact so far.
+    /// Largest depth and radius so far.
     largest: LargestContact,
     /// Quadrature rule of a panel of a ring.
     pub(super) rule: LobattoRule,
@@ -64,7 +64,7 @@ pub(super) struct Contact<'a> {
     direction_after_turn: Option<EdgeDirection>,
 }
 
-/// The largest contact so far.
+/// Largest depth and radius so far.
 #[derive(Debug, Clone, Copy, Default)]
 struct LargestContact {
     /// Contact radius, \[m].
@@ -74,20 +74,23 @@ struct LargestContact {
 }
 
 /// Relative tolerance of the quadrature over rings along a path of the depth, where everything else is exact: 45 units in the
-/// last place.
+/// last place. Chosen: a smaller one would halve panels whose sums differ by rounding only.
 const EXACT_QUADRATURE_TOLERANCE: f64 = 1e-14;
-/// Number of Gauss–Lobatto nodes of a panel of the quadrature over a ring. Chosen: a panel is exact up to degree 13 and is
-/// halved where that is not enough.
+/// Number of Gauss–Lobatto nodes of a panel of the quadrature over a ring. Chosen: a panel is exact up to degree 13 and is halved
+/// where that is not enough, so that the number decides the time and not the error.
 const N_PANEL_NODES: usize = 8;
 /// Relative size up to which a gap or a load of the wrong sign counts as rounding. Gaps are compared with the largest depth,
-/// loads with the terms that they are the sum of. Chosen: far above rounding, and far below a gap or a tension that is real.
+/// loads with the terms that they are the sum of.
+///
+/// Chosen as a thousand times the rounding 1e-13 of depths that are roots of an equation. With a smaller one, rounding would end
+/// histories with [`MdrError::NotADisc`]; with a larger one, a contact that is a ring by so little would count as a disc.
 pub(super) const SIGN_TOLERANCE: f64 = 1e-10;
-/// Height by which a body without force is lifted off the surface, as a fraction of the largest depth. Chosen: more than
-/// rounding, and too little to show in a force.
+/// Height by which a body without force is lifted off the surface, as a fraction of the largest depth. Chosen as ten times the
+/// rounding 1e-13 of depths that are roots of an equation, so that no element stays in contact by rounding.
 const LIFT_OFF_DEPTH: f64 = 1e-12;
 
 impl<'a> Contact<'a> {
-    /// A body at the first point of a path; `radii` must reach to its largest depth.
+    /// The contact at the first point of a path, before the body moves; `radii` must reach to the largest depth of the path.
     pub(super) fn new(body: &'a dyn EquivalentProfile, path: Path, radii: Radii) -> Self {
         let zeros = vec![0.0; path.n_branches()];
         Self {

@@ -22,24 +22,24 @@ pub(super) enum EdgeDirection {
     FirstContact,
     /// Outwards, over elements that have been in contact.
     Recontact,
-    /// Inwards.
+    /// The edge moves inwards: elements separate.
     Separation,
 }
 
 /// A ring over which the edge moves in one direction, within one segment of the path.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct EdgeMove {
-    /// Direction of the edge.
+    /// Direction in which the edge moves.
     pub(super) direction: EdgeDirection,
-    /// Time at the beginning.
+    /// Time at the beginning of the move.
     pub(super) from: SegmentTime,
-    /// Time at the end.
+    /// Time at the end of the move.
     pub(super) to: SegmentTime,
     /// Inner radius of the ring, \[m].
     pub(super) inner: f64,
     /// Outer radius of the ring, \[m].
     pub(super) outer: f64,
-    /// Number of earlier moves.
+    /// Number of earlier moves of the edge.
     pub(super) n_earlier: usize,
 }
 
@@ -63,11 +63,11 @@ pub(super) struct Free {
 
 /// State of an element after the last event of its history.
 pub(super) enum ElementState {
-    /// Never in contact.
+    /// The element was never in contact.
     Untouched,
-    /// Element in contact with the body.
+    /// The element is in contact with the body.
     Loaded(Loaded),
-    /// Separated from the body.
+    /// The element is separated from the body and recovers.
     Free(Free),
 }
 

@@ -24,11 +24,13 @@ use crate::branches::decay_and_mean;
 /// computing time: where more would be needed, the refinement stops with [`MdrError::HistoryNotReached`].
 const MAX_PARTS_UNDER_FORCE: usize = 1 << 14;
 
-/// Relative rounding error of depths and radii that are found as roots of an equation. Chosen: 450 units in the last place.
+/// Relative rounding error of depths and radii that are found as roots of an equation. Chosen as seven times
+/// [`SUM_ROUNDING`](super::SUM_ROUNDING) of the sums in the equation. It is part of every error bar, and decides it only where an
+/// error near rounding is asked for.
 const ROOT_ROUNDING: f64 = 1e-13;
 
-/// Ratio of the tolerance of the quadrature over elements to the relative error asked for. Chosen: the error by quadrature is
-/// negligible beside the one that the depth may have.
+/// Ratio of the tolerance of the quadrature over elements to the relative error asked for. Chosen: it adds a thousandth to the
+/// error bar. A larger share widens bars, a smaller one halves more panels.
 const QUADRATURE_SHARE: f64 = 1e-3;
 
 /// A body under a history of the force.
@@ -44,7 +46,7 @@ pub(super) struct ForceHistory<'a> {
 }
 
 impl ForceHistory<'_> {
-    /// Depth and contact radius at all points of the history.
+    /// Depth and contact radius, with error bars, at all points of a history of the force.
     pub(super) fn curve(&self) -> Result<Vec<CurvePoint>, MdrError> {
         let factor = 8.0 / self.material.half_space_factor();
         let duration = self.points[self.points.len() - 1][0] - self.points[0][0];
@@ -107,7 +109,8 @@ impl ForceHistory<'_> {
         }
     }
 
-    /// A curve with the errors of its depths and radii, \[m].
+    /// The curve with error bars. Depths err by `depth_error` \[m] and the relative error of the moduli. Radii err by
+    /// `radius_error` \[m], by the error of the depth along the body, and by the rounding of roots.
     fn with_errors(
         &self,
         curve: &[CurvePoint],
@@ -352,7 +355,7 @@ fn shrinks(creep: &CreepSpectrum, retarded: &[f64], force: f64, step: f64, rise:
 
 /// Number of equal intervals of a segment at whose ends the sign of d/dt ∫ J dF is checked. It is also checked at twice as many
 /// points, each half as far from the beginning of the segment as the one before. Chosen: the integral changes its sign a few
-/// times at most.
+/// times at most; two changes within one interval are overlooked.
 const N_SHRINKING_CHECKS: i32 = 24;
 
 /// The radii up to a depth \[m], or as far as the line of the body rises; `deepest` is then reduced to that.

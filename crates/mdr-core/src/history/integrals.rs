@@ -24,7 +24,7 @@ pub(super) struct Ring {
 }
 
 impl Ring {
-    /// The part of the ring up to θ.
+    /// The part of the ring that the edge has passed up to θ ∈ [0, 1] of the step.
     pub(super) fn up_to(self, theta: f64) -> Self {
         Self {
             duration: theta * self.duration,
@@ -81,8 +81,9 @@ pub(super) struct StepIntegrals {
     sums: Vec<f64>,
 }
 
-/// Orders above the last moment at which the downward recurrence starts from 0. For steps up to τ the error of that
-/// start falls below rounding on the way.
+/// Orders above the last moment at which the downward recurrence starts from 0. Derived for steps up to τ: the first value left
+/// out is at most 1/18, and the recurrence divides its error by each order on the way, for the moment 0 by 17!. This leaves
+/// 1.6e-16.
 const EXTRA_MOMENT_ORDERS: usize = 16;
 
 impl StepIntegrals {

@@ -65,7 +65,7 @@ pub struct HistoryOptions {
 }
 
 impl Default for HistoryOptions {
-    /// An exact material, and depths to one part in a thousand.
+    /// Options for moduli without error, and depths to a relative error of one part in a thousand.
     fn default() -> Self {
         Self {
             modulus_error: 0.0,
@@ -299,7 +299,7 @@ struct ContactSums {
 }
 
 impl CurveErrors {
-    /// The next point of a curve.
+    /// The point of the curve for the sums over the present contact, with the errors of force and radius.
     fn point(&mut self, contact: &ContactSums) -> CurvePoint {
         let ContactSums { time, depth, .. } = *contact;
         let force = self.factor * contact.load;

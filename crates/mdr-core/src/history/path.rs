@@ -19,7 +19,7 @@ use crate::branches::{decay, decay_and_mean};
 pub(super) struct SegmentTime {
     /// Index of the segment.
     pub(super) segment: usize,
-    /// Part of the duration of the segment.
+    /// Fraction of the duration of the segment that has passed, from 0 to 1.
     pub(super) part: f64,
 }
 
@@ -52,7 +52,7 @@ pub(super) struct Path {
 }
 
 impl Path {
-    /// A path without points.
+    /// A path without points over a foundation of the material.
     pub(super) fn new(material: &dyn Material) -> Self {
         let (relaxation, creep) = (material.relaxation(), material.creep());
         // Each branch has a modulus and a rate; the equilibrium spring is appended as one that does not relax.
@@ -283,7 +283,8 @@ impl Path {
     }
 }
 
-/// Relative change of a radius or a depth up to which it counts as rounding, and not as a move of the edge. Chosen.
+/// Relative change of a radius or a depth up to which it counts as rounding, and not as a move of the edge. Chosen as a thousand
+/// times the rounding 1e-13 of depths and radii that are roots of an equation. A move that is really so short is left out.
 pub(super) const EXTENT_ROUNDING: f64 = 1e-10;
 
 /// Decay of the branches between two times, and the stresses gained in between.

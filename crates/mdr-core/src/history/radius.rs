@@ -15,14 +15,16 @@ use crate::MdrError;
 
 /// Number of coefficients of the polynomial on one piece. Chosen: pieces are halved until it is enough.
 pub(super) const N_COEFFICIENTS: usize = 16;
-/// Size of the last two coefficients, relative to the radius, below which a piece is not divided. The missing
-/// coefficients are a hundredth of that.
+/// Size of the last two coefficients, relative to the radius, below which a piece is not divided. Chosen: the missing
+/// coefficients are a hundredth of that, which is nine units in the last place; a smaller tolerance would divide pieces for their
+/// rounding.
 pub(super) const TAIL_TOLERANCE: f64 = 2e-13;
-/// Distance from a vertical edge, such as the equator of a sphere, up to which a contact counts as having reached the edge. It
-/// is relative to the radius of the edge. Chosen.
+/// Distance from a vertical edge, such as the equator of a sphere, up to which a contact counts as having reached the edge, and
+/// is refused as [`MdrError::DepthBeyondEdge`]. It is relative to the radius of the edge. Chosen: closer to the edge the rounding
+/// of radii is more than 1e-6 of the distance from it.
 const EDGE_MARGIN: f64 = 1e-10;
-/// A piece is not divided further if its area is at most this fraction of the area a d, with a the largest radius and d the
-/// largest depth. Chosen: 45 units in the last place of the area.
+/// Largest area of a piece that is not divided further, as a fraction of the area a d, with a the largest radius and d the
+/// largest depth. Chosen: 45 units in the last place of the area, which no sum over the contact can show.
 const NEGLIGIBLE_AREA: f64 = 1e-14;
 
 /// Contact radius a(d) from first contact to the largest depth, as piecewise polynomials.

@@ -2,8 +2,8 @@
 
 use super::legendre::{Interpolation, Polynomial, derivative, end_value, value};
 
-/// Rounding of the displacements of a part, which is interpolated once more, in depths. Chosen: a few units in the last place of a
-/// displacement of one depth.
+/// Rounding of the displacements of a part, which is interpolated once more, in depths. Derived: a sum of eleven terms of up to
+/// one depth, with roundings of up to half a unit in the last place, errs by at most 5.5 units.
 const REINTERPOLATION_ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// Compression that a piece of the line imposes, as a polynomial in −1 ≤ t ≤ 1 from the front to the rear.
@@ -22,12 +22,12 @@ pub(crate) struct Segment {
 }
 
 impl Segment {
-    /// Position on the line, \[m].
+    /// Position on the line at −1 ≤ t ≤ 1, within the ends of the segment, \[m].
     pub(crate) fn position(&self, t: f64) -> f64 {
         0.5 * (self.ends[0] * (1.0 - t) + self.ends[1] * (1.0 + t))
     }
 
-    /// Displacement u, in depths.
+    /// Displacement u of the line at −1 ≤ t ≤ 1, in depths.
     pub(crate) fn displacement(&self, t: f64) -> f64 {
         value(&self.displacements[..=self.degree], t)
     }

@@ -5,15 +5,17 @@
 
 use indenters::RigidLine;
 
-/// First distance from a kink at which the slope is computed, relative to the position of the kink. Chosen: close enough for
-/// the leading term of the slope, far above the rounding of positions.
+/// First distance from a kink at which the slope is computed, relative to the position of the kink. Chosen: the leading term of
+/// the slope prevails there, and at the third distance, 2⁻²⁴, positions round by 2⁻²⁹ of the distance only.
 const FIRST_KINK_DISTANCE: f64 = 1.0 / (1 << 20) as f64;
 /// Ratio of the second distance from a kink to the first, and of the third to the second. It makes an inverse root grow by 2.
 const KINK_DISTANCE_RATIO: f64 = 0.25;
-/// Smallest ratio of the differences of slopes from distance to distance at a steep kink: 2 for an inverse root, less
-/// a margin for smaller powers.
+/// Smallest ratio of the differences of slopes from distance to distance at a steep kink. Derived: it is 2 for the inverse root,
+/// at which the integral of the squared slope diverges; the rest is a margin for rounding.
 const MIN_DIFFERENCE_RATIO: f64 = 1.99;
-/// Difference of two slopes, relative to the slopes, up to which it counts as rounding. Chosen.
+/// Difference of two slopes, relative to the slopes, up to which it counts as rounding. Derived: at the second distance, 2⁻²² of
+/// the position, positions round by 2⁻³¹ of the distance, so that an inverse root errs by 2⁻³², or 2e-10; the factor of four is a
+/// margin.
 const SLOPE_ROUNDING: f64 = 1e-9;
 
 /// A side of a kink on which the slope is unbounded.

@@ -12,9 +12,9 @@ use crate::branches::{ContactEvent, Foundation, StepWork, TimeStep, n_history};
 /// Contact state of an element.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum ElementState {
-    /// Never in contact.
+    /// The element was never in contact.
     Untouched,
-    /// Recovers freely.
+    /// The element is separated from the line and recovers.
     Free {
         /// Displacement u_∞ after complete recovery, \[m].
         limit: f64,
@@ -30,7 +30,7 @@ pub(crate) enum ElementState {
 
 /// The elements of a foundation, with their history variables.
 pub(crate) struct Elements<'a> {
-    /// Law of an element.
+    /// Viscoelastic law of an element.
     foundation: &'a Foundation,
     /// Contact state of each element.
     pub(super) states: Vec<ElementState>,
@@ -44,14 +44,14 @@ pub(crate) struct Elements<'a> {
 pub(crate) struct ElementStep {
     /// Impulse and dissipation in the step.
     pub(crate) work: StepWork,
-    /// True if it was loaded at the beginning.
+    /// True if the element was loaded at the beginning of the step.
     pub(crate) was_loaded: bool,
-    /// True if it is loaded at the end.
+    /// True if the element is loaded at the end of the step.
     pub(crate) is_loaded: bool,
 }
 
 impl<'a> Elements<'a> {
-    /// Undeformed elements.
+    /// A row of undeformed elements of a foundation, none of which was ever in contact.
     pub(crate) fn untouched(foundation: &'a Foundation, n_elements: usize) -> Self {
         let n_history = n_history(foundation);
         Self {

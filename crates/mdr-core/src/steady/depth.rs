@@ -8,18 +8,18 @@ use numerics::try_bracketed_root;
 use crate::MdrError;
 use crate::error::non_finite;
 
-/// Depth at which the search starts, \[m]; any other would do.
+/// Depth at which the search starts, \[m]. Any other would do: it changes the number of evaluations only.
 const SEARCH_START: f64 = 1.0;
-/// Largest number of steps of the secant method. Each step multiplies the number of exact digits, so that most searches end
-/// before.
+/// Largest number of steps of the secant method. Chosen: each step multiplies the number of exact digits, so that most searches
+/// end before; the others go on with a bracket.
 const MAX_SECANT_STEPS: usize = 12;
-/// Relative margin of the bracket that proportion gives. Chosen: proportion may be exact, and the force then rounded to the
-/// wrong side.
+/// Relative margin of the bracket that proportion gives. Chosen: proportion may be exact, and the force then rounded to the wrong
+/// side. Without the margin the bracket would be widened, which costs evaluations only.
 const BRACKET_MARGIN: f64 = 1e-6;
-/// Factor on the far end of a bracket that does not contain the depth. Chosen: a larger one takes fewer steps, and leaves a
-/// wider bracket.
+/// Factor on the far end of a bracket that does not contain the depth. Chosen: a larger one takes fewer steps, and leaves a wider
+/// bracket. It changes the number of evaluations only.
 const BRACKET_STRIDE: f64 = 8.0;
-/// Largest number of times that a bracket is widened. Chosen: 8^200 spans 180 decades.
+/// Largest number of times that a bracket is widened. Derived: 200 widenings by [`BRACKET_STRIDE`] span 8²⁰⁰, or 180 decades.
 const MAX_BRACKET_STRIDES: usize = 200;
 
 /// The depth \[m] at which `load`, a function of the depth, is `target`, in the same unit.

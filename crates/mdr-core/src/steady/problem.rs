@@ -15,23 +15,27 @@ use crate::branches::{Foundation, FreeSurface};
 use crate::error::finite;
 use crate::line::{Profile, Range, Resolution, SteepKink, VerticalEdge, vertical_edge};
 
-/// Relative error of friction and force by rounding. Chosen: larger than any that was seen.
+/// Relative error of friction and force by rounding, 6e-14. Chosen larger than any that was seen. It is part of every error bar,
+/// and decides it only where an error near rounding is asked for.
 const STATE_ROUNDING: f64 = 256.0 * f64::EPSILON;
-/// Factor on the estimated tails of the polynomials. Around the sharp tips of hyperboloids the tails were up to 5.5
-/// times as large as estimated (test `bars_hold_for_other_pieces_of_the_same_line`). Measured by `evidence tuning`.
+/// Factor on the estimated tails of the polynomials. Measured: around the sharp tips of hyperboloids the tails were up to 5.5
+/// times as large as estimated (test `bars_hold_for_other_pieces_of_the_same_line`). Error bars grow in proportion to it (case of
+/// `evidence tuning`).
 const TAIL_SAFETY_FACTOR: f64 = 6.0;
-/// First tolerance of the polynomials, as a part of the relative error asked for. A case of `evidence tuning`.
+/// Ratio of the first tolerance of the polynomials to the relative error asked for. If the error is missed, the tolerance is
+/// reduced and the state solved again. Chosen (case of `evidence tuning`).
 const FIRST_TOLERANCE_FRACTION: f64 = 0.1;
-/// Tolerance of the polynomials, in depths, in the first search for a depth and in the check of kinks. Chosen: a second search
-/// at the final tolerance follows.
+/// Tolerance of the polynomials, in depths, in the first search for a depth and in the check of kinks. Chosen: a second search at
+/// the final tolerance follows (case of `evidence tuning`).
 const SEARCH_TOLERANCE: f64 = 1e-3;
 /// Smallest tolerance of the polynomials, in depths: 45 units in the last place. An error that is too large even with it is
 /// [`MdrError::NotConverged`].
 const MIN_TOLERANCE: f64 = 1e-14;
-/// Tolerance of the polynomials, in depths, where the contact length only decides on the size of elements. Chosen.
+/// Tolerance of the polynomials, in depths, where the contact length only decides on the size of elements. Chosen: a change of
+/// that size by 1e-9 changes no digit of an error bar.
 const LENGTH_TOLERANCE: f64 = 1e-9;
 /// Factor on the tolerance of a second solution, whose distance from the first is the error of the ends of the contact. Chosen:
-/// the error of the second is negligible.
+/// even at a level end, where the error of the end is the root of that of the height, the second solution has a hundredth of it.
 const END_TOLERANCE_FACTOR: f64 = 1e-4;
 /// Error of the ends by rounding, relative to the contact length: the square root of [`STATE_ROUNDING`], because a line that is
 /// level at its end moves it by the root of an error of the height.
@@ -41,7 +45,7 @@ const END_ROUNDING: f64 = 2.4e-7;
 pub(crate) struct LineProblem<'a> {
     /// Rigid line that slides.
     line: &'a dyn RigidLine,
-    /// Law of an element at the velocity.
+    /// Viscoelastic law of an element over which the line moves with the velocity.
     pub(super) foundation: Foundation,
     /// Length of the track after which the line returns to the same place, \[m]; `None` on fresh ground.
     pub(super) track: Option<f64>,
@@ -56,7 +60,7 @@ pub(crate) struct SteadyContact {
 }
 
 impl<'a> LineProblem<'a> {
-    /// A line that moves with a `velocity` \[m/s] on fresh ground.
+    /// The problem of a line that moves with a `velocity` \[m/s] over a foundation that was never touched.
     pub(crate) fn new(
         line: &'a dyn RigidLine,
         material: &dyn Material,
@@ -159,7 +163,8 @@ impl<'a> LineProblem<'a> {
         Ok(self.foundation.unit * (depth * self.solve(depth, tolerance)?.load))
     }
 
-    /// The error for a contact that would reach a vertical edge.
+    /// The error for a contact that would reach a vertical edge: [`MdrError::ForceBeyondEdge`] under a force, with the force that
+    /// is carried at the edge, or [`MdrError::DepthBeyondEdge`] at a depth.
     fn edge_error(&self, edge: VerticalEdge, control: Control) -> Result<MdrError, MdrError> {
         let VerticalEdge { position, height } = edge;
         Ok(match control {

@@ -10,27 +10,28 @@ use crate::MdrError;
 use crate::branches::{Foundation, FreeSurface, SegmentSolution};
 use crate::line::{Piece, Profile, Segment};
 
-/// Positions in a segment at which the signs of load and gap are checked. Chosen: a contact or gap between two of them may be
-/// overlooked.
+/// Number of positions in a segment at which the signs of load and gap are checked. Chosen: a contact or gap between two of them
+/// may be overlooked. The positions are Chebyshev points, so that twice as many find contacts half as long in the middle of a
+/// segment.
 const N_SEGMENT_SAMPLES: usize = 12;
-/// Penetration, in depths, up to which a gap still counts as open, because it may be rounding: 16 units in the last place of
-/// the depth.
+/// Penetration, in depths, up to which a gap still counts as open: 16 units in the last place of the depth. Chosen: the
+/// displacements of line and free surface are sums of some ten terms, each rounded by up to half a unit.
 const GAP_ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// Displacement at the rear end of the line, in depths, below which what an elastic foundation releases there counts
 /// as rounding. Its energy is below 1e-12 of the whole.
 const ELASTIC_END_DISPLACEMENT: f64 = 1e-6;
-/// Smallest width of a boundary layer, and of a part of the list of loads, in units of t, that is sampled. Chosen: a change of sign
-/// inside a thinner layer is only found at the next sample.
+/// Smallest width of a boundary layer, and of a part of the list of loads, in units of t, that is sampled. Chosen: a change of
+/// sign inside a thinner layer is only found at the next sample.
 const MIN_LAYER_WIDTH: f64 = 1e-9;
-/// Deviation of the load from its chord, relative to the load, up to which the list of loads is straight between two
-/// positions. Chosen: it concerns the returned list of loads only.
+/// Deviation of the load from its chord, relative to the load, up to which the list of loads is straight between two positions.
+/// Chosen: it concerns the returned list of loads only. It has a case of `evidence tuning`.
 const CHORD_TOLERANCE: f64 = 1e-3;
 /// Largest compression, in depths, that counts as rounding of positions where a contact begins; a larger one is a jump of the
-/// displacement. Chosen.
+/// displacement. Chosen; a compression below it is not applied, and its effect on load and work counts as error.
 const MAX_MISSED_COMPRESSION: f64 = 1e-12;
-/// Shortest part of a contact in a segment, in units of −1 ≤ t ≤ 1. A shorter part at the front of the segment is left out, and
-/// a contact that would begin as close to the rear begins at the end. In so short a part the dissipation of a dashpot would be
-/// the square of rounding divided by the length.
+/// Shortest part of a contact in a segment, in units of −1 ≤ t ≤ 1. A shorter part at the front of the segment is left out, and a
+/// contact that would begin as close to the rear begins at the end. Chosen as 450 units in the last place: in so short a part the
+/// dissipation of a dashpot would be the square of rounding divided by the length.
 const MIN_CONTACT_PART: f64 = 1e-13;
 /// Largest number of contact intervals of one line. Chosen, to limit the computing time: more are refused as
 /// [`MdrError::TooMuchDetail`].
@@ -69,11 +70,11 @@ impl SweepSums {
 
 /// State of the surface at the present position.
 enum Surface {
-    /// Recovers freely.
+    /// Surface that is not in contact with the line and recovers.
     Free(FreeSurface),
     /// Surface in contact with the line.
     Loaded {
-        /// Stresses of the branches.
+        /// Stress e_i of each branch at the present position, in depths times the unit of stress.
         stresses: Vec<f64>,
         /// True if contact has begun at the present position.
         is_new: bool,
@@ -117,11 +118,11 @@ pub(super) fn sweep(
 
 /// A pass along the line, from event to event.
 struct SurfaceMarch<'a> {
-    /// Law of an element.
+    /// Viscoelastic law of an element.
     foundation: &'a Foundation,
-    /// Polynomials of the line.
+    /// The line as polynomials, from the front to the rear.
     profile: &'a Profile,
-    /// Sums so far.
+    /// Sums over the part of the line that has passed.
     sums: SweepSums,
     /// State of the surface at the present position.
     surface: Surface,
@@ -284,7 +285,8 @@ impl SurfaceMarch<'_> {
             .for_each(|loads| loads.push([position, 0.0]));
     }
 
-    /// Ends the pass; a surface that is still loaded is released.
+    /// Ends the pass at the rear end of the line, where a surface that is still loaded is released; returns the sums and the
+    /// surface behind.
     fn release_at_end(mut self) -> (SweepSums, FreeSurface) {
         let surface = std::mem::replace(&mut self.surface, Surface::Free(FreeSurface::untouched()));
         let behind = match (surface, self.profile.pieces.last()) {

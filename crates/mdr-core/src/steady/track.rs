@@ -16,13 +16,15 @@ use crate::MdrError;
 use crate::branches::{Foundation, FreeSurface};
 use crate::line::{Profile, Range};
 
-/// Largest number of passes of the track in the search for the periodic state. Chosen, to limit the computing time: after them
-/// the search ends with [`MdrError::NotPeriodic`].
+/// Largest number of passes of the track in the search for the periodic state. Chosen to limit the time: after them the search
+/// ends with [`MdrError::NotPeriodic`]. A state that is found does not depend on it.
 const MAX_PASSES: usize = 300;
-/// Remaining distance to the periodic state, in depths, at which the search ends. Chosen: it is part of the error.
+/// Remaining distance to the periodic state, in depths, at which the search ends. Chosen: it is part of the error (case of
+/// `evidence tuning`).
 const PERIODICITY_TOLERANCE: f64 = 1e-11;
-/// Rounding of one pass, in depths. Multiplied by the number of passes that a mode needs to recover, it bounds the
-/// tolerance from below.
+/// Rounding of one pass, in depths. Multiplied by the number of passes that a mode needs to recover, it bounds the tolerance from
+/// below. Chosen: with less, a slow material would end with [`MdrError::NotPeriodic`] because of rounding; with more, its error
+/// bar is wider.
 const PERIODICITY_ROUNDING: f64 = 1024.0 * f64::EPSILON;
 
 /// Refuses a track \[m] that is not longer than the part of the line below the surface, as [`MdrError::TrackTooShort`].

@@ -6,8 +6,9 @@ use crate::history::element::{EdgeDirection, EdgeMove};
 use crate::history::path::{DecayedHistory, SegmentTime};
 use crate::history::radius::N_COEFFICIENTS;
 
-/// Largest number of times that a panel of the quadrature over a ring is halved. Chosen: the change by the last halving then
-/// counts as error.
+/// Largest number of times that a panel of the quadrature over a ring is halved. Chosen to limit the time: a stress that jumps is
+/// then resolved to 2⁻¹² of the panel. The change by the last halving counts as error in any case, so that a smaller number
+/// widens bars.
 const MAX_PANEL_DIVISIONS: u32 = 12;
 /// Ratio of the error that is assumed for a panel to its change by the last division. Where the stress jumps inside a panel,
 /// each half keeps an error as large as the change, together 2; the other factor of 2 is a margin.

@@ -21,12 +21,14 @@ use rheology::Material;
 
 use crate::line::{ElementHeights, has_steep_kinks};
 
-/// Number of chords that approximate the profile on either side of the lowest point over one element: the innermost ends at 1e-8
-/// of the element.
+/// Number of chords that approximate the profile on either side of the lowest point over one element. Derived: the innermost ends
+/// at 0.75⁶⁴, or 1e-8, of the element.
 const N_TIP_CHORDS: usize = 64;
-/// Ratio of the distances from the lowest point to the inner and to the outer end of a chord. Chosen.
+/// Ratio of the distances from the lowest point to the inner and to the outer end of a chord. Chosen: a ratio closer to 1 takes
+/// more chords and leaves out less, for which [`TIP_EXCESS_FACTOR`] stands.
 const TIP_CHORD_RATIO: f64 = 0.75;
-/// Factor on the sum over the chords of a tip. Chords leave out a part of the integral: of a power x⁴ it is a tenth.
+/// Factor on the sum over the chords of a tip, for the part of the integral that chords leave out. Derived for chords of the
+/// ratio 0.75: this part is a tenth of the excess of a power x⁴ and a fifth of that of x⁶, for which the factor is exact.
 const TIP_EXCESS_FACTOR: f64 = 1.25;
 
 /// Moduli of a material that act within a step, over (1 − ν)/2.
@@ -63,7 +65,7 @@ pub(super) struct SubgridForces {
 }
 
 impl StepScaleModuli {
-    /// The moduli at a velocity \[m/s], for steps of one spacing \[m].
+    /// Moduli of a material that act within a step of one `spacing` \[m] at a velocity \[m/s].
     fn new(material: &dyn Material, velocity: f64, spacing: f64) -> Self {
         let relaxation = material.relaxation();
         let unit = 4.0 / material.half_space_factor();
