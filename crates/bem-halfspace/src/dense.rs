@@ -5,7 +5,7 @@
 /// Largest number of unknowns of a direct solve. Chosen: with 4000 no periodic contact of docs/dependencies.md, "Factorisation or
 /// iteration", is solved faster.
 pub(crate) const MAX_UNKNOWNS: usize = 2048;
-/// Memory of the matrix of the largest direct solve, \[bytes].
+/// Memory of the matrix of the largest direct solve, 32 MiB for [`MAX_UNKNOWNS`], \[bytes].
 #[cfg(feature = "rough")]
 pub(crate) const MAX_MATRIX_BYTES: usize = size_of::<f64>() * MAX_UNKNOWNS * MAX_UNKNOWNS;
 

@@ -17,7 +17,7 @@ pub enum BemError {
     /// A field does not have one value per element.
     #[error("{field} has {length} values, but the grid has {elements} elements")]
     LengthMismatch {
-        /// Name of the field.
+        /// Name of the field whose length is wrong.
         field: &'static str,
         /// Number of values of the field.
         length: usize,
@@ -39,9 +39,9 @@ pub enum BemError {
     /// The grid would have more elements than can be handled.
     #[error("the grid would have {elements:.1e} elements, but at most {limit:e} are allowed")]
     GridTooLarge {
-        /// Number of elements asked for.
+        /// Number of elements that the grid would have.
         elements: f64,
-        /// The largest number allowed.
+        /// Largest number of elements that a grid may have.
         limit: f64,
     },
     /// The contact, or a patch of it that carries load, covers too few elements for its friction to mean anything.
@@ -205,7 +205,7 @@ pub enum BemError {
     TooManySteps {
         /// Number of steps.
         steps: f64,
-        /// The largest number allowed.
+        /// Largest number of steps allowed.
         limit: f64,
     },
     /// The memory length of the material exceeds the longest march to the stationary state.

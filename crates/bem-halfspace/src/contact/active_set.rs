@@ -21,7 +21,7 @@ pub(crate) struct Run {
 }
 
 impl Run {
-    /// Indices of its elements in the field.
+    /// Row-major indices of the elements of the run in a field of the grid.
     pub(crate) fn elements(&self) -> Range<usize> {
         self.element..self.element + self.length
     }
@@ -61,7 +61,7 @@ pub(crate) struct ActiveSet {
 }
 
 impl ActiveSet {
-    /// The empty set on a grid of the given shape.
+    /// An active set without elements, on a grid of the given numbers of rows and columns.
     pub(crate) fn new(shape: [usize; 2]) -> Self {
         let row_blocks = RowBlocks::new(shape);
         // At most every other element of a row begins a run.

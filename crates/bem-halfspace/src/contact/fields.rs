@@ -58,7 +58,7 @@ pub(super) struct ActiveVectors {
 }
 
 impl ActiveVectors {
-    /// Empty vectors with capacity for the whole grid, so that a change of the active set does not allocate.
+    /// Empty packed vectors with capacity for all elements of the grid, so that a change of the active set does not allocate.
     pub(super) fn new(n_elements: usize) -> Self {
         let mut vectors = Self::default();
         for vector in vectors.all() {

@@ -18,8 +18,9 @@ use crate::contact::solve::solve_loads;
 use crate::contact::{Control, LoadState, map_force};
 use crate::{BemError, ConvolutionWorkspace};
 
-/// Loosest relative tolerance of the elastic contacts while the saturated set still changes. Chosen, so that the error misplaces
-/// few elements. Only the number of iterations depends on it, because the last contact has the tolerance asked for.
+/// Loosest relative tolerance of the elastic contacts while the saturated set still changes. Chosen: a looser one misplaces
+/// elements of that set, a tighter one takes more iterations before each exchange. The solution does not depend on it, because
+/// the last contact has the tolerance asked for.
 const INEXACT_TOLERANCE: f64 = 1e-4;
 
 /// Solves the contact with loads x of at most `largest_load` per element, without unit; infinity means no limit.
@@ -206,7 +207,8 @@ impl<'a> SaturatedSet<'a> {
         (0..self.is_saturated.len()).filter_map(violation).collect()
     }
 
-    /// Adds loads and displacement of the saturated set to those of the other elements in `state`; returns the whole solution.
+    /// Solution on all elements: adds loads and displacement of the saturated set to those in `state`, which lack them, and its
+    /// total load to that of `solved`.
     fn with_saturated_set(
         self,
         state: &mut LoadState,

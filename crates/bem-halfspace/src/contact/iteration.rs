@@ -28,10 +28,11 @@ use crate::parallel::reductions::sum;
 use crate::{BemError, Convolution, ConvolutionWorkspace};
 use heights::{Heights, Violations};
 
-/// Ratio of the largest violation to the largest linear residual from which the active set is updated; chosen.
+/// Ratio of the largest violation to the largest linear residual from which the active set is updated. Chosen (case of
+/// `evidence tuning`).
 ///
-/// A smaller ratio restarts the conjugate gradients too often, a larger one lets them converge on a wrong set. Only the number
-/// of iterations depends on it.
+/// A smaller ratio restarts the conjugate gradients too often, a larger one lets them converge on a wrong set. Only the number of
+/// iterations depends on it.
 const SET_UPDATE_RATIO: f64 = 2.0;
 
 /// State of the solver on one grid.

@@ -18,7 +18,7 @@ pub(super) struct MirrorWeights {
 }
 
 impl MirrorWeights {
-    /// Weights of the elements of the grid of a convolution.
+    /// Weights of all elements on the grid of a convolution, for its mirrors.
     pub(super) const fn new(convolution: &Convolution) -> Self {
         Self {
             mirrors: convolution.mirrors,
@@ -56,12 +56,12 @@ impl MirrorWeights {
         self.of_row(element) * self.of_column(element)
     }
 
-    /// Weight of the row of an element.
+    /// Weight of the row of an element: 1/2 if the mirror passes through its centres, else 1.
     pub(super) fn of_row(&self, element: usize) -> f64 {
         weight_of_line(self.mirrors[0], element < self.columns)
     }
 
-    /// Weight of the column of an element.
+    /// Weight of the column of an element: 1/2 if the mirror passes through its centres, else 1.
     pub(super) fn of_column(&self, element: usize) -> f64 {
         weight_of_line(self.mirrors[1], element.is_multiple_of(self.columns))
     }

@@ -32,8 +32,8 @@ use crate::contact::active_set::{ActiveSet, sum_blocks};
 use crate::parallel::row_blocks::{RowBlocks, for_each_row, resize};
 use crate::{Convolution, Grid};
 
-/// Edge of the smallest blocks, in elements. Over shorter distances S itself is accurate. It is the largest edge that row blocks
-/// allow.
+/// Edge of the smallest blocks, in elements: the largest edge that row blocks allow. Over shorter distances the inverse S of the
+/// head of this file is accurate itself.
 pub(super) const FINEST_BLOCK_EDGE: usize = RowBlocks::MAX_COARSE_BLOCK;
 
 /// Conductances of the active elements, and the hierarchy of blocks over which they are summed.

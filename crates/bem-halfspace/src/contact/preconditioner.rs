@@ -35,8 +35,8 @@ pub(super) struct PreconditionerParameters {
 }
 
 impl PreconditionerParameters {
-    /// Chosen below two limits. A neighbour weight of π/4 is exact for the shortest wave along an edge. An excess of one half is that
-    /// of a block alone; with neighbouring blocks it is shared.
+    /// Weights of the preconditioner, chosen below two limits. A neighbour weight of π/4 is exact for the shortest wave along an
+    /// edge. An excess of one half is that of a block alone; with neighbouring blocks it is shared.
     ///
     /// For 0.5 to 0.9 and 0.2 to 0.5 the iterations are the same within 15 %; for 0.01 to 10 and 0.001 to 3 there are at most
     /// four times as many.

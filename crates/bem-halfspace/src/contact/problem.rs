@@ -47,9 +47,9 @@ pub(crate) struct StoppingCriterion {
 impl StoppingCriterion {
     /// Criterion for a solution that is only the first guess on elements of half the edges.
     ///
-    /// The residual of its own first guess measures the error of the coarser elements, which is of the order 3/2. About a third of it
-    /// remains on these, so that a tenth is accurate enough. The tolerance and the number of iterations are chosen; a guess that misses
-    /// them is used all the same.
+    /// Reduction of the residual: that of the first guess measures the error of the coarser elements, which is of the order 3/2.
+    /// About a third of it remains on these, so that a tenth is accurate enough. Tolerance and number of iterations are chosen to
+    /// limit the time: a guess that misses them is used all the same, so that they decide the number of iterations only.
     pub(super) const GUESS: Self = Self {
         tolerance: 1e-3,
         residual_reduction: 0.1,

@@ -14,10 +14,11 @@ use crate::parallel::row_blocks::for_each_row;
 use crate::transform::convolution::Surroundings;
 use crate::{BemError, Rows};
 
-/// Largest box, as a fraction of the elements of the grid, on which the contact is solved in place of the grid. Chosen.
+/// Largest box, as a fraction of the elements of the grid, on which the contact is solved in place of the grid. Chosen (case of
+/// `evidence tuning`).
 ///
-/// A larger box takes as long as the grid, because of the operator application on the whole grid at its end. Only the time depends on
-/// it.
+/// A larger box takes as long as the grid, because of the operator application on the whole grid at its end. Only the time
+/// depends on it.
 const MAX_BOX_FRACTION: f64 = 0.6;
 
 /// Solves the contact from the load in the state, or by nested iteration if that load is zero everywhere; leaves load and displacement

@@ -42,7 +42,7 @@ pub(crate) struct LoadState {
 }
 
 impl LoadState {
-    /// Zero loads on a number of elements.
+    /// Zero loads and displacements on a number of elements, with buffers that are not allocated yet.
     pub(super) fn new(n_elements: usize) -> Self {
         Self {
             load: vec![0.0; n_elements],
@@ -65,7 +65,7 @@ impl LoadState {
 }
 
 impl ContactState {
-    /// A state without pressure for the grid of `convolution`.
+    /// State with zero pressure on all elements of the grid of `convolution`.
     pub fn new(convolution: &Convolution) -> Self {
         let n_elements = convolution.grid().n_elements();
         Self {
@@ -117,7 +117,7 @@ impl ContactState {
             self.buffers_for = needed;
             self.loads = LoadState::new(convolution.grid().n_elements());
         }
-        // Convert the pressures of the first guess to loads, in place.
+        // Convert the pressures of the first guess to loads, in place. Tensile ones and those that are not finite become 0.
         self.loads.load = std::mem::take(&mut self.pressure);
         self.loads.map_loads(columns, |pressure| {
             let load = pressure * load_per_pressure;
@@ -150,7 +150,7 @@ pub(crate) struct ContactBox {
 }
 
 impl ContactBox {
-    /// A box without load for the operator on the part within `bounds`.
+    /// Box of elements within `bounds`, without load; `convolution` is the operator on the same elements.
     fn new(convolution: Convolution, bounds: Bounds) -> Self {
         Self {
             bounds,

@@ -21,9 +21,9 @@
 //!
 //! Theory: docs/theory/sensitivities.md.
 
-/// Product κ b of the load–gap ratio κ and the second difference b of the kernel (head of this file), for boundaries of many elements,
-/// on which errors of κ average out. Chosen between 0.3 and 0.6; from 0.1 to 2 sensitivities change by at most half of their
-/// bars.
+/// Product κ b of the load–gap ratio κ and the second difference b of the kernel (head of this file), for boundaries of many
+/// elements, on which errors of κ average out. Chosen between 0.3 and 0.6; from 0.1 to 2 sensitivities change by at most half of
+/// their bars (case of `evidence tuning`).
 const LOAD_GAP_RATIO: f64 = 0.4;
 
 /// Loads of the elements in contact and gaps of their neighbours, on a box of elements.
@@ -95,7 +95,7 @@ impl BoundaryDerivatives {
 }
 
 impl ContactBoundary {
-    /// Sums the contributions of all pairs at the boundary of a contact.
+    /// Derivatives of area and boundary weight: sums of the contributions of all pairs at the boundary of a contact.
     pub(crate) fn new(field: &BoundaryField) -> Self {
         let mut boundary = Self {
             area: BoundaryDerivatives::zero(field.values.len()),

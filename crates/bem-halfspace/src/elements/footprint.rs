@@ -9,12 +9,14 @@ use crate::elements::grid::elements_along;
 use crate::stationary::steady::depth_scale_of_surface;
 use crate::{BemError, Elastomer};
 
-/// Largest height of a body that may be in contact under a force, in depth scales D. Chosen: the highest front that is known, under a
-/// cusp h ∼ r^0.51, lies at 1.6 D ([`Footprint::sliding`]).
+/// Largest height of a body that may be in contact under a force, in depth scales D. Chosen with a margin: the highest front that
+/// is known, under a cusp h ∼ r^0.51, lies at 1.6 D ([`Footprint::sliding`]). A footprint that is too small grows (case of
+/// `evidence tuning`).
 pub(crate) const MAX_HEIGHT_IN_DEPTH_SCALES: f64 = 2.0;
 
-/// Factor from the edges of a footprint to those of the next one, which is tried if the contact reaches its boundary. Chosen; any
-/// factor above 1 leads to the same contact, and this one needs few trials.
+/// Factor from the edges of a footprint to those of the next one, which is tried if the contact reaches its boundary. Chosen
+/// (case of `evidence tuning`): any factor above 1 leads to the same contact. A smaller one takes more trials, a larger one more
+/// elements.
 const GROWTH_FACTOR: f64 = 1.5;
 
 /// The rectangle around the lowest point of the indenter, which lies at [0, 0], in which contact may occur, \[m].

@@ -60,7 +60,7 @@ impl Grid {
         }
     }
 
-    /// The whole grid, of which this is the symmetry-reduced domain.
+    /// The whole grid of which this one is the symmetry-reduced domain in front of `mirrors`.
     pub(crate) fn unfolded(&self, mirrors: [Mirror; 2]) -> Self {
         Self {
             shape: [0, 1].map(|axis| mirrors[axis].unfolded_len(self.shape[axis])),

@@ -29,7 +29,7 @@ pub(crate) struct Layout {
 }
 
 impl GridOptions {
-    /// A grid with contacts solved to the default tolerance.
+    /// Options for a grid with element edges `spacing` \[m] in a footprint, with contacts solved to the default tolerance.
     pub fn new(spacing: [f64; 2], footprint: Footprint) -> Self {
         Self {
             spacing,

@@ -6,7 +6,7 @@
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Average {
-    /// Mean.
+    /// Mean over the shifted grids.
     pub value: f64,
     /// Standard deviation; for friction half the difference between the means over two interleaved halves of the shifts.
     pub scatter: f64,

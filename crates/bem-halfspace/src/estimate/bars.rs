@@ -11,7 +11,7 @@ use crate::estimate::quantities::{Name, Quantities};
 
 /// Index of the friction from the dissipated power in vectors of quantities, after those of [`Name`].
 const DISSIPATED: usize = Name::ALL.len();
-/// Error of each end of a contact, in elements. Chosen above one element.
+/// Error of each end of a contact, in elements. Chosen above one element (case of `evidence tuning`).
 ///
 /// The contact boundary follows the elements, and each outermost element is in contact as a whole or not at all. The test
 /// `the_bars_of_an_elastic_contact_hold` compares with known contacts.
@@ -47,9 +47,9 @@ pub struct ContactEstimate<S, O> {
     pub contact_box_error: f64,
     /// Averages over shifted grids that led to a stationary state with a given relative error, from coarse to fine; else empty.
     pub refinements: Vec<Refinement>,
-    /// The contact on the finest grid.
+    /// Result on the finest grid, without errors.
     pub finest: S,
-    /// The finest grid.
+    /// Spacing, footprint and tolerance of the finest grid.
     pub options: O,
 }
 

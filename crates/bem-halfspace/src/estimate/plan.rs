@@ -19,14 +19,15 @@ const MAX_SPACING_OVER_THICKNESS: f64 = 0.5 * MAX_EDGE_OVER_THICKNESS;
 /// contact, relative to the squared slope at the end. Chosen, so that the small kinks of a tabulated profile are negligible (case
 /// of `evidence tuning`).
 pub(crate) const NEGLIGIBLE_KINKS: f64 = 0.01;
-/// Number of cells of a height map along the contact up to which elements resolve single cells and their edges. Chosen (case of
-/// `evidence tuning`).
+/// Largest number of cells of a height map along the contact at which elements resolve single cells and their edges. Chosen (case
+/// of `evidence tuning`).
 const MAX_VISIBLE_CELLS: f64 = 8.0;
-/// Smallest jump of the slope between two cells of a height map that counts as an edge, as a fraction of the slope at the end of the
-/// contact. Chosen (case of `evidence tuning`).
+/// Smallest jump of the slope between two cells of a height map that counts as an edge, as a fraction of the slope at the end of
+/// the contact. Chosen (case of `evidence tuning`). With a smaller one, bodies without edges get the lower order and wider bars
+/// of edges.
 const MIN_EDGE_JUMP: f64 = 0.3;
-/// Largest number of refinements of the coarsest grid by √2. Chosen: the refinement stops there, so that its time is limited.
-/// Most refinements end earlier at the limit of unknowns.
+/// Largest number of refinements of the coarsest grid by √2. Chosen to limit the time: the finest grid has 2¹² times as many
+/// elements along the contact as the coarsest. Most refinements end earlier at the limit of unknowns.
 pub(crate) const MAX_REFINEMENTS: i32 = 24;
 /// Ratio of the contact length of a paraboloid in the one-dimensional model to the length on which it lies below the depth: 1/√2.
 const CONTACT_OVER_INTERSECTION_LENGTH: f64 = std::f64::consts::FRAC_1_SQRT_2;
@@ -47,7 +48,7 @@ pub(crate) struct GridPlan {
 }
 
 impl GridPlan {
-    /// The plan for a sliding body.
+    /// Plan of footprint and spacings for a body that slides under a load.
     pub(crate) fn sliding(
         surface: &dyn Surface,
         elastomer: &dyn Elastomer,
@@ -77,7 +78,7 @@ impl GridPlan {
         Ok(plan)
     }
 
-    /// The plan for a body that is pressed without sliding.
+    /// Plan of footprint and spacings for a body that is pressed under a force or to a depth, without sliding.
     pub(crate) fn pressed(
         surface: &dyn Surface,
         elastomer: &dyn Elastomer,

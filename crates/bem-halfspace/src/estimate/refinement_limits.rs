@@ -9,8 +9,8 @@ const CONTACT_WORK_EXPONENT: f64 = 2.0;
 pub(crate) const MARCH_WORK_EXPONENT: f64 = CONTACT_WORK_EXPONENT + 1.0;
 /// Convergence order of a march under a smooth body in the spacing: that of steps over which the load is held.
 pub(crate) const MARCH_ORDER: f64 = 1.0;
-/// Factor on the discretisation error if the refinement ends because a relative error is met: grids are then selected whose estimated
-/// error is small by chance. Chosen on the random scenes of docs/calibration.md.
+/// Factor on the discretisation error if the refinement ends because a relative error is met: grids are then selected whose
+/// estimated error is small by chance. Chosen on the random scenes of docs/calibration.md (case of `evidence tuning`).
 const SELECTION_FACTOR: f64 = 2.0;
 
 /// Resolution policy of a refinement in elements along the contact.
@@ -25,15 +25,16 @@ pub(crate) struct RefinementLimits {
     selection_factor: f64,
 }
 
-/// Limits for a contact under a constant force or depth. The finest grid takes minutes.
+/// Limits for a contact under a constant force or depth. The largest number of elements is chosen to limit the time: the finest
+/// grid takes minutes.
 pub(crate) const PRESS: RefinementLimits = RefinementLimits {
     initial_elements: FIRST_ELEMENTS,
     max_elements: 512,
     work_exponent: CONTACT_WORK_EXPONENT,
     selection_factor: SELECTION_FACTOR,
 };
-/// Limits for a history of a pressed contact. The finest grid is coarser than that of [`PRESS`], because each grid takes many
-/// contacts.
+/// Limits for a history of a pressed contact. The largest number of elements is chosen to limit the time: it is half that of
+/// [`PRESS`], because each grid takes many contacts.
 pub(crate) const HISTORY: RefinementLimits = RefinementLimits {
     max_elements: 256,
     ..PRESS
@@ -43,14 +44,15 @@ pub(crate) const STATIONARY: RefinementLimits = RefinementLimits {
     max_elements: usize::MAX,
     ..PRESS
 };
-/// Limits for a march from first touch. The finest grid takes about a minute.
+/// Limits for a march from first touch. The largest number of elements is chosen to limit the time: the finest grid takes about a
+/// minute.
 pub(crate) const SLIDE: RefinementLimits = RefinementLimits {
     max_elements: 32,
     work_exponent: MARCH_WORK_EXPONENT,
     ..PRESS
 };
-/// Limits for any motion. A cycle takes about a minute on the finest grid. Most strokes reach an error of 2 % on the first grid
-/// (docs/theory/transient-half-space.md, "Linear loads").
+/// Limits for any motion. The largest number of elements is chosen to limit the time: a cycle takes about a minute on the finest
+/// grid. Most strokes reach an error of 2 % on the first grid (docs/theory/transient-half-space.md, "Linear loads").
 pub(crate) const MOTION: RefinementLimits = RefinementLimits {
     initial_elements: 8,
     max_elements: 48,

@@ -24,13 +24,14 @@ use rheology::CreepSpectrum;
 use crate::GridOptions;
 pub use free::{March, Motion, MotionRow};
 
-/// Largest number of steps of a march, or of one cycle of it. Chosen: a march of more steps is refused, because it would take too
-/// long.
+/// Largest number of steps of a march, or of one cycle of it. Chosen to limit the time, which grows in proportion to it: a march
+/// of more steps is refused as [`BemError::TooManySteps`](crate::BemError::TooManySteps).
 pub(crate) const MAX_STEPS: f64 = 1e5;
-/// Upper bound of the memory per followed element without its history variables, \[bytes]. Tests compare the bound of a march with the
-/// memory it takes (tests/it/memory.rs).
+/// Upper bound of the memory per followed element without its history variables, \[bytes]. Measured: tests compare the bound of a
+/// march with the memory it takes (tests/it/memory.rs).
 const BYTES_PER_FOLLOWED_ELEMENT: f64 = 150.0;
-/// Upper bound of the memory per step of a march, for its schedule and its row of results, \[bytes].
+/// Upper bound of the memory per step of a march, for its schedule and its row of results, \[bytes]. Measured: tests compare the
+/// bound of a march with the memory it takes (tests/it/memory.rs).
 const BYTES_PER_STEP: f64 = 600.0;
 
 /// Extent of a march along the surface, for an estimate of its memory.

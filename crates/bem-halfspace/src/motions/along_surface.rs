@@ -24,15 +24,15 @@ use crate::motions::indent::footprint_after;
 use crate::motions::slide::{March, Motion, MotionRow};
 use crate::{BemError, Elastomer, GridOptions};
 
-/// Number of time steps in which the body passes an element at its largest speed. With three, the errors of steps and of elements are
-/// about equal (docs/theory/transient-half-space.md, "Linear loads").
+/// Number of time steps in which the body passes an element at its largest speed. With three, the errors of steps and of elements
+/// are about equal (docs/theory/transient-half-space.md, "Linear loads"; case of `evidence tuning`).
 const STEPS_PER_ELEMENT: usize = 3;
-/// Order with which the mean friction of a cycle is extrapolated from n/2 and n elements. Measured on 24 strokes: the errors fall with
-/// orders from 1.2 to 2. An extrapolation with 1.5 to 2 halves them and removes their common sign
-/// (docs/theory/transient-half-space.md, "Linear loads").
+/// Order with which the mean friction of a cycle is extrapolated from n/2 and n elements. Measured on 24 strokes: the errors fall
+/// with orders from 1.2 to 2. An extrapolation with 1.5 to 2 halves them and removes their common sign
+/// (docs/theory/transient-half-space.md, "Linear loads"; case of `evidence tuning`).
 const CYCLE_EXTRAPOLATION_ORDER: f64 = 1.75;
 /// Ratio to the largest retardation time of the time after which a pressed body counts as at rest. Derived: the fraction e^−30,
-/// or 1e-13, of the creep is still to come then.
+/// or 1e-13, of the creep is still to come then. It has a case of `evidence tuning`.
 const REST_OVER_RETARDATION_TIME: f64 = 30.0;
 
 /// Moves `surface` over an undeformed half space or layer, through the points of a motion or reciprocating until the limit cycle.

@@ -18,16 +18,16 @@ use crate::estimate::bars::reached_or_error;
 use crate::march::largest_retardation_time;
 
 /// Ratio of the duration of the first touch, a step in which the body is pressed without moving, to that of the first step of the
-/// motion. Chosen; from 1e-6 to 1 no answer changes by more than 2e-4 of its bar.
+/// motion. Chosen; from 1e-6 to 1 no answer changes by more than 2e-4 of its bar (case of `evidence tuning`).
 pub(super) const TOUCH_DURATION_RATIO: f64 = 1e-3;
-/// Largest number of cycles in the search for the limit cycle. Chosen: the search fails with [`BemError::NotPeriodic`] after this
-/// number, so that its time is limited.
+/// Largest number of cycles in the search for the limit cycle. Chosen to limit the time: the search fails with
+/// [`BemError::NotPeriodic`] after this number. A cycle that is found does not depend on it.
 const MAX_CYCLES: usize = 100;
-/// Smallest relative change per cycle that rounding does not hide: some tens of units in the last place, the rounding of hundreds
-/// of steps.
+/// Smallest relative change per cycle that rounding does not hide. Chosen: 45 units in the last place, the rounding of hundreds
+/// of steps. A slower approach is refused as [`BemError::CycleTooShort`].
 const CYCLE_ROUNDING: f64 = 1e-14;
-/// Remaining relative change of the limit cycle if a number of elements is asked for instead of an error. Chosen;
-/// from 1e-5 to 1e-2 bars change by at most 4 %, with 0.1 the remaining change prevails.
+/// Remaining relative change of the limit cycle if a number of elements is asked for instead of an error. Chosen; from 1e-5 to
+/// 1e-2 bars change by at most 4 %, with 0.1 the remaining change prevails. It has a case of `evidence tuning`.
 const CYCLE_TOLERANCE_ON_ONE_GRID: f64 = 1e-3;
 
 /// Refines a motion until the error asked for is reached.
@@ -66,7 +66,8 @@ pub(super) struct LimitCycle {
 }
 
 impl LimitCycle {
-    /// The search for a motion and an accuracy; `None` for a motion through points, which is not repeated.
+    /// Parameters of the search for the limit cycle of a reciprocating motion: duration of a cycle, largest retardation time, and
+    /// the tolerance for an accuracy. `None` for a motion through points, which is not repeated.
     ///
     /// # Errors
     /// [`BemError::NoCycle`] for a material that flows.

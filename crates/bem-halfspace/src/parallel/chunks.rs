@@ -127,7 +127,7 @@ fn thread_index() -> usize {
     rayon::current_thread_index().unwrap_or(0)
 }
 
-/// Runs both closures one after the other.
+/// Runs both closures one after the other, because threads need the feature `rayon`.
 #[cfg(not(feature = "rayon"))]
 pub(crate) fn join<L, R>(left: impl FnOnce() -> L, right: impl FnOnce() -> R) -> (L, R) {
     (left(), right())

@@ -20,7 +20,8 @@ impl RowBlocks {
     /// blocks of this size.
     pub(crate) const MAX_COARSE_BLOCK: usize = 8;
 
-    /// Row blocks of at least [`MIN_ELEMENTS`] elements each, except the last, for a grid of `shape`.
+    /// Divides a grid of the given numbers of rows and columns into row blocks of at least [`MIN_ELEMENTS`] elements each, except
+    /// the last.
     pub(crate) const fn new(shape: [usize; 2]) -> Self {
         let blocks = MIN_ELEMENTS.div_ceil(Self::MAX_COARSE_BLOCK * shape[1]);
         Self {

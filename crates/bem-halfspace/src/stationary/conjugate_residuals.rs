@@ -11,11 +11,12 @@ use crate::parallel::reductions::{add_scaled, sum};
 use crate::parallel::row_blocks::{RowBlocks, copies};
 
 /// Relative drop of the squared norm ‖r‖² of the residual r below which a step stagnates. The next direction is then built from
-/// the last image A p instead of r (Young & Jea 1980). Chosen; values up to 0.05 hardly matter.
+/// the last image A p instead of r (Young & Jea 1980). Chosen; values up to 0.05 hardly matter. It has a case of
+/// `evidence tuning`.
 const STAGNATION_REDUCTION: f64 = 0.01;
 /// Ratio of the norm of an image A p after its orthogonalisation to that before, below which only rounding error is left and the
 /// iteration ends (breakdown). Chosen near the rounding 6e-8 of single precision, in which the operators of periodic contacts are
-/// applied.
+/// applied. It has a case of `evidence tuning`.
 const BREAKDOWN_TOLERANCE: f64 = 1e-7;
 
 /// Size of the Krylov basis and length of the iteration.
@@ -131,7 +132,7 @@ struct BasisVector<T> {
 }
 
 impl<T: Real> BasisVector<T> {
-    /// A vector of zeros, for a number of unknowns and of equations.
+    /// Direction and image of zeros, for numbers of unknowns and of equations.
     fn new(n_unknowns: usize, n_equations: usize) -> Self {
         Self {
             direction: copies(T::default(), n_unknowns),

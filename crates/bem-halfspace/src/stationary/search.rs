@@ -25,12 +25,13 @@ use crate::parallel::reductions::larger;
 
 /// Ratio of a penetration next to the active set to the root mean square (RMS) of the residual on the set, below which the
 /// penetration counts as solver error. Chosen as three standard deviations; with 2 or 5 there are as many operator applications.
+/// It has a case of `evidence tuning`.
 const PENETRATION_THRESHOLD_RMS: f64 = 3.0;
 /// Ratio of a penetration far from the active set to the largest residual on the set, below which the penetration counts as
-/// solver error. Chosen; from 0 to 1 no answer changes by more than 5 % of its bar.
+/// solver error. Chosen; from 0 to 1 no answer changes by more than 5 % of its bar (case of `evidence tuning`).
 const FAR_PENETRATION_THRESHOLD: f64 = 0.3;
 /// Ratio of the total tension to the force above which an update only removes elements, because the gaps outside then say little.
-/// Chosen.
+/// Chosen (case of `evidence tuning`).
 ///
 /// Measured on dashpots of 128² elements whose moduli grow up to a million times with the frequency. Without this rule one light
 /// contact in seven is not found in 3000 operator applications, and others take three times as many. With 0.25 there are as many
@@ -39,11 +40,12 @@ const MAX_TENSILE_FRACTION: f64 = 0.2;
 /// Ratio of the largest residual of an inner solution to the largest gap that counts as closed. It is below 1, so that room is
 /// left for the projection onto p ≥ 0. Chosen (case of `evidence tuning`).
 const INNER_SHARE_OF_TOLERANCE: f64 = 0.5;
-/// Largest residual that always counts as closed, in units of the last place of the depth d: the rounding of a few operations.
-/// The depth of a long cylinder (plane strain) on a material of long memory may exceed the heights in contact a million times.
+/// Largest residual that always counts as closed, in units of the last place of the depth d. Chosen as the rounding of a few
+/// operations; a smaller one would ask for what rounding hides. The depth of a long cylinder (plane strain) on a material of long
+/// memory may exceed the heights in contact a million times.
 const DEPTH_ROUNDING_ULPS: f64 = 16.0;
 /// Number of times that the residual of an unchanged active set may grow, which only rounding error causes. Chosen to limit the
-/// time: beyond it the search fails with [`BemError::ContactNotConverged`].
+/// time: beyond it the search fails with [`BemError::ContactNotConverged`]. A contact that is found does not depend on it.
 const MAX_STAGNATIONS: usize = 5;
 
 /// Forcing terms of the inexact Newton method: inner residual over the residual that the last exchange left.
@@ -61,9 +63,9 @@ pub(crate) struct ForcingTerms {
 /// h + K p − d = 0  on the active set,   p = 0 outside
 /// ```
 pub(crate) trait FixedSetSolver {
-    /// True if the first row follows the last one.
+    /// True if the first row of elements follows the last one, as in a period; false for a single body.
     const PERIODIC_ALONG_X: bool;
-    /// Forcing terms of the inner solutions.
+    /// Forcing terms of the inner solutions, which decide the number of operator applications and not the contact that is found.
     const FORCING: ForcingTerms;
     /// Rows and columns of the grid.
     fn shape(&self) -> [usize; 2];
@@ -91,9 +93,9 @@ pub(crate) trait FixedSetSolver {
     fn is_next_to_active_set(&self, element: usize) -> bool;
     /// Scales the pressure to the given force, if a force is given.
     fn scale_to_force(&self, pressure: &mut [f64]);
-    /// Iterations so far, in the unit of the budget.
+    /// Number of iterations so far, in the unit in which the budget of the search is given.
     fn iterations(&self) -> usize;
-    /// True if no more iterations are allowed.
+    /// True if the budget of iterations allows no further update of the active set.
     fn budget_is_exhausted(&self) -> bool;
 }
 
@@ -316,6 +318,6 @@ impl<'a, P: FixedSetSolver> Search<'a, P> {
 struct PenetrationThresholds {
     /// Threshold for elements next to the active set.
     next_to_set: f64,
-    /// Threshold for all other elements.
+    /// Threshold for elements that are not next to the active set.
     far: f64,
 }

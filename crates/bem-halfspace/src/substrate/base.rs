@@ -312,14 +312,15 @@ impl Base {
     }
 }
 
-/// Largest ratio of the edge of an element to the thickness of the layer. Thinner layers are refused, because they act as a
-/// Winkler foundation or, if they are incompressible, as a film. Chosen.
+/// Largest ratio of the edge of an element to the thickness of the layer. Chosen: on the coarsest grid, five elements along the
+/// contact, a thinner layer is below 1/160 of the contact. It is refused, because it acts as a Winkler foundation or, if it is
+/// incompressible, as a film.
 pub(crate) const MAX_EDGE_OVER_THICKNESS: f64 = 32.0;
 /// Ratio of the half length of the contact to the thickness from which on a layer piles up fully in [`Base::pile_up_factor`].
-/// Measured by `evidence tuning`.
+/// Chosen; from 0.5 to 10 nothing changes (case of `evidence tuning`).
 const THIN_LAYER_RATIO: f64 = 5.0;
-/// Margin that [`Base::pile_up_factor`] adds on a thin layer beyond the pile-up itself, as a fraction of the height. Measured by
-/// `evidence tuning`.
+/// Margin that [`Base::pile_up_factor`] adds on a thin layer beyond the pile-up itself, as a fraction of the height. Chosen; with
+/// 2 a bar is 5.5 times as wide, with 0.1 half as wide (case of `evidence tuning`).
 const PILE_UP_MARGIN: f64 = 0.2;
 /// Distance from ρ = 0 to the nearest singularities ρ = ±2i of c(ρ). Derived from 1 − M ∼ s² e^(−2s), whose transform with J₀(sρ) is
 /// analytic for |Im ρ| < 2.

@@ -30,29 +30,33 @@ use crate::substrate::base::SINGULARITY_DISTANCE;
 pub(super) const RIGID_BASE_INFLUENCE_RADIUS: f64 = 44.0;
 /// Upper limit of the integral over s, without unit: on a layer on a rigid base 1 − M ∼ s² e^(−2s) is below 1e-15 beyond.
 pub(super) const MAX_WAVE_NUMBER: f64 = 24.0;
-/// Number of panels of the integral over s from 0 to [`MAX_WAVE_NUMBER`]. With [`POINTS_PER_WAVE_PANEL`] points each they resolve
-/// J₀(sρ) up to the influence radius.
+/// Number of panels of the integral over s from 0 to [`MAX_WAVE_NUMBER`]. Derived: up to the influence radius J₀(sρ) has 168
+/// waves, 21 on each panel, with 4.6 of the [`POINTS_PER_WAVE_PANEL`] points each.
 const NEAR_WAVE_PANELS: u8 = 8;
-/// Number of Lobatto points per panel of the integrals over s and u = sρ. A panel has up to 21 waves of J₀(sρ), with more than four
-/// points each.
+/// Number of Lobatto points per panel of the integrals over s and u = sρ. Chosen: a panel has up to 21 waves of J₀(sρ), with more
+/// than four points each, where the rule needs π.
 const POINTS_PER_WAVE_PANEL: usize = 96;
-/// Ratio of the length of a long panel of ρ to the distance |ρ ± 2i| from its start to the singularities of c. Chosen together
-/// with [`LONG_PANEL_TERMS`], whose number decides the error.
+/// Ratio of the length of a long panel of ρ to the distance |ρ ± 2i| from its start to the singularities of c. Chosen: the
+/// Bernstein ellipse through the singularities then has half axes whose sum is more than eight times half the panel. A longer
+/// panel needs more than [`LONG_PANEL_TERMS`].
 const PANEL_OVER_SINGULARITY_DISTANCE: f64 = 0.5;
-/// Number of polynomial coefficients on a long panel, with which the correction c(ρ) has an error of 1e-12.
+/// Number of polynomial coefficients on a long panel. Derived: the truncation error is of the order 8⁻¹⁶, or 4e-15, with the
+/// ellipse of [`PANEL_OVER_SINGULARITY_DISTANCE`]. The whole correction c(ρ) has an error of 1e-12.
 const LONG_PANEL_TERMS: usize = 16;
-/// Length of the short panels of ρ below the influence radius, in thicknesses; a power of two, so that a panel is found by an exact
-/// division. Chosen together with [`SHORT_PANEL_TERMS`].
+/// Length of the short panels of ρ below the influence radius, in thicknesses. Chosen as a power of two, so that a panel is found
+/// by an exact division, and so short that [`SHORT_PANEL_TERMS`] coefficients are enough.
 const SHORT_PANEL_LENGTH: f64 = 0.0625;
-/// Number of polynomial coefficients on a short panel, with which the correction c(ρ) has an error of 1e-12.
+/// Number of polynomial coefficients on a short panel. Derived: half a panel is 1/64 of the distance from the singularities ±2i,
+/// so that the truncation error is of the order 128⁻⁶, or 2e-13.
 const SHORT_PANEL_TERMS: usize = 6;
 
 /// End of the table, in thicknesses: the remainder of c beyond [M(0) − 1]/ρ falls like ρ^−3 and is below rounding from here on.
 const TABLE_END: f64 = 1e5;
-/// Width A of the window exp(−(u/A)^n) in the integral over u: with it the term O(A^−n ρ^−3) and the transform of the window are below
-/// 1e-12.
+/// Width A of the window exp(−(u/A)^n) in the integral over u. Derived: with it the term O(A^−n ρ^−3) of the head of this file
+/// and the transform of the window are below 1e-12.
 const WINDOW_WAVE_NUMBER: f64 = 120.0;
-/// Power n of the window exp(−(u/A)^n) in the integral over u; chosen together with [`WINDOW_WAVE_NUMBER`].
+/// Power n of the window exp(−(u/A)^n) in the integral over u. Chosen: A⁻⁶ is 3e-13 with [`WINDOW_WAVE_NUMBER`]; a smaller power
+/// needs a wider window.
 const WINDOW_POWER: i32 = 6;
 /// Number of panels of the integral over u from 0 to [`FAR_MAX_WAVE_NUMBER`]. With [`POINTS_PER_WAVE_PANEL`] points each, a wave of
 /// J₀(u) has more than twenty.

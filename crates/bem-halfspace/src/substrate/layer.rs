@@ -45,7 +45,7 @@ impl<'a, M: Material + ?Sized> Layer<'a, M> {
         Ok(Self::over(material, base))
     }
 
-    /// A layer on a base that was made for the same Poisson ratio.
+    /// A layer of a material on a base, which must have been made for the Poisson ratio of the material.
     pub(crate) const fn over(material: &'a M, base: Base) -> Self {
         Self { material, base }
     }

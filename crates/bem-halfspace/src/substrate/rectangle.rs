@@ -14,11 +14,11 @@ pub(crate) const EIGHT_POINT_DISTANCE: f64 = 8.0;
 /// Gauss–Legendre rule on [−1, 1] (NIST DLMF 3.5): the weight of the middle, and positive nodes with their weights.
 type Rule = (f64, &'static [(f64, f64)]);
 
-/// Gauss–Legendre rule of two points.
+/// Gauss–Legendre rule of two points on [−1, 1] (NIST DLMF 3.5), in the form of [`Rule`].
 const TWO_POINTS: Rule = (0.0, &[(0.577_350_269_189_625_8, 1.0)]);
-/// Gauss–Legendre rule of three points.
+/// Gauss–Legendre rule of three points on [−1, 1] (NIST DLMF 3.5), in the form of [`Rule`].
 const THREE_POINTS: Rule = (8.0 / 9.0, &[(0.774_596_669_241_483_4, 5.0 / 9.0)]);
-/// Gauss–Legendre rule of four points.
+/// Gauss–Legendre rule of four points on [−1, 1] (NIST DLMF 3.5), in the form of [`Rule`].
 const FOUR_POINTS: Rule = (
     0.0,
     &[
@@ -26,7 +26,7 @@ const FOUR_POINTS: Rule = (
         (0.861_136_311_594_052_6, 0.347_854_845_137_453_85),
     ],
 );
-/// Gauss–Legendre rule of five points.
+/// Gauss–Legendre rule of five points on [−1, 1] (NIST DLMF 3.5), in the form of [`Rule`].
 const FIVE_POINTS: Rule = (
     0.568_888_888_888_888_9,
     &[
@@ -34,7 +34,7 @@ const FIVE_POINTS: Rule = (
         (0.906_179_845_938_664, 0.236_926_885_056_189_1),
     ],
 );
-/// Gauss–Legendre rule of six points.
+/// Gauss–Legendre rule of six points on [−1, 1] (NIST DLMF 3.5), in the form of [`Rule`].
 const SIX_POINTS: Rule = (
     0.0,
     &[
@@ -43,7 +43,7 @@ const SIX_POINTS: Rule = (
         (0.932_469_514_203_152, 0.171_324_492_379_170_35),
     ],
 );
-/// Gauss–Legendre rule of eight points.
+/// Gauss–Legendre rule of eight points on [−1, 1] (NIST DLMF 3.5), in the form of [`Rule`].
 const EIGHT_POINTS: Rule = (
     0.0,
     &[

@@ -13,10 +13,11 @@ use crate::elements::mirror::n_images;
 
 /// Ratio of the area of the contact box that is needed to that of the present one, below which the box shrinks. It exceeds the
 /// ratio 0.6 at which the contact solver would iterate on a smaller box of its own. Chosen; from 0 to 0.99 no answer changes by
-/// more than 1e-8 of its bar.
+/// more than 1e-8 of its bar (case of `evidence tuning`).
 const SHRINKING_AREA_RATIO: f64 = 0.75;
 /// Factor on the tolerance of the contact in the penetration that is allowed outside the box. Derived: the tolerance counts once
-/// for the contact, and once for the transforms of box and footprint, which round differently.
+/// for the contact, and once for the transforms of box and footprint, which round differently. It has a case of
+/// `evidence tuning`.
 const OUTSIDE_TOLERANCE_RATIO: f64 = 2.0;
 
 impl March<'_> {

@@ -24,7 +24,7 @@ const MAX_HISTORY_STEPS: usize = 4096;
 /// extrapolated values, and so their ratio.
 const MIN_STEPS_PER_INTERVAL: usize = 8;
 /// Duration of a jump of force or depth, as a fraction of the duration of the history. Chosen: short compared with any interval,
-/// and far above the rounding of times.
+/// so that hardly anything creeps meanwhile, and far above the rounding 1e-16 of times.
 const JUMP_DURATION_FRACTION: f64 = 1e-9;
 
 /// The contact at one point of a history; an error of 0 says that a quantity is given.
@@ -51,11 +51,11 @@ pub struct IndentCurve {
     pub points: Vec<IndentPoint>,
     /// Parts of the error of the force, or of the depth under a force.
     pub error_parts: ErrorParts,
-    /// Elements in contact at the last point.
+    /// Number of elements in contact at the last point, on the finest grid.
     pub n_contact: usize,
-    /// Steps in time.
+    /// Number of steps in time on the finest grid.
     pub n_steps: usize,
-    /// The finest grid.
+    /// Spacing, footprint and tolerance of the finest grid.
     pub options: GridOptions,
 }
 

@@ -9,14 +9,17 @@ use rheology::{CreepSpectrum, Material as _};
 use super::{MotionRow, indent_history_on_grid};
 use crate::{BemError, Elastomer, GridOptions};
 
-/// Smallest ratio of successive changes by halving the steps that an error estimate uses: that of an error of the first order in their
-/// length. Changes that fall faster count with this ratio, because two of them may agree by chance.
+/// Smallest ratio of successive changes by halving the steps that an error estimate uses: that of an error of the first order in
+/// their length. Changes that fall faster count with this ratio, because two of them may agree by chance. It has a case of
+/// `evidence tuning`.
 const FIRST_ORDER_RATIO: f64 = 0.5;
-/// Ratio r of successive changes that is assumed if only one change is known, so that the error r/(1 − r) is twice that change. Chosen
-/// between 1/2, the ratio of the first order, and [`LARGEST_RATIO`]; it decides a bar only where a single halving is affordable.
+/// Ratio r of successive changes that is assumed if only one change is known, so that the error r/(1 − r) is twice that change.
+/// Chosen between 1/2, the ratio of the first order, and [`LARGEST_RATIO`]; it decides a bar only where a single halving is
+/// affordable. It has a case of `evidence tuning`.
 const ASSUMED_RATIO: f64 = 2.0 / 3.0;
-/// Largest ratio r of successive changes that an error estimate uses, with which the error is r/(1 − r) = 9 times the last change.
-/// Chosen: changes of the size of the contact tolerance no longer fall, and would give r = 1.
+/// Largest ratio r of successive changes that an error estimate uses, with which the error is r/(1 − r) = 9 times the last
+/// change. Chosen: changes of the size of the contact tolerance no longer fall, and would give r = 1. It has a case of
+/// `evidence tuning`.
 const LARGEST_RATIO: f64 = 0.9;
 
 /// How exactly a history is followed.
@@ -31,7 +34,7 @@ pub struct HistoryOptions {
 }
 
 impl HistoryOptions {
-    /// On a grid, with an error by the steps in time of at most 1e-3 and up to 256 steps between two rows.
+    /// Options for a grid, with an error by the steps in time of at most 1e-3 and up to 256 steps between two rows.
     #[must_use]
     pub const fn new(grid: GridOptions) -> Self {
         Self {

@@ -19,14 +19,16 @@ use crate::{BemError, Elastomer};
 use moving_surface::MovingSurface;
 
 /// Number of elements per shortest wave for the first error estimate. Its coarsest grid has three eighths as many, so that eight
-/// are the fewest that resolve the wave there. Twice as many make the bar 0.63 times as wide and take 8 times as long.
+/// are the fewest that resolve the wave there. Twice as many make the bar 0.63 times as wide and take 8 times as long. It has a
+/// case of `evidence tuning`.
 const ELEMENTS_PER_SHORTEST_WAVE: usize = 8;
-/// Relative tolerance of the contact of a step. Times the rms slope it is a part of the error of the friction of a cycle.
-/// Chosen; from 1e-9 to 1e-7 no answer changes by more than 1e-7 of its bar.
+/// Relative tolerance of the contact of a step. Times the rms slope it is a part of the error of the friction of a cycle. Chosen;
+/// from 1e-9 to 1e-7 no answer changes by more than 1e-7 of its bar (case of `evidence tuning`).
 const CONTACT_TOLERANCE: f64 = 1e-8;
-/// Upper bound of the memory per element without its history variables, \[bytes].
+/// Upper bound of the memory per element without its history variables, \[bytes]. Chosen above the sum of heights, pressures,
+/// gaps and the buffers of transforms and contact solver. It decides the stated memory only.
 const BYTES_PER_ELEMENT: f64 = 170.0;
-/// Upper bound of the memory per wave along x and step, for its three complex states, \[bytes].
+/// Upper bound of the memory per wave along x and step, \[bytes]: three complex states of 16 bytes each, with a margin.
 const BYTES_PER_WAVE: f64 = 80.0;
 
 /// Moves a sum of waves over a material at rest, along a path through points, or reciprocating up to the limit cycle.

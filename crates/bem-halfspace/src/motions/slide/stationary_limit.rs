@@ -16,9 +16,10 @@ use numerics::{between_zero_and_one, positive};
 use crate::motions::slide::{March, SlideRow, Transient};
 use crate::{BemError, Elastomer, GridOptions};
 
-/// Smallest number of steps that can be extrapolated to infinite distance: S, S/2 and S/4 must be different steps.
+/// Smallest number of steps S that can be extrapolated to infinite distance. Derived: S, S/2 and S/4 must be different steps.
 const MIN_STEPS: usize = 4;
-/// Smallest number of steps after which the change of extrapolated values is meaningful: half of them must allow an extrapolation.
+/// Smallest number of steps after which the change of extrapolated values is meaningful. Derived: half of them must allow an
+/// extrapolation, which takes [`MIN_STEPS`].
 const MIN_STEPS_OF_CHANGE: usize = 2 * MIN_STEPS;
 
 /// The limit of the friction coefficient for an infinite sliding distance.

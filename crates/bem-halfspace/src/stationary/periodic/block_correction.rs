@@ -31,7 +31,8 @@ use crate::{BemError, Grid};
 const BLOCK_LENGTH: usize = RowBlocks::MAX_COARSE_BLOCK;
 /// Weight of an element in the mean over a block, 1/[`BLOCK_LENGTH`].
 const INVERSE_BLOCK_LENGTH: f32 = 1.0 / BLOCK_LENGTH as f32;
-/// Initial tolerance of the residual of the block equation, relative to its right side. Chosen by measurements on rough contacts.
+/// Initial tolerance of the residual of the block equation, relative to its right side. Chosen by measurements on rough contacts
+/// (case of `evidence tuning`).
 ///
 /// On 1024² elements a contact takes an eighth to a third more operator applications with 1e-2. With 1e-3 it takes as many fewer,
 /// each of which takes longer.
@@ -40,13 +41,13 @@ const INITIAL_TOLERANCE: f64 = 3e-3;
 /// no digit of an answer changes.
 ///
 /// If the tolerance stays at its initial value, a dense contact on a solid of many branches takes four times as many operator
-/// applications.
+/// applications. It has a case of `evidence tuning`.
 const TOLERANCE_REDUCTION: f64 = 0.3;
-/// Lower bound of the tolerance of the block equation, relative to its right side. Chosen above the rounding of
-/// single precision, 6e-8; from 1e-7 to 1e-4 no digit of an answer changes.
+/// Lower bound of the tolerance of the block equation, relative to its right side. Chosen above the rounding of single precision,
+/// 6e-8; from 1e-7 to 1e-4 no digit of an answer changes (case of `evidence tuning`).
 const MIN_TOLERANCE: f64 = 1e-5;
 /// Ratio of the constant weight in the preconditioner of the block equation to the mean of the weights W that it replaces.
-/// Chosen: with 1 a contact takes a tenth longer, with 0.1 as long.
+/// Chosen: with 1 a contact takes a tenth longer, with 0.1 as long (case of `evidence tuning`).
 const MEAN_WEIGHT_FRACTION: f64 = 0.4;
 /// Limits of GCR for the block equation. Measured: up to 2048² elements 40 and 80 steps lead to about as many operator applications,
 /// and so do truncation depths of one, two and eight.

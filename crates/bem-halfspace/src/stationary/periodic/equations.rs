@@ -41,26 +41,28 @@ const MAX_STEPS_IF_TRUNCATED: usize = 80;
 /// A dense contact on a solid whose moduli differ by a factor of some thousand does not converge in 80 steps. Its residual falls
 /// only after a hundred steps with an untruncated basis.
 const MAX_STEPS: usize = 400;
-/// Memory budget of the GCR basis on a large grid, in single-precision numbers per element of the grid. Beyond it the oldest
-/// directions are dropped. Chosen.
+/// Memory budget of the GCR basis on a large grid, in single-precision numbers per element of the grid: two per active element
+/// and direction. Beyond it the oldest directions are dropped. Chosen to limit the memory.
 ///
 /// With 57 per cent of 2048² elements in contact and moduli that differ by a factor of 1000, there are 146 operator applications.
 /// With 12 numbers per element there are 274, and with 24 there are 136.
 const BASIS_FLOATS_PER_ELEMENT: usize = 16;
-/// Memory budget of the GCR basis on a small grid, in single-precision numbers per element of the grid. Chosen. Beyond it, or
-/// beyond [`MAX_BASIS_FLOATS_ON_SMALL_GRID`] in total, the oldest directions are dropped.
+/// Memory budget of the GCR basis on a small grid, in single-precision numbers per element of the grid. Beyond it, or beyond
+/// [`MAX_BASIS_FLOATS_ON_SMALL_GRID`] in total, the oldest directions are dropped. Chosen: it holds 128 directions if all
+/// elements are in contact, and all [`MAX_STEPS`] if less than a third are.
 pub(super) const BASIS_FLOATS_PER_ELEMENT_ON_SMALL_GRID: usize = 256;
 /// Largest size of the GCR basis on a small grid, in single-precision numbers: 64 MiB. Chosen to limit the memory. A larger basis
 /// has only [`BASIS_FLOATS_PER_ELEMENT`] numbers per element of the grid.
 pub(super) const MAX_BASIS_FLOATS_ON_SMALL_GRID: usize = 1 << 24;
-/// Ratio of two successive residuals of GCR above which the coarse-space correction is solved more accurately. Chosen; from
-/// 0.5 to 0.99 no answer changes by more than 1e-9 of its bar.
+/// Ratio of two successive residuals of GCR above which the coarse-space correction is solved more accurately. Chosen; from 0.5
+/// to 0.99 no answer changes by more than 1e-9 of its bar (case of `evidence tuning`).
 const STAGNATION_RATIO: f64 = 0.9;
 /// Factor on n³/N in the cost of a direct solve with n unknowns on a grid of N elements, in GCR steps. Measured on one thread:
 /// with the library faer (feature `dense`) it is 2e-4 to 7e-4 from 300 to 4000 unknowns. It decides the time, not the solution.
+/// It has a case of `evidence tuning`.
 const DIRECT_SOLVE_COST: f64 = if cfg!(feature = "dense") { 5e-4 } else { 5e-3 };
-/// Ratio of the operator applications on one grid so far to the cost of a direct solve, in the same unit, beyond which active sets are
-/// solved directly. Chosen.
+/// Ratio of the operator applications on one grid so far to the cost of a direct solve, in the same unit, beyond which active
+/// sets are solved directly. Chosen (case of `evidence tuning`).
 ///
 /// Measured on more than 5000 contacts on some 700 elements each, with moduli that differ by up to a million. Without this rule
 /// one in 800 is not found in 2000 operator applications.

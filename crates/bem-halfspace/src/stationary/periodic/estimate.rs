@@ -19,9 +19,11 @@ use crate::stationary::periodic::{
 };
 use crate::{BemError, ContactOptions, Elastomer, PressureField};
 
-/// Relative error in the request for the shape of a first grid. Any value serves, because the shape does not depend on it.
+/// Relative error in the request for the shape of a first grid. Chosen: any value serves, because the shape does not depend on
+/// it.
 const ANY_RELATIVE_ERROR: f64 = 0.1;
-/// Smallest number of steps of a march on the first grid. Chosen; it makes steps shorter than elements over short distances.
+/// Smallest number of steps of a march on the first grid. Chosen: it makes steps shorter than elements over short distances. The
+/// steps are halved with the elements, so that the bars contain their error with any number.
 const MIN_FIRST_STEPS: f64 = 4.0;
 
 /// Results for a periodic surface with error bars.

@@ -25,7 +25,7 @@ pub(crate) struct FourierMultiplier {
 }
 
 impl FourierMultiplier {
-    /// Wave numbers of a grid, and their stiffness on a `base` with lengths in \[m].
+    /// Wave numbers of the discrete Fourier transform on a grid, and their stiffness on a `base` with lengths in \[m].
     pub(crate) fn new(grid: &Grid, base: &Base) -> Self {
         let [rows, columns] = grid.shape();
         let [dx, dy] = grid.spacing();

@@ -12,16 +12,16 @@ use crate::stationary::periodic::equations::{
 };
 use crate::transform::fast_length::fast_length;
 
-/// Number of elements per shortest wave along an axis on the first grid. Chosen; docs/theory/rough-surfaces.md has how often bars hold
-/// with four.
+/// Number of elements per shortest wave along an axis on the first grid. Chosen (case of `evidence tuning`);
+/// docs/theory/rough-surfaces.md has how often bars hold with four.
 const FIRST_ELEMENTS_PER_WAVE: usize = 4;
 /// Largest number of elements of the last of three grids that begin with [`FIRST_ELEMENTS_PER_WAVE`]: 2048². Chosen to limit the
 /// time.
 ///
 /// Above it the first grid has one element per shortest wave, and contains only the waves that it resolves.
 pub(super) const MAX_USUAL_GRID: f64 = (1_u64 << 22) as f64;
-/// The edges of a first grid with one element per shortest wave are multiples of this number of elements, so that
-/// nested iteration can coarsen them. Chosen; from 2 to 32 no digit of an answer changes.
+/// The edges of a first grid with one element per shortest wave are multiples of this number of elements, so that nested
+/// iteration can coarsen them. Chosen; from 2 to 32 no digit of an answer changes (case of `evidence tuning`).
 const COARSE_EDGE_MULTIPLE: usize = 8;
 /// Upper bound of the memory per element without the GCR basis, \[bytes]; a test compares memory stated and taken (tests/it/memory.rs).
 const BYTES_PER_ELEMENT: f64 = 186.0;

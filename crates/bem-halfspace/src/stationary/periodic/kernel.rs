@@ -34,7 +34,8 @@ pub(crate) struct Sliding {
 }
 
 impl Sliding {
-    /// The material at a speed \[m/s]; fails for one that flows.
+    /// Creep, base and Poisson factor of an elastomer, with the sliding speed \[m/s]. A material that flows is refused as
+    /// [`BemError::FlowsUnderWaves`].
     pub(crate) fn new(elastomer: &dyn Elastomer, velocity: f64) -> Result<Self, BemError> {
         check_spectra(&elastomer.material())?;
         let creep = elastomer.material().creep();
@@ -123,7 +124,7 @@ pub(super) struct PeriodicKernel {
 }
 
 impl PeriodicKernel {
-    /// The kernel of a material and its speed on a grid.
+    /// Kernel of a material at its speed on a grid, as a compliance for each wave.
     pub(super) fn new(sliding: &Sliding, grid: &Grid) -> Result<Self, BemError> {
         // Compute the compliance of each row of the transform, and from the loss angle of the shortest wave the shift θ in elements.
         let dx = grid.spacing()[0];

@@ -76,7 +76,7 @@ pub struct PeriodicOptions {
 }
 
 impl Default for PeriodicOptions {
-    /// 1e-6, and 2000 products.
+    /// Relative tolerance 1e-6, and at most 2000 operator applications.
     fn default() -> Self {
         Self {
             tolerance: 1e-6,

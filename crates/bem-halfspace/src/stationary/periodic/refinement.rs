@@ -26,7 +26,8 @@ pub(super) const FRICTION_RATE: ConvergenceRate = ConvergenceRate {
     min_reduction: 0.15,
     expected_reduction: 0.25,
 };
-/// Assumed convergence of the stationary area; chosen like [`FRICTION_RATE`].
+/// Assumed convergence of the stationary area, as [`FRICTION_RATE`] with 0.3 in place of 0.15 of the change before the last one.
+/// Chosen on rough contacts; docs/theory/rough-surfaces.md has how often the bars hold.
 pub(super) const AREA_RATE: ConvergenceRate = ConvergenceRate {
     min_reduction: 0.3,
     ..FRICTION_RATE
@@ -38,18 +39,19 @@ pub(super) const FIRST_ORDER_RATE: ConvergenceRate = ConvergenceRate {
     expected_reduction: 0.5,
 };
 /// Smallest ratio of the error bar of the mean friction to the difference of the frictions from slopes and from dissipation. It
-/// applies if the friction from slopes has the smaller bar. Chosen.
+/// applies if the friction from slopes has the smaller bar. Chosen (case of `evidence tuning`).
 ///
 /// Of 1135 results the worst erred by 4.2 bars without this bound, and by 2.6 bars with it.
 const MIN_ERROR_OVER_DIFFERENCE: f64 = 0.25;
-/// Smallest number of elements in contact, on the coarsest grid of an error estimate, for bars to hold. With fewer, the active set
-/// decides the friction, and two grids may agree by chance. Chosen; from 0 to 30 no digit of an answer changes.
+/// Smallest number of elements in contact, on the coarsest grid of an error estimate, for bars to hold. With fewer, the active
+/// set decides the friction, and two grids may agree by chance. Chosen; from 0 to 30 no digit of an answer changes (case of
+/// `evidence tuning`).
 pub(crate) const MIN_CONTACT_ELEMENTS: usize = 30;
-/// Relative tolerance of the contact on the first grid, halved on each of the next, whatever error is asked for.
-/// Chosen; from 1e-7 to 1e-4 no answer changes by more than 3 % of its bar.
+/// Relative tolerance of the contact on the first grid, halved on each of the next, whatever error is asked for. Chosen; from
+/// 1e-7 to 1e-4 no answer changes by more than 3 % of its bar (case of `evidence tuning`).
 pub(super) const FIRST_TOLERANCE: f64 = 1e-5;
 /// Ratio of the relative error that a bar allows for the solver to the relative residual of the contact. Chosen; from 1 to 100 no
-/// bar changes by more than 10 %.
+/// bar changes by more than 10 % (case of `evidence tuning`).
 const RESIDUAL_AMPLIFICATION: f64 = 10.0;
 /// Largest product of the number of elements and the number of steps of a march, about half an hour of one thread. Chosen to
 /// limit the time: a larger march fails with [`BemError::GridTooLarge`].

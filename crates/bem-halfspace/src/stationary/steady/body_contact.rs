@@ -10,7 +10,7 @@ use crate::stationary::steady::mesh::Mesh;
 use crate::stationary::steady::plans::Plans;
 
 /// Largest allowed ratio of the RMS residual on an active set to the increase of the gap along one element at the front. Chosen;
-/// from 1e-5 to 1e-2 no answer changes by more than 4 % of its bar.
+/// from 1e-5 to 1e-2 no answer changes by more than 4 % of its bar (case of `evidence tuning`).
 const INNER_TOLERANCE_OVER_OPENING: f64 = 1e-3;
 
 /// A solved contact, in the units of the mesh.

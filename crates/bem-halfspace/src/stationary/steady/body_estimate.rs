@@ -20,11 +20,11 @@ use crate::{BemError, Elastomer};
 
 /// Convergence order that is assumed for the friction of a smooth body on a given number of elements. The front of the contact
 /// causes the order 3/2, a contact boundary that follows the elements a lower one. Chosen: with 1.1 the error estimates hold in
-/// 98.8 of 100 random scenes (docs/calibration.md), with 3/2 in 90. With 1 they are wider.
+/// 98.8 of 100 random scenes (docs/calibration.md), with 3/2 in 90. With 1 they are wider. It has a case of `evidence tuning`.
 const BODY_ORDER: f64 = 1.1;
-/// Ratio of the error of the friction from dissipation to that of the friction from slopes, on a given number of
-/// elements, below which the former replaces the latter. The smaller of two error estimates holds less often than
-/// either. Chosen (case of `evidence tuning`).
+/// Ratio of the error of the friction from dissipation to that of the friction from slopes, on a given number of elements, below
+/// which the former replaces the latter. Chosen below 1, because the smaller of two error estimates holds less often than either
+/// (case of `evidence tuning`).
 const MAX_DISSIPATION_ERROR_RATIO_ON_ELEMENTS: f64 = 0.2;
 /// Largest number of footprints that are tried. Chosen to limit the time: a contact that reaches the boundary of the last one is
 /// an error. Each is 1.5 times as long as the one before, so that the last is 11 times as long as the first.

@@ -26,7 +26,7 @@ use crate::stationary::steady::wiener_hopf::WienerHopf;
 /// and exact to rounding.
 ///
 /// Measured: beyond the limit the few steps from a good guess are faster. At 145 unknowns they take 0.1 to 0.3 ms against 0.4 ms,
-/// at 557 unknowns 0.4 to 0.7 ms against 7 ms.
+/// at 557 unknowns 0.4 to 0.7 ms against 7 ms. It has a case of `evidence tuning`.
 const DIRECT_SOLVE_WORK_PER_ELEMENT: f64 = 5e3;
 /// Largest number of GCR steps on one active set, and of directions in the basis. Chosen to limit time and memory; a
 /// preconditioned contact needs some tens. Beyond it the search of a contact goes on with the loads so far. Adjoint equations are
@@ -61,10 +61,11 @@ pub(super) struct ContactEquations<'mesh> {
 }
 
 impl FixedSetSolver for ContactEquations<'_> {
-    /// A single body has ends along x.
+    /// False: a single body has ends along x.
     const PERIODIC_ALONG_X: bool = false;
-    /// Chosen. With ten times these values there are 1.4 times as many active sets, which take a tenth longer in total. With a
-    /// third of these values hardly anything changes.
+    /// Forcing terms of the contact of a body. Chosen on the time; the contact that is found is the same. With ten times these
+    /// values there are 1.4 times as many active sets, which take a tenth longer in total. With a third of these values hardly
+    /// anything changes.
     const FORCING: ForcingTerms = ForcingTerms {
         usual: 0.02,
         after_growth: 0.006,
@@ -98,7 +99,7 @@ impl FixedSetSolver for ContactEquations<'_> {
         (control.depth != 0.0).then(|| (control.right - control.load * total) / control.depth)
     }
 
-    /// Collects the active candidates with their loads and gaps, and counts the active set.
+    /// Makes the active candidates with their loads and gaps the active set, and counts it.
     fn set_active_set(&mut self, active: &[bool], pressure: &[f64], gap: &[f64]) {
         let elements = (0..active.len()).filter(|element| active[*element]);
         self.active = elements.collect();
@@ -112,7 +113,8 @@ impl FixedSetSolver for ContactEquations<'_> {
         norm(&self.gaps) / (self.active.len() as f64).sqrt()
     }
 
-    /// Solves directly if that is cheaper, else by GCR until the gaps are below `rms` or `max`.
+    /// Solves the equations on the active set directly if that is cheaper, else by GCR until the RMS gap is below `rms` or the
+    /// largest below `max`, in units of the depth scale.
     fn solve(&mut self, rms: f64, max: f64) -> Result<(), BemError> {
         let region = self.mesh.region(self.active.iter().copied());
         self.solved_directly = prefers_direct_solve(self.active.len(), region.n_box_elements());
@@ -152,7 +154,7 @@ impl FixedSetSolver for ContactEquations<'_> {
 }
 
 impl<'mesh> ContactEquations<'mesh> {
-    /// The equations with an empty active set.
+    /// Equations of a body on a mesh, with an empty active set.
     pub(super) fn new(mesh: &'mesh Mesh, plans: &'mesh mut Plans) -> Self {
         let candidates = mesh.region(0..mesh.n_elements());
         Self {
@@ -239,7 +241,7 @@ struct Directions<'a> {
 }
 
 impl<'a> Directions<'a> {
-    /// Directions on the active set of some equations, which fills `region`.
+    /// Search directions on the active set of `equations`, whose bounding box is `region`.
     fn new<'mesh: 'a>(equations: &mut ContactEquations<'mesh>, region: &'a Region) -> Self {
         let (mesh, plans) = (equations.mesh, &mut *equations.plans);
         let mut preconditioner = WienerHopf::new(plans.inverse_factors(region.shape), region);
@@ -272,7 +274,7 @@ impl<'a> Directions<'a> {
         direction.copy_from_slice(&loads);
     }
 
-    /// Sum of the loads, mirror images included.
+    /// Sum of the loads of the active set, in units of the mesh, mirror images included.
     fn total(&self, loads: &[f64]) -> f64 {
         dot(loads, &self.n_images)
     }

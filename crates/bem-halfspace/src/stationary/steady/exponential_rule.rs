@@ -14,11 +14,12 @@ use numerics::{LobattoRule, legendre_values, lobatto_rule, whole_part};
 
 /// Largest number of points of a rule: that of the most accurate panels (`retarded_potential.rs`).
 pub(super) const MAX_POINTS: usize = 12;
-/// Argument z = rate/2 of the Bessel functions above which their recurrence runs upwards in the degree, stable for degrees up to z;
-/// up to it the recurrence runs downwards. Chosen; from 30 to 120 no answer changes by more than 1e-10 of its bar.
+/// Argument z = rate/2 of the Bessel functions above which their recurrence runs upwards in the degree, stable for degrees up to
+/// z; up to it the recurrence runs downwards. Chosen; from 30 to 120 no answer changes by more than 1e-10 of its bar (case of
+/// `evidence tuning`).
 const UPWARD_RECURRENCE_ARGUMENT: f64 = 60.0;
-/// Degrees by which the downward recurrence starts above the largest degree plus 2 z, so that its truncation is below
-/// rounding error. Chosen; from 20 to 80 no digit of an answer changes.
+/// Degrees by which the downward recurrence starts above the largest degree plus 2 z, so that its truncation is below rounding
+/// error. Chosen; from 20 to 80 no digit of an answer changes (case of `evidence tuning`).
 const EXTRA_DEGREES: usize = 40;
 
 /// Points on [0, 1] or around it, and the projection of values at them onto Legendre polynomials.
@@ -30,7 +31,7 @@ pub(super) struct ExponentialRule {
 }
 
 impl ExponentialRule {
-    /// The rule of 2 to [`MAX_POINTS`] Gauss–Lobatto points.
+    /// Rule of `n_points` Gauss–Lobatto points on [0, 1], from 2 to [`MAX_POINTS`].
     pub(super) fn new(n_points: usize) -> Self {
         let degree = n_points - 1;
         let LobattoRule { nodes, weights } = lobatto_rule(n_points);

@@ -27,28 +27,29 @@ use crate::stationary::steady::loading::Loading;
 use crate::stationary::steady::solution::{SteadyEstimate, SteadySliding};
 use crate::stationary::steady::{Reuse, SteadyOptions, solve};
 
-/// Shifts of the grid along x and y, in elements, which keep the mirror symmetry in y. The first two and the last two are diagonal
-/// pairs.
+/// Shifts of the grid along x and y, in elements, which keep the mirror symmetry in y. Derived: each of the two diagonal pairs,
+/// the first two and the last two, cancels the first harmonic of the scatter along either axis.
 const BODY_PHASES: [[f64; 2]; 4] = [[0.0, 0.0], [0.5, 0.5], [0.5, 0.0], [0.0, 0.5]];
 /// Shifts of the grid in plane strain, in elements. As a function of the shift the friction has a second harmonic, by which the means
 /// over the first two and over the last two differ. The mean of all four eliminates it.
 const STRIP_PHASES: [[f64; 2]; 4] = [[0.0, 0.0], [0.5, 0.0], [0.25, 0.0], [-0.25, 0.0]];
 /// Number of refinements in plane strain, up to the last one, whose largest scatter is added to the error bar. On a single one
 /// the scatter may be small by chance, and the extrapolated limit contains that of all values that it uses. Chosen; with 1 the
-/// bar of the cylinder is 0.15 times as wide.
+/// bar of the cylinder is 0.15 times as wide (case of `evidence tuning`).
 const STRIP_SCATTER_WINDOW: usize = 4;
-/// Convergence order that is assumed for the contact area in sliding, because the boundary of the contact follows the elements.
+/// Convergence order that is assumed for the contact area in sliding. Chosen: the boundary of the contact moves by whole
+/// elements, an error of the first order in their edges.
 const AREA_ORDER: f64 = 1.0;
 /// Factor on the error of the friction on any material but a dashpot. There the whole contact boundary scatters, and the scatter
 /// of the last refinement may be small by chance. Chosen: with this factor 98.6 of 100 error estimates hold on random solids and
-/// cylinders, without it 95.8 (docs/calibration.md).
+/// cylinders, without it 95.8 (docs/calibration.md; case of `evidence tuning`).
 const SAFETY_FACTOR_CREEPING: f64 = 1.5;
-/// Ratio of friction to mean slope below which the friction is a small difference of slopes, and higher orders are
-/// tried. A larger friction reaches the requested error without them. Chosen; from 0 to 0.2 no digit of an answer
-/// changes, with 1 bars become 0.2 to 0.4 times as wide.
+/// Ratio of friction to mean slope below which the friction is a small difference of slopes, and higher orders are tried. A
+/// larger friction reaches the requested error without them. Chosen; from 0 to 0.2 no digit of an answer changes, with 1 bars
+/// become 0.2 to 0.4 times as wide (case of `evidence tuning`).
 const SMALL_FRICTION_RATIO: f64 = 0.2;
 /// Smallest number of refinements for an error estimate. Derived: an elimination shortens the sequence of values by two, and the
-/// estimate needs three limits.
+/// estimate needs three limits. It has a case of `evidence tuning`.
 const MIN_REFINEMENTS: i32 = 5;
 /// Largest ratio of the elements of a footprint to the allowed number of unknown pressures. Chosen to limit memory and time:
 /// refinement ends before a larger grid. The ratio is large because a steep body touches with a thin crescent.
@@ -59,25 +60,29 @@ const LARGE_GRID_ELEMENTS: f64 = 2e6;
 /// Largest ratio of the elements of a footprint of more than [`LARGE_GRID_ELEMENTS`] to the allowed number of unknown pressures.
 /// Chosen to limit memory and time: refinement ends before a larger grid.
 const LARGE_GRID_ELEMENTS_PER_UNKNOWN: f64 = 12.5;
-/// Number of footprint elements up to which a grid is never refused, because such grids take a fraction of a second. Chosen.
+/// Number of footprint elements up to which a grid is never refused. Chosen: such grids take a fraction of a second and about 0.1
+/// GB.
 const MIN_GRID_LIMIT: f64 = 1e5;
-/// Aspect ratio Δy/Δx of the elements under a body unless another is asked for: the contact boundary is steeper
-/// across the sliding direction than along it, so that it moves less from row to row. Chosen.
+/// Aspect ratio Δy/Δx of the elements under a body unless another is asked for. Chosen (case of `evidence tuning`): the contact
+/// boundary is steeper across the sliding direction than along it, so that it moves less from row to row.
 pub(super) const DEFAULT_ASPECT: f64 = 0.5;
-/// Factors on the spacing that are tried in turn where the active set cycles. Chosen close to 1: another grid has
-/// another active set, and the spacing that is reported is that of the grid that was solved.
+/// Factors on the spacing that are tried in turn where the active set cycles. Chosen close to 1: another grid has another active
+/// set, and the spacing that is reported is that of the grid that was solved. Two are tried to limit the time; then the search
+/// fails.
 const CYCLING_SPACING_FACTORS: [f64; 2] = [0.99, 0.98];
 /// Factor on the requested relative error, times the ratio of the friction to the mean slope, that gives the tolerance of a
-/// contact. Measured by `evidence tuning`.
+/// contact. Chosen; from 1e-6 to 1e-2 only times change, by up to a fifth (case of `evidence tuning`).
 const RESIDUAL_SHARE: f64 = 1e-4;
-/// The factor of the tolerance like [`RESIDUAL_SHARE`], but in plane strain. It is larger, because the constant potential of the
-/// whole strip, which is absorbed in the depth, leaves more rounding error. Chosen; from 1e-4 to 1e-2 no answer changes by more
-/// than 0.3 % of its bar.
+/// Factor on the requested relative error that gives the tolerance of a contact in plane strain, in place of [`RESIDUAL_SHARE`].
+/// It is larger, because the constant potential of the whole strip, which is absorbed in the depth, leaves more rounding error.
+/// Chosen; from 1e-4 to 1e-2 no answer changes by more than 0.3 % of its bar (case of `evidence tuning`).
 const STRIP_RESIDUAL_SHARE: f64 = 1e-2;
-/// Smallest tolerance of a contact, relative to the depth scale. Chosen above the rounding error of the transforms.
+/// Smallest tolerance of a contact, relative to the depth scale. Chosen above the rounding error of the transforms, from which a
+/// smaller residual could not be told (case of `evidence tuning`).
 const MIN_TOLERANCE: f64 = 1e-12;
-/// Ratio of the error of the friction to the mean slope below which the friction of an elastic material counts as known. The
-/// tolerances of the contacts and the rounding of sums leave about as much. Chosen.
+/// Ratio of the error of the friction to the mean slope below which the friction of an elastic material counts as known. Chosen:
+/// its friction is 0, and the tolerances of the contacts and the rounding of sums leave about as much. With a smaller ratio such
+/// a refinement would go on to the limit of unknowns.
 const ELASTIC_ROUNDING: f64 = 1e-9;
 
 /// Requested error, shape of the elements and limits of the work of a refinement.
@@ -150,11 +155,7 @@ pub(super) fn refine<E: Into<Reached>>(
     bars::reached_or_error(finest.missed, Name::of_quantity, found)
 }
 
-/// Convergence order of the averages.
-///
-/// # Errors
-/// [`BemError::InvalidParameter`] for an apex exponent of at most 1/2, for which the friction of the apex alone is infinite, as in the
-/// one-dimensional model.
+/// Convergence order of the friction and of the averages over shifts, for the exponent of the apex of the body.
 fn order_of_friction(apex_exponent: f64) -> Result<f64, BemError> {
     let order = (2.0 * apex_exponent - 1.0).min(FRONT_ORDER);
     in_range("apex exponent", apex_exponent, order > 0.0, "above 1/2")?;
@@ -352,7 +353,7 @@ impl ShiftedGrids<'_> {
         given.or_else(|| has_depth.then(|| self.limit(self.order, |level| level.indentation_depth)))
     }
 
-    /// All quantities with their errors.
+    /// The estimate with the given friction and force, and with the extrapolated values and errors of all other quantities.
     fn estimate(
         &self,
         friction: Estimate,

@@ -32,19 +32,20 @@ use crate::{BemError, Elastomer, Footprint};
 const COARSEST_PER_HALF_LENGTH: f64 = 4.0;
 /// Distance of the rear of the footprint behind the lowest point, in half lengths of the contact of a cylinder on an elastic half
 /// space. No contact reaches further back than the elastic one, at 1. Chosen; from 1 to 4 no answer changes by more than 1e-8 of
-/// its bar.
+/// its bar (case of `evidence tuning`).
 const FOOTPRINT_REAR: f64 = 2.0;
 /// Distance of the front of the footprint ahead of the lowest point on a material without memory. The unit is half the contact
 /// length of a cylinder on an elastic half space. Chosen; from 1 to 5 no answer changes by more than 2e-8 of its bar, because a
-/// footprint that is reached grows.
+/// footprint that is reached grows (case of `evidence tuning`).
 const FOOTPRINT_FRONT: f64 = 2.5;
-/// Shift of the front of the footprint per e-fold of the memory length, in half lengths of the contact on an elastic
-/// half space: the distance ahead at which the surface still rises grows with the logarithm of the memory length.
-/// Chosen; from 0.1 to 2 no answer changes by more than 1e-8 of its bar.
+/// Shift of the front of the footprint per e-fold of the memory length, in half lengths of the contact on an elastic half space:
+/// the distance ahead at which the surface still rises grows with the logarithm of the memory length. Chosen; from 0.1 to 2 no
+/// answer changes by more than 1e-8 of its bar (case of `evidence tuning`).
 const FOOTPRINT_FRONT_PER_LOG_MEMORY: f64 = 0.5;
 
-/// Convergence order that is assumed under a smooth profile on a given number of elements; docs/calibration.md has how often the bars
-/// hold. It is higher than that of bodies, whose contact boundary follows the elements.
+/// Convergence order that is assumed under a smooth profile on a given number of elements. It is higher than that of bodies,
+/// whose contact boundary follows the elements. Chosen on random scenes: docs/calibration.md has how often the bars hold. It has
+/// a case of `evidence tuning`.
 const PROFILE_ORDER: f64 = 1.2;
 
 /// Largest number of unknown pressures in plane strain. Chosen to limit the time, since systems of this size are solved directly:
@@ -223,7 +224,7 @@ pub(super) struct Strip<'a> {
 }
 
 impl<'a> Strip<'a> {
-    /// A strip of the length that a loading has for its profile.
+    /// Strip that stands for an infinite profile, with the length along y that `loading` gives it.
     fn new(profile: &'a dyn Surface, loading: &Loading) -> Self {
         Self {
             profile,

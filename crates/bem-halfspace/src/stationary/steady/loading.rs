@@ -24,9 +24,9 @@ const DISTANCE_ON_SOLID: f64 = 100.0;
 pub(super) struct ControlEquation {
     /// Coefficient of the depth δ; 0 under a given force.
     pub(super) depth: f64,
-    /// Coefficient of the total load Σ x.
+    /// Coefficient of the total load Σ x in the equation.
     pub(super) load: f64,
-    /// Right side.
+    /// Right side of the equation, in its unit.
     pub(super) right: f64,
 }
 
@@ -50,7 +50,7 @@ pub(super) struct Loading {
 
 /// Ratio of the length of a strip along y to the sum of the lengths of its footprint and of its memory along x. The relative
 /// difference from an infinite strip is of the order of the inverse square of this ratio, 1e-10. Chosen; from 1e4 to 1e6 no
-/// answer changes by more than 3e-6 of its bar.
+/// answer changes by more than 3e-6 of its bar (case of `evidence tuning`).
 const STRIP_LENGTH_RATIO: f64 = 1e5;
 
 impl Loading {
@@ -125,7 +125,7 @@ impl Loading {
         self.strip.map_or(scaled, |_| [factor * dx, dy])
     }
 
-    /// The loading on a grid, with its units.
+    /// Scale, control and creep of the loading in the units of a grid with the given spacing \[m].
     pub(super) fn on_grid(&self, spacing: [f64; 2]) -> Result<GridLoading, BemError> {
         // Find the units of the grid: the creep over an element, and the force that belongs to the depth scale.
         let creep = self.creep.over_element(spacing[0])?;
@@ -201,9 +201,9 @@ pub(super) struct GridLoading {
     spacing: [f64; 2],
     /// True if one element along y stands for an infinite strip.
     pub(super) is_strip: bool,
-    /// See [`Loading::has_edges`].
+    /// True if the slope of the body jumps inside the contact, as [`Loading::has_edges`].
     pub(super) has_edges: bool,
-    /// See [`Loading::may_have_patches`].
+    /// True if patches of the contact are checked, as [`Loading::may_have_patches`].
     pub(super) may_have_patches: bool,
 }
 

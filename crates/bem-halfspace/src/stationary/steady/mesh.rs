@@ -23,8 +23,8 @@ use crate::stationary::steady::region::Region;
 use crate::stationary::steady::wake_table::WakeTable;
 use crate::{BemError, Grid};
 
-/// Height below which elements are in the initial active set, in units of the depth scale. Chosen: about the height at the sides of the
-/// contact of a paraboloid. It decides the number of active sets, not the solution.
+/// Height below which elements are in the initial active set, in units of the depth scale. Chosen: about the height at the sides
+/// of the contact of a paraboloid. It decides the number of active sets, not the solution (case of `evidence tuning`).
 const GUESSED_HEIGHT: f64 = 0.5;
 
 /// A candidate: an element that may touch.
@@ -140,7 +140,7 @@ impl Mesh {
         self.elements.len()
     }
 
-    /// The region of some candidates, given by their indices.
+    /// Bounding box of some candidates, given by their indices, with the places of these candidates in it.
     pub(super) fn region(&self, elements: impl Iterator<Item = usize> + Clone) -> Region {
         Region::around(elements.map(|element| self.indices(element)))
     }
@@ -217,7 +217,7 @@ impl Mesh {
         column - whole_part(distance.round())
     }
 
-    /// True if an element has a mirror image other than itself.
+    /// True if an element has a mirror image in y other than itself, which carries the same load.
     fn has_image(&self, element: &Element) -> bool {
         match self.mirror {
             Mirror::None => false,
@@ -322,7 +322,7 @@ impl Mesh {
         low.map(|element| (element, f64::EPSILON)).collect()
     }
 
-    /// Scales loads to the given force exactly, if a force is given.
+    /// Multiplies all loads by one factor so that their sum is the given force exactly; at a given depth nothing changes.
     pub(super) fn scale_to_force(&self, loads: &mut [f64]) {
         let control = self.loading.control;
         if control.depth == 0.0 {

@@ -63,10 +63,12 @@ pub use sinking_depth::SinkingDepth;
 pub use solution::{SteadyEstimate, SteadySliding};
 pub use wake_influence::wake_influence;
 
-/// Number of candidate elements of a mesh above which nested iteration is used: the solution on a coarser mesh is the
-/// initial guess. Chosen; with 500 or more, also with none at all, no answer changes by more than 1e-10 of its bar.
+/// Number of candidate elements of a mesh above which nested iteration is used: the solution on a coarser mesh is the initial
+/// guess. Chosen; with 500 or more, also with none at all, no answer changes by more than 1e-10 of its bar (case of
+/// `evidence tuning`).
 const NESTED_ITERATION_MIN_ELEMENTS: usize = 500;
-/// Ratio of the spacing of the coarser mesh of a nested iteration to that of the finer one. Chosen.
+/// Ratio of the spacing of the coarser mesh of a nested iteration to that of the finer one. Chosen (case of `evidence tuning`): a
+/// smaller one gives a better initial guess for more work. The solution does not depend on it.
 const NESTED_ITERATION_SPACING_FACTOR: f64 = 2.0;
 
 /// One grid for a stationary solution. In plane strain its values along y have no effect.
@@ -79,14 +81,14 @@ pub struct SteadyOptions {
     /// −1/2 and 1/2. A body that is mirror symmetric in y shares its symmetry with the grid for 0 and ±1/2 along y;
     /// then half of the problem is solved.
     pub phase: [f64; 2],
-    /// Where contact may occur.
+    /// Rectangle around the lowest point in which contact may occur, \[m].
     pub footprint: Footprint,
     /// Largest residual h + u − d allowed in the contact, and largest penetration outside, relative to the depth scale D.
     /// That is F_N/(4ηv) on a dashpot, the solution of D = h(a) = 2 (1 − ν) F_N J(a/v)/(4a) on any material, with the mean
     /// height h(a) at the distance a from the lowest point, and the depth where that is given.
     /// A residual of some units in the last place of the depth is always allowed.
     pub tolerance: f64,
-    /// Largest number of active sets.
+    /// Largest number of active sets that the search may try.
     pub max_iterations: usize,
 }
 

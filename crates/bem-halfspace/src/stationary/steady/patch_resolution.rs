@@ -8,10 +8,10 @@ use crate::error::check_contact_elements;
 
 /// Fraction of the total load that a patch must carry to be checked for its resolution. The error estimates of a contact contain
 /// the effect of smaller patches. Chosen; from 0 to 1 no digit of an answer changes: it decides which grids are refused as too
-/// coarse.
+/// coarse (case of `evidence tuning`).
 const NEGLIGIBLE_LOAD_FRACTION: f64 = 0.01;
-/// Smallest number of elements across the sliding direction in the widest row of a patch. Chosen: on one to three of them, several
-/// grids may agree by chance.
+/// Smallest number of elements across the sliding direction in the widest row of a patch. Chosen: on one to three of them,
+/// several grids may agree by chance. It has a case of `evidence tuning`.
 pub(super) const MIN_ELEMENTS_ACROSS: usize = 4;
 
 /// A loaded element as ([row, column], load).

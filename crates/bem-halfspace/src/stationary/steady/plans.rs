@@ -25,7 +25,8 @@ pub(super) struct Plans {
 }
 
 impl Plans {
-    /// Prepares for boxes of up to `shape` elements, and returns the table of the kernel.
+    /// Extends the table of the kernel to boxes of up to `shape` elements, and returns it. Tables and spectra of another creep or
+    /// aspect ratio are dropped.
     pub(super) fn prepare(
         &mut self,
         creep: &ElementCreep,
@@ -44,7 +45,7 @@ impl Plans {
         Arc::clone(&self.table)
     }
 
-    /// The kernel for loads and displacements within a box of `shape` elements.
+    /// Spectrum of the kernel for loads and displacements within a box of `shape` elements, cached by period.
     pub(super) fn kernel(&mut self, shape: [usize; 2]) -> Arc<Filters<1>> {
         let (padded, table) = (shape.map(padded_length), &self.table);
         cached(&mut self.kernels, padded, |transform| {
@@ -53,7 +54,7 @@ impl Plans {
         })
     }
 
-    /// The inverse Wiener–Hopf factors for a box of `shape` elements.
+    /// Spectra of the inverse Wiener–Hopf factors for a box of `shape` elements, cached by period.
     pub(super) fn inverse_factors(&mut self, shape: [usize; 2]) -> Arc<Filters<2>> {
         let (padded, table) = (wiener_hopf::period(shape), &self.table);
         cached(&mut self.factors, padded, |transform| {

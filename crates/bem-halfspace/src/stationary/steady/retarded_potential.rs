@@ -24,11 +24,11 @@ use crate::stationary::steady::sliding_creep::ElementCreep;
 struct DistanceRule {
     /// Smallest distance, in the lengths of [`PANEL_RULES`] or [`ROW_RULES`].
     min_distance: f64,
-    /// Number of points.
+    /// Number of points of the rule.
     n_points: usize,
 }
 
-/// The rule of `n_points` points from a distance on.
+/// Rule of `n_points` points that is accurate from the distance `min_distance` on.
 const fn from_distance(min_distance: f64, n_points: usize) -> DistanceRule {
     DistanceRule {
         min_distance,
@@ -36,16 +36,16 @@ const fn from_distance(min_distance: f64, n_points: usize) -> DistanceRule {
     }
 }
 
-/// Gauss–Lobatto rules on a panel, from the fewest points on; distances are in panel lengths. With n points the error is of the
-/// order ρ⁻ⁿ, with ρ as at the head of this file.
+/// Gauss–Lobatto rules on a panel, from the fewest points on; distances are in panel lengths. Derived: with n points the error is
+/// of the order ρ⁻ⁿ, with ρ as at the head of this file, which is below 1e-11 for the first three.
 const PANEL_RULES: [DistanceRule; 4] = [
     from_distance(256.0, 4),
     from_distance(24.0, 6),
     from_distance(6.0, 8),
     from_distance(1.0, MAX_POINTS),
 ];
-/// Rules that interpolate the values at rows, from the fewest points on; distances are in rows. The error is
-/// (1/2 · 3/2 · …)² over the power of the distance from the nearest row.
+/// Rules that interpolate the values at rows, from the fewest points on; distances are in rows. Derived: the error is (1/2 · 3/2
+/// · …)² over the power of the distance from the nearest row, which is below 1e-11 for each rule.
 const ROW_RULES: [DistanceRule; 3] = [
     from_distance(86.0, 6),
     from_distance(41.0, 8),
@@ -56,19 +56,20 @@ const ROWS_PER_SIDE: usize = 5;
 /// Length, in Δx, below which a panel next to a singularity on its own line is not divided further. Chosen as 2⁻²⁶, the square
 /// root of the rounding error; with 1e-12 no answer changes by more than 1e-10 of its bar.
 const MIN_PANEL_LENGTH: f64 = 1.0 / (1_u64 << 26) as f64;
-/// Smallest distance ahead of the load, in Δx, at which the recursion along rows starts. Chosen; from 4 to 64 no
-/// answer changes by more than 2e-10 of its bar.
+/// Smallest distance ahead of the load, in Δx, at which the recursion along rows starts. Chosen; from 4 to 64 no answer changes
+/// by more than 2e-10 of its bar (case of `evidence tuning`).
 const MIN_START_DISTANCE: f64 = 16.0;
-/// Ratio of the distances of the end and the start of a panel from the load, for panels further ahead than the start of the recursion.
-/// Derived: below 2 the panels are shorter than their distance from the load, as the rule of most points requires.
+/// Ratio of the distances of the end and the start of a panel from the load, for panels further ahead than the start of the
+/// recursion. Derived: below 2 the panels are shorter than their distance from the load, as the rule of most points requires. It
+/// has a case of `evidence tuning`.
 const PANEL_GROWTH: f64 = 1.9;
 
 /// An interval along x, with lengths in Δx.
 #[derive(Debug, Clone, Copy)]
 struct PotentialPanel {
-    /// Rear end.
+    /// Position of the rear end, in Δx.
     start: f64,
-    /// Length.
+    /// Length of the panel, in Δx.
     length: f64,
     /// Index of the rule of the panel in [`PANEL_RULES`].
     rule: usize,
@@ -112,7 +113,8 @@ pub(super) struct RetardedPotential {
 }
 
 impl RetardedPotential {
-    /// Starts at the row one element ahead of the position `first`.
+    /// Prepares the recursion along rows, which starts one element ahead of the position `first`, in Δx, and covers `n_columns`
+    /// columns.
     pub(super) fn new(creep: &ElementCreep, first: f64, aspect: f64, n_columns: usize) -> Self {
         // For each retardation element compute the decay over an element of the grid, and the weights of all rules times its
         // compliance.

@@ -33,7 +33,7 @@ pub struct SinkingDepth {
 }
 
 impl SinkingDepth {
-    /// The depth of a solution whose contact is `contact_length` \[m] long.
+    /// Depth of a solution at the reference distance, the length of its contact \[m], and the sinking from there on.
     pub(super) fn new(mesh: &Mesh, solution: &Solution, contact_length: f64) -> Self {
         let spacing = mesh.options.spacing;
         let scale = mesh.loading.depth_scale;

@@ -22,9 +22,9 @@ use rheology::{ComplexCompliance, CreepSpectrum, Material as _, check_spectra};
 
 use crate::{Base, BemError, Elastomer};
 
-/// Rate Δx/(v λ) of the retardation element that replaces the free flow of a layer on a rigid base, whose influence
-/// radius is finite. It is so small that 1 − e^(−rate s) equals rate·s to rounding for any distance s that occurs.
-/// Chosen; from 1e-200 to 1e-30 no digit of an answer changes.
+/// Rate Δx/(v λ) of the retardation element that replaces the free flow of a layer on a rigid base, whose influence radius is
+/// finite. It is so small that 1 − e^(−rate s) equals rate·s to rounding for any distance s that occurs. Chosen; from 1e-200 to
+/// 1e-30 no digit of an answer changes (case of `evidence tuning`).
 pub(super) const FLOW_AS_RETARDATION_RATE: f64 = 1e-100;
 
 /// The creep of a material on its base at a sliding speed, on a track if there is one.
@@ -119,7 +119,7 @@ impl SlidingCreep {
         Ok(creep)
     }
 
-    /// The creep at a velocity, without a track.
+    /// Creep of the material of an elastomer as a function of the distance at a sliding speed \[m/s], without a track.
     pub(super) fn new(elastomer: &dyn Elastomer, velocity: f64) -> Result<Self, BemError> {
         let (material, base) = (elastomer.material(), elastomer.base());
         check_spectra(&material)?;
@@ -134,7 +134,7 @@ impl SlidingCreep {
         })
     }
 
-    /// The same creep on another base and a track of a length \[m]; `None` without a track.
+    /// The same creep law on another base, and on a track of a length \[m] or, with `None`, on fresh ground.
     pub(super) fn on_base(self, base: Base, track: Option<f64>) -> Self {
         Self {
             base,
@@ -339,7 +339,7 @@ impl SlidingCreep {
     }
 }
 
-/// Sum of the contributions to the compliance, in their unit.
+/// Compliance over an element: sum of the instantaneous part, the flow and all retardation elements, in their unit.
 fn total_compliance(parts: &ElementCreep) -> f64 {
     let retarded: f64 = parts.retardations.iter().map(|one| one.share).sum();
     parts.instantaneous + parts.flow + retarded

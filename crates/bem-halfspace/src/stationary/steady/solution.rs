@@ -17,8 +17,8 @@ use crate::stationary::steady::patch_resolution::check_patches;
 use crate::stationary::steady::sinking_depth::SinkingDepth;
 use crate::stationary::steady::sliding_creep::SlidingCreep;
 
-/// Distance in elements between an edge of the body and the front of the contact below which the elements do not
-/// separate the two. Chosen; from 1 to 16 no digit of an answer changes.
+/// Distance in elements between an edge of the body and the front of the contact below which the elements do not separate the
+/// two. Chosen; from 1 to 16 no digit of an answer changes (case of `evidence tuning`).
 const EDGE_CLEARANCE: f64 = 4.0;
 
 /// A stationary state with the error of every quantity.

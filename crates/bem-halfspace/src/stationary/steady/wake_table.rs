@@ -62,7 +62,7 @@ impl WakeTable {
         *table = Arc::new(Self::new(creep, aspect, max_offsets, table));
     }
 
-    /// A table with offsets up to `max_offsets`.
+    /// Table of the displacement in the wake of an element for a creep, with offsets up to `max_offsets` along x and y.
     pub(super) fn for_creep(creep: &ElementCreep, aspect: f64, max_offsets: [usize; 2]) -> Self {
         Self::new(creep, aspect, max_offsets, &Self::default())
     }

@@ -1,6 +1,6 @@
 //! Spectra of the influence coefficients: the factors by which a product K P multiplies the waves of P.
 //!
-//! A spectrum has the layout [column][row], with the wave numbers 0, 1, 2 … along y for columns and 0 … n_x/2 along x for rows, in
+//! A spectrum has the layout \[column]\[row], with the wave numbers 0, 1, 2 … along y for columns and 0 … n_x/2 along x for rows, in
 //! units of the longest waves. The other wave vectors follow by symmetry.
 
 use std::f64::consts::PI;

@@ -60,7 +60,7 @@ impl<T> fmt::Debug for PlaneTransform<T> {
 }
 
 impl<T: Real> PlaneTransform<T> {
-    /// Plans the transforms of whole fields.
+    /// Plans for real fields on a period of `padded` elements along x and y, without mirrors.
     pub(crate) fn new(padded: [usize; 2]) -> Self {
         Self::folded(padded, NO_MIRRORS)
     }

@@ -58,7 +58,7 @@ impl<T: Real> Workspace<T> {
 }
 
 impl<T: Real> Buffers<T> {
-    /// Buffers of one thread.
+    /// Buffers of one thread for the transforms of rows and columns.
     fn new(transform: &PlaneTransform<T>) -> Self {
         let scratch = transform.rows.scratch_len();
         Self {

@@ -18,17 +18,18 @@ use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
 use crate::stationary::periodic::kernel::Sliding;
 use crate::{BemError, Grid};
 
-/// Tolerance of the residual of the adjoint equations, relative to the initial one: about the rounding of single
-/// precision, in which each step of the iterative refinement is solved.
+/// Tolerance of the residual of the adjoint equations, relative to the initial one: about the rounding of single precision, in
+/// which each step of the iterative refinement is solved. It has a case of `evidence tuning`.
 const ADJOINT_TOLERANCE: f64 = 1e-7;
 /// Ratio of the residual after a single-precision solve of the iterative refinement to that before, at which the solve ends.
-/// Chosen far above the rounding of single precision. Three solves reduce the residual below [`ADJOINT_TOLERANCE`].
+/// Chosen far above the rounding of single precision. Three solves reduce the residual below [`ADJOINT_TOLERANCE`]. It has a case
+/// of `evidence tuning`.
 const REFINEMENT_REDUCTION: f64 = 1e-3;
 /// Largest number of steps of the iterative refinement. Chosen to limit the time: beyond it the solution fails with
 /// [`BemError::ContactNotConverged`]. Three suffice if each reaches [`REFINEMENT_REDUCTION`].
 const MAX_REFINEMENT_STEPS: usize = 20;
 /// Ratio of the residual after a step of the iterative refinement to that before, above which the refinement stagnates and fails.
-/// Chosen far above [`REFINEMENT_REDUCTION`] and below 1.
+/// Chosen far above [`REFINEMENT_REDUCTION`] and below 1. It has a case of `evidence tuning`.
 const STAGNATION_RATIO: f64 = 0.7;
 
 /// Derivatives of one quantity under a constant mean pressure.
@@ -47,7 +48,7 @@ pub(super) struct Gradient {
     /// By the compliance of each row of the transform: the change of the quantity is the real part of the sum of products with the
     /// changes of the compliances.
     by_row: Vec<Complex<f64>>,
-    /// By the mean pressure, per pascal.
+    /// Derivative by the mean pressure, per pascal.
     pub(super) by_pressure: f64,
 }
 
@@ -84,7 +85,7 @@ pub(super) struct Adjoint<'a> {
 }
 
 impl Gradient {
-    /// The change of the quantity by a change of the kernel, to first order.
+    /// Change of the quantity by a change of the kernel, to first order, in the unit of the quantity.
     pub(super) fn by_kernel(&self, change: &KernelChange) -> f64 {
         dot(&self.by_height, &change.displacement)
             + dot(&self.by_displacement, &change.displacement)
@@ -101,7 +102,8 @@ impl Gradient {
 }
 
 impl<'a> Adjoint<'a> {
-    /// The adjoint problem of a contact, which is reversed along x.
+    /// Adjoint problem of a contact with the given heights \[m] and pressures \[Pa]. All its fields are reversed along x, because
+    /// the transposed kernel is that of the opposite motion.
     pub(super) fn new(
         sliding: &'a Sliding,
         grid: &'a Grid,

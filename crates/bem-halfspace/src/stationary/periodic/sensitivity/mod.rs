@@ -37,8 +37,9 @@ use adjoint::{Adjoint, Gradient, KernelChange, unit_pressure};
 
 /// Largest relative difference of two periods that count as equal. Chosen above the rounding of numbers of ten digits in a file.
 const PERIOD_TOLERANCE: f64 = 1e-9;
-/// Derivatives and error bars from two grids. The derivatives are those on the fine grid, because the elements at the contact boundary
-/// differ from grid to grid without a common order. The error bar is 2.5 times the difference of the grids; the factor is chosen.
+/// Derivatives and error bars from two grids. The derivatives are those on the fine grid, because the elements at the contact
+/// boundary differ from grid to grid without a common order. The error bar is 2.5 times the difference of the grids. The factor
+/// is chosen: an error of the first order would need 1, one of the order 1/2 needs 2.4.
 const EXTRAPOLATION: TwoGridExtrapolation = TwoGridExtrapolation {
     correction: 0.0,
     area_correction: 0.0,

@@ -16,7 +16,7 @@ use crate::stationary::steady::plans::Plans;
 use crate::stationary::steady::wiener_hopf::WienerHopf;
 
 /// Ratio of the norm of the residual of the adjoint equations to that of the right side, at which the iteration ends. Chosen far
-/// below the error that the size of the elements causes in the derivatives.
+/// below the error that the size of the elements causes in the derivatives (case of `evidence tuning`).
 const ADJOINT_TOLERANCE: f64 = 1e-9;
 
 /// Direction of the motion in the equations.
@@ -24,7 +24,7 @@ const ADJOINT_TOLERANCE: f64 = 1e-9;
 pub(super) enum KernelDirection {
     /// The motion of the contact, with the kernel K.
     Forward,
-    /// The opposite motion, with Kᵀ.
+    /// Motion in the opposite direction, whose kernel is the transpose Kᵀ.
     Reversed,
 }
 

@@ -36,7 +36,7 @@ pub(super) enum FrictionSlope {
 }
 
 impl CollocationPoints {
-    /// The points of some elements of a mesh.
+    /// Collocation points of some elements of a mesh, given by the indices of their candidates.
     pub(super) fn new(mesh: &Mesh, elements: &[usize], loading: &Loading) -> Self {
         let is_solid = mesh.loading.is_solid_for_elements();
         let centres = elements.iter().map(|&element| mesh.position(element));

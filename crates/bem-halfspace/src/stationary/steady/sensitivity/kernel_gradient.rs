@@ -20,8 +20,9 @@ use crate::stationary::steady::sliding_creep::{
 };
 use crate::stationary::steady::wake_table::WakeTable;
 
-/// Relative step of the differences by the memory length of a retardation element, the length of a track or the thickness of a layer:
-/// about the square root of the relative error 1e-11 of kernels, where the truncation and the error of a one-sided difference balance.
+/// Relative step of the differences by the memory length of a retardation element, the length of a track or the thickness of a
+/// layer: about the square root of the relative error 1e-11 of kernels, where the truncation and the error of a one-sided
+/// difference balance. It has a case of `evidence tuning`.
 const LENGTH_STEP: f64 = 1e-6;
 /// Ratio of the wave number that stands for a uniform load to the upper end of a band from 0 on. Chosen; any wave that is far
 /// longer than the contact and all waves of the band serves.
@@ -67,7 +68,8 @@ pub(super) struct GridKernel {
 }
 
 impl KernelGradient {
-    /// The gradient of a correlation before it is contracted with the kernel.
+    /// Gradient of a quantity by the kernel with the given correlation. Its derivatives are 0 until [`GridKernel::contract`]
+    /// computes them.
     pub(super) const fn new(correlation: Correlation) -> Self {
         Self {
             correlation,
@@ -77,14 +79,14 @@ impl KernelGradient {
         }
     }
 
-    /// The change of the quantity by a change of the creep, to first order.
+    /// Change of the quantity by a change of the creep, to first order, in the unit of the quantity.
     pub(super) fn by_creep(&self, change: &CreepChange) -> f64 {
         dot(&self.by_creep, &change.0)
     }
 }
 
 impl GridKernel {
-    /// The kernel of a material on elements with the edges [Δx, Δy] \[m].
+    /// Kernel of a creep on elements with the edges [Δx, Δy] \[m], up to the largest offsets along x and y.
     pub(super) fn new(
         creep: &SlidingCreep,
         [dx, dy]: [f64; 2],
@@ -228,7 +230,7 @@ impl GridKernel {
         self.scaled_creep([1.0, 1.0], [1.0, 0.0])
     }
 
-    /// The derivative of the creep by the logarithm of the velocity.
+    /// Derivative of the creep over distance by the logarithm of the velocity, to which the memory lengths are proportional.
     pub(super) fn by_velocity(&self) -> CreepChange {
         self.scaled_creep([0.0, -1.0], [0.0, 1.0])
     }
@@ -266,7 +268,7 @@ impl GridKernel {
         self.of_creep_with_base(&creep.on_base(base, self.material.track()))
     }
 
-    /// The kernel of a creep on its own base and track.
+    /// The kernel on the grid for a creep, with the base and the track that belong to this creep.
     fn of_creep_with_base(&self, creep: &SlidingCreep) -> Result<KernelTable, BemError> {
         let compliance = creep.compliance(self.spacing)?;
         Ok(self.table(compliance, &creep.over_element(self.spacing)?))

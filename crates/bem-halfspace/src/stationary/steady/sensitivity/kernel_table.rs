@@ -20,7 +20,7 @@ impl KernelTable {
         }
     }
 
-    /// The kernel of a wake for a compliance of the unit load \[1/Pa].
+    /// Kernel with the values of a wake table times `compliance`, that of the unit load \[1/Pa], up to the largest offsets.
     pub(super) fn of_wake(wake: &WakeTable, compliance: f64, max_offsets: [usize; 2]) -> Self {
         let mut table = Self::zero(max_offsets);
         for (offset, row) in table.rows_mut() {

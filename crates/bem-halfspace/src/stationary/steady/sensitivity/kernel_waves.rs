@@ -21,23 +21,26 @@ use rustfft::num_complex::Complex;
 use crate::Base;
 use crate::stationary::steady::sensitivity::kernel_table::KernelTable;
 
-/// Step of the variable u of the trapezoidal rule (head of this file) for an integrand that does not oscillate. Chosen; the rule
-/// converges exponentially, and tests compare with a closed form.
+/// Step of the variable u of the trapezoidal rule (head of this file) for an integrand that does not oscillate. Derived: the
+/// integrand is analytic for |Im u| < π/2, so that the error is of the order e^(−π²/h) with the step h, or 7e-18. Tests compare
+/// with a closed form.
 const QUADRATURE_STEP: f64 = 0.25;
-/// Steps of the trapezoidal rule per shortest wave of an oscillating integrand, Nyquist's two. This wave is at the
-/// end of the range, where the integrand is negligible.
+/// Steps of the trapezoidal rule per shortest wave of an oscillating integrand. Derived: Nyquist's two. This wave is at the end
+/// of the range, where the integrand is negligible.
 const STEPS_PER_WAVE: f64 = 2.0;
 /// Product x of wave number and thickness above which a layer acts like a half space. Derived: the ratio M of their compliances
 /// differs from 1 by the order x² e^(−2x), which is then below 1e-13.
 const MAX_LAYER_WAVE_NUMBER: f64 = 18.0;
 /// Largest phase difference between the ends of a panel of the integral over a band, at the longest distance of the correlation,
-/// in turns of a wave. Chosen below half a turn.
+/// in turns of a wave. Chosen: the Gauss rule of two points then errs by at most (0.4 · 2π)⁴/4320, or 1 %, of that wave, and by
+/// far less at shorter distances (case of `evidence tuning`).
 const WAVES_PER_PANEL: f64 = 0.4;
 /// Largest ratio of the upper to the lower end of a panel of the integral over a band, because the integrand varies with the
-/// logarithm of the wave number. Chosen.
+/// logarithm of the wave number. Chosen: the Gauss rule of two points then errs by (ln 1.25)⁴/4320, or 6e-7, of the fourth
+/// derivative by that logarithm (case of `evidence tuning`).
 const PANEL_RATIO: f64 = 1.25;
 /// Ratio of a wave number to the upper end of a band, below which panels have the length that they have at that wave number.
-/// Chosen: the first panel of a band from 0 on carries about a thousandth of the band.
+/// Chosen: the first panel of a band from 0 on carries about a thousandth of the band (case of `evidence tuning`).
 const FIRST_PANEL_END: f64 = 1e-3;
 /// The nodes ±1/√3 of the Gauss rule of two points on [−1, 1].
 const NODES: [f64; 2] = [-0.577_350_269_189_625_8, 0.577_350_269_189_625_8];

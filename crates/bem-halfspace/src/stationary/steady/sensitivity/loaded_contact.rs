@@ -36,14 +36,14 @@ pub(super) struct LoadedContact<'a> {
 
 /// The mean slope under the load, which is the friction, in units of the depth scale over the length of an element.
 pub(super) struct MeanSlope {
-    /// The mean slope.
+    /// Load-weighted mean of the slope, in the unit of the struct.
     pub(super) value: f64,
     /// Derivatives by the loads of all elements; 0 outside the contact.
     pub(super) by_loads: Vec<f64>,
 }
 
 impl<'a> LoadedContact<'a> {
-    /// The contact of a solution, with its neighbours unless the body has edges.
+    /// The loaded elements of a solution, with their unloaded neighbours unless the body has edges.
     pub(super) fn new(mesh: &'a Mesh, plans: &'a mut Plans, solution: &Solution) -> Self {
         let pairs = solution.loads.iter().copied();
         let (mut elements, mut loads): (Vec<usize>, Vec<f64>) = pairs.unzip();
@@ -73,7 +73,7 @@ impl<'a> LoadedContact<'a> {
         self.mesh.total_load(elements.zip(loads.iter().copied()))
     }
 
-    /// Loads of all elements, times the number of elements that each represents.
+    /// Products of the load of each element and [`Mesh::n_images`], the number of elements that it represents.
     pub(super) fn weighted_by_images(&self, loads: &[f64]) -> Vec<f64> {
         let pairs = self.elements.iter().zip(loads);
         pairs
@@ -81,7 +81,7 @@ impl<'a> LoadedContact<'a> {
             .collect()
     }
 
-    /// The correlation of adjoint loads with the loads of the contact.
+    /// Correlation of adjoint loads with the loads of the contact: its product with the kernel is the derivative by the kernel.
     pub(super) fn correlation(&self, adjoint: &[f64]) -> Correlation {
         let [mut left, mut right] = [0; 2].map(|_| vec![0.0; self.region.n_box_elements()]);
         // Adjoint loads are placed on one of two mirror images, with twice the weight.

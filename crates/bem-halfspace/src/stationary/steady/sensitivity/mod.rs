@@ -53,30 +53,33 @@ use kernel_gradient::{CreepChange, GridKernel};
 pub(crate) use two_grid_extrapolation::TwoGridExtrapolation;
 use two_grid_extrapolation::mean_over_shifts;
 
-/// Ratio of the spacing of the coarse grids to that of the fine ones. Chosen; the factors of [`EXTRAPOLATION`] hold for this
-/// ratio.
+/// Ratio of the spacing of the coarse grids to that of the fine ones. Chosen; the factors of [`EXTRAPOLATION`] are derived for
+/// this ratio and would change with it.
 const COARSE_SPACING_FACTOR: f64 = 2.0;
 /// Error of the derivatives of the logarithm of the friction, by the logarithms of load and velocity, above which the spacing is
-/// halved. Chosen; from 1e-3 to 0.1 no digit of an answer changes.
+/// halved. Chosen; from 1e-3 to 0.1 no digit of an answer changes (case of `evidence tuning`).
 const LOG_DERIVATIVE_TOLERANCE: f64 = 4e-3;
 /// Largest number of unknown pressures for which the spacing is halved. Chosen to limit the time: larger contacts keep their
 /// spacing and the error of their derivatives.
 const HALVING_MAX_UNKNOWNS: usize = 2000;
-/// Largest tolerance of a contact, because the gaps behind a rear that opens slowly are small. Chosen; with 1e-12 no
-/// answer changes by more than 4 % of its bar, with 1e-7 a bar is 59 times as wide.
+/// Largest tolerance of a contact, because the gaps behind a rear that opens slowly are small. Chosen; with 1e-12 no answer
+/// changes by more than 4 % of its bar, with 1e-7 a bar is 59 times as wide (case of `evidence tuning`).
 const MAX_CONTACT_TOLERANCE: f64 = 1e-10;
-/// Factor on the spacing of the options in plane strain. Such grids have few elements, so that finer ones still take little time.
-/// Chosen (case of `evidence tuning`).
+/// Factor on the spacing of the options for derivatives in plane strain. Chosen (case of `evidence tuning`): such grids have few
+/// elements, so that finer ones still take little time.
 const STRIP_SPACING_FACTOR: f64 = 0.25;
-/// Shifts along x and y of the grids that are averaged, in elements.
+/// Shifts along x and y of the grids that are averaged, in elements. Chosen as one diagonal pair, which cancels the first
+/// harmonic of the scatter along either axis; more shifts take more time.
 const SENSITIVITY_PHASES: [[f64; 2]; 2] = [[0.0, 0.0], [0.5, 0.5]];
-/// Shifts along x and y of the grids that are averaged in plane strain, in elements.
+/// Shifts along x and y of the grids that are averaged in plane strain, in elements. Chosen as one pair, which cancels the first
+/// harmonic of the scatter along x; more shifts take more time.
 const STRIP_SENSITIVITY_PHASES: [[f64; 2]; 2] = [[0.0, 0.0], [0.5, 0.0]];
 /// Factor from the difference fine − coarse to limit − fine at the order 3/2 of the singular front. Derived:
 /// 1/(2^(3/2) − 1) = (2^(3/2) + 1)/7.
 const FRONT_CORRECTION: f64 = (2.0 * std::f64::consts::SQRT_2 + 1.0) / 7.0;
-/// Extrapolation with the order 3/2 of the singular front, and with the order 1 of the area. The error is twice the difference of the
-/// grids; this factor is chosen.
+/// Extrapolation with the order 3/2 of the singular front, and with the order 1 of the area. The error is twice the difference of
+/// the grids. The factor is chosen: bars are proportional to it, and the extrapolation itself moves the value by 0.55 of the
+/// difference.
 const EXTRAPOLATION: TwoGridExtrapolation = TwoGridExtrapolation {
     correction: FRONT_CORRECTION,
     area_correction: 1.0,
@@ -90,9 +93,9 @@ const ALLOWED_FLUIDITY_AT_DEPTH: &str =
 #[derive(Debug)]
 #[must_use]
 pub struct SteadySensitivity {
-    /// On the grids of the smaller spacing.
+    /// Derivatives on the grids of the smaller spacing.
     fine: SensitivityOnGrid,
-    /// On the grids of twice that spacing.
+    /// Derivatives on the grids of twice that spacing.
     coarse: SensitivityOnGrid,
 }
 
@@ -200,7 +203,7 @@ impl SteadySensitivity {
         by_load.max(by_velocity.friction_coefficient.error) <= allowed
     }
 
-    /// The change from one body to another, both near that of the state.
+    /// Change of all quantities to first order when one body replaces another, both near that of the state.
     ///
     /// # Errors
     /// [`BemError::InvalidParameter`] where a height in the contact is not finite.
@@ -392,23 +395,23 @@ impl SensitivityOnGrid {
             .collect()
     }
 
-    /// The derivative by the given force or depth on each grid.
+    /// Derivative by the given force or depth, one entry per shifted grid.
     fn by_load(&self) -> Vec<Change<f64>> {
         let contacts = self.contacts.iter();
         contacts.map(ContactDerivatives::by_load).collect()
     }
 
-    /// The change by another creep on each grid.
+    /// Change by a change of the creep, one entry per shifted grid.
     fn by_creep(&self, change: &CreepChange) -> Vec<Change<f64>> {
         self.changes(|gradient| gradient.kernel.by_creep(change))
     }
 
-    /// The derivative by the logarithm of the velocity on each grid.
+    /// Derivative by the logarithm of the velocity, one entry per shifted grid.
     fn by_velocity(&self) -> Vec<Change<f64>> {
         self.by_creep(&self.kernel.by_velocity())
     }
 
-    /// The change from one body to another on each grid.
+    /// Change when one body replaces another, one entry per shifted grid.
     fn between_bodies(&self, bodies: [&dyn Surface; 2]) -> Result<Vec<Change<f64>>, BemError> {
         let contacts = self.contacts.iter();
         contacts
@@ -416,7 +419,7 @@ impl SensitivityOnGrid {
             .collect()
     }
 
-    /// The change from one material and velocity to another, on the base of the contact.
+    /// Change when one material and velocity replace another, on the base of the contact; one entry per shifted grid.
     fn between_creeps(&self, ends: &[SlidingCreep; 2]) -> Result<Vec<Change<f64>>, BemError> {
         // With as many retardation elements as here the derivatives by them suffice; otherwise contract both whole kernels.
         let [from, to] = ends.each_ref().map(SlidingCreep::over_distance);

@@ -17,7 +17,7 @@ pub(super) struct MeanAndSpread {
 }
 
 impl MeanAndSpread {
-    /// Mean and spread of the values on all shifts.
+    /// Mean of the values on all shifted grids, and their largest deviation from it.
     fn over(values: Vec<f64>) -> Self {
         let mean = mean(&values);
         let deviations = values.iter().map(|value| (value - mean).abs());
