@@ -18,8 +18,8 @@ pub struct ContactScene {
 }
 
 impl ContactScene {
-    /// Hertz contact with the radius 0.3 on the unit square of `n` × `n` elements, free boundary, with the apex so many
-    /// elements from the middle along x and y; there are two mirrors where that is zero, and none elsewhere.
+    /// Hertz contact with the radius 0.3 on the unit square of `n` × `n` elements, free boundary, with the apex shifted
+    /// from the middle by `offset` elements along x and y. Without a shift there are two mirrors, otherwise none.
     ///
     /// # Errors
     /// [`BemError`] for a number of elements that no grid has.

@@ -1,4 +1,4 @@
-//! A cycle of a sphere to and fro: on the one-dimensional model with ten branches, with 512 elements along the contact and to
+//! A cycle of a reciprocating sphere: on the one-dimensional model with ten branches, with 512 elements along the contact and to
 //! 1e-3, and on the half space on a standard solid to two per cent.
 
 use std::error::Error;

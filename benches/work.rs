@@ -160,7 +160,7 @@ fn transform_pair(edge: usize) -> Result<f64, Failure> {
     Ok(spent / pairs)
 }
 
-/// Does the work in a pool of so many threads.
+/// Does the work in a pool of `threads` threads.
 #[cfg(feature = "rayon")]
 fn on_threads<R: Send>(threads: usize, work: impl FnOnce() -> R + Send) -> Result<R, Failure> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use cpu_time::ProcessTime;
 
-/// Largest number of runs of which one median is taken. Chosen: it is odd, so that the median is one of them, and five survive
+/// Largest number of runs for one median. Chosen: it is odd, so that the median is one of them, and five survive
 /// two disturbed runs.
 const MAX_RUNS: f64 = 5.0;
 /// Largest number of runs of one median where a run is shorter than [`SHORT_RUN`]. Chosen: the resolution of the clock and the
@@ -37,7 +37,7 @@ pub(crate) fn measure<T>(work: impl Fn() -> T) -> (T, Cost) {
 
 /// Result of the first run of `work`, and the median cost of [`MAX_RUNS`] runs, of [`MAX_SHORT_RUNS`] short ones, or of as
 /// many as fit into [`MAX_TOTAL`]. Processor time decides how many, so that other work on the machine does not. If the
-/// first run fails, its error is returned at once.
+/// first run fails, its error is returned without further runs.
 pub(crate) fn measure_median<T, E>(work: impl Fn() -> Result<T, E>) -> Result<(T, Cost), E> {
     let (value, first) = measure(&work);
     let value = value?;

@@ -1,5 +1,5 @@
 //! A ball that adheres: a constant attraction where the gap is small, by an outer iteration around contacts without
-//! adhesion, beside the solution of Maugis (1992, J. Colloid Interface Sci. 150, 243).
+//! adhesion, compared with the solution of Maugis (1992, J. Colloid Interface Sci. 150, 243).
 
 #![expect(clippy::print_stdout, reason = "an example shows its results")]
 

@@ -9,7 +9,7 @@ pub const HERTZ_DEPTH: f64 = RADIUS * RADIUS;
 /// Compliance of the incompressible half space of E* = 1 Pa, \[1/Pa].
 pub const COMPLIANCE: f64 = 4.0;
 
-/// Heights of the body of the Hertz contact, row-major, with the apex so many elements from the middle along x and y, \[m].
+/// Heights of the body of the Hertz contact, row-major, with the apex `offset` elements from the middle along x and y, \[m].
 pub fn hertz_heights(n: usize, offset: f64) -> Vec<f64> {
     let edge = 1.0 / n as f64;
     let middle = 0.5 * n as f64 + offset;

@@ -3,7 +3,7 @@
 /// Half widths of the smallest and the largest square that is searched, in units of the height. Chosen: an end near the largest
 /// counts as infinite.
 const SEARCH_HALF_WIDTHS: [f64; 2] = [1e-9, 1e60];
-/// Ratio of the widths of two squares: the search ends when no lower point lies between a square and one so many times as wide.
+/// Ratio of the widths of two squares: the search ends when no lower point lies between a square and one wider by this ratio.
 /// Chosen: parts that are farther out are missed.
 const SEARCH_MARGIN: f64 = 1024.0;
 /// Number of intervals of a search grid along each axis. Chosen: parts narrower than one of them may be missed.

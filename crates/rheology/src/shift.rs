@@ -13,7 +13,7 @@ pub const KELVIN_AT_ZERO_CELSIUS: f64 = 273.15;
 #[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Shift {
-    /// Temperature of the material beside which it stands, \[°C].
+    /// Temperature of the material to which the shift belongs, \[°C].
     pub temperature: f64,
     /// Lowest and highest temperature that was measured, \[°C].
     pub temperature_range: [f64; 2],

@@ -193,6 +193,7 @@ fn log_ticks(range: [f64; 2], unit: f64) -> Vec<Tick> {
 
 /// Text of 10 with a superscript exponent.
 fn power_of_ten(exponent: f64) -> String {
+    /// Superscripts of the digits 0 to 9.
     const SUPERSCRIPTS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     let superscript = |c: char| {
         c.to_digit(10)

@@ -48,7 +48,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         // On the way back the rear of the body is its front: x changes its sign.
         gaps = gaps.chunks(N).rev().flatten().copied().collect();
     }
-    // The worn volume is k F_N s exactly, because no pressure is lost.
+    // The worn volume is k F_N s exactly, because the resampled pressure carries the whole force.
     let volume: f64 = (0..N * N)
         .map(|index| gaps[index] - ball(index))
         .sum::<f64>()

@@ -70,7 +70,7 @@ impl Unit {
         of_cylinder: "J/m",
     };
 
-    /// The same unit for finite bodies and for cylinders.
+    /// A unit that holds for finite bodies and for cylinders.
     const fn of_any(unit: &'static str) -> Self {
         Self {
             of_body: unit,
@@ -193,7 +193,7 @@ impl Quantity {
         self.label_with(self.unit.of_body)
     }
 
-    /// The same with the unit for a cylinder, whose forces, areas and energies are per length.
+    /// Label with the unit for a cylinder, whose forces, areas and energies are per length.
     pub fn label_of_cylinder(&self) -> String {
         self.label_with(self.unit.of_cylinder)
     }

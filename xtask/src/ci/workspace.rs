@@ -23,7 +23,7 @@ pub(super) struct Package {
     pub(super) version: String,
     /// The registries where it may be published; none when it may be anywhere.
     publish: Option<Vec<String>>,
-    /// Those of its manifest only, not those behind them.
+    /// Dependencies in its manifest, without those of the dependencies.
     dependencies: Vec<Dependency>,
     /// Library, programs, examples, tests and benchmarks.
     targets: Vec<Target>,
@@ -44,7 +44,7 @@ struct Dependency {
 #[derive(Debug, Deserialize)]
 struct Target {
     name: String,
-    /// Such as `bin`, `lib` or `example`.
+    /// Kinds of the target, such as `bin`, `lib` or `example`.
     kind: Vec<String>,
 }
 

@@ -16,7 +16,7 @@ use crate::table::Table;
 pub(super) struct Report {
     /// Name of the page, without `.md`.
     pub(super) name: &'static str,
-    /// Written as `NAME.csv` beside the page.
+    /// Tables, each written as `NAME.csv` next to the page.
     pub(super) tables: Vec<Table>,
     /// Name of the files, without extension, and what they show.
     pub(super) pictures: Vec<(&'static str, Figure)>,

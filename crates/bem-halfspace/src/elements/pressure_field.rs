@@ -46,8 +46,8 @@ impl PressureField {
 
     /// The field on another `grid` whose first element has its centre at `origin` relative to the lowest point, \[m].
     ///
-    /// Each new element has the mean pressure over its area, so that the force is the same if the grid covers the contact; the
-    /// force of elements outside of the grid is lost.
+    /// Each new element has the mean pressure over its area, so that the force is the same if the grid covers the contact;
+    /// elements outside of the grid do not contribute.
     #[must_use]
     pub fn resampled(&self, grid: &Grid, origin: [f64; 2]) -> Self {
         let [along, across] = [0, 1].map(|axis| self.overlaps(axis, grid, origin[axis]));

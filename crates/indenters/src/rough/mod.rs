@@ -46,7 +46,7 @@ pub struct Wave {
 pub struct PeriodicSurface {
     /// Periods along x and y, \[m].
     period: [f64; 2],
-    /// Waves of which the heights are the sum.
+    /// Waves whose sum is the heights.
     waves: Vec<Wave>,
 }
 

@@ -92,7 +92,7 @@ fn place_on_grid(
         let (count, [nx, ny]) = (points.len(), [x.count, y.count]);
         return Err(wrong(0, format!("{count} points of a grid of {nx} × {ny}")));
     }
-    // Check that the heights of the grid fit into the memory beside the points, which are there already.
+    // Check that the heights of the grid fit into the memory that the points leave free.
     memory
         .require_heights(n_elements.and_then(|n_elements| n_elements.checked_add(points.len())))?;
     let element_at = |[at_x, at_y]: [f64; 2]| Some(y.node(at_y)? * x.count + x.node(at_x)?);

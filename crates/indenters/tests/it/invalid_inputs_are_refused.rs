@@ -158,7 +158,7 @@ fn lines_need_a_finite_domain_and_finite_heights() {
     let slope = |x: f64| if x < 0.5 { 1.0 } else { -1.0 };
     let pole = AnalyticLine::new(|x| 1.0 / (x - 0.5).powi(2), slope, [0.0, 1.0]).unwrap();
     refused(height, leading_edge(&pole));
-    // Its slope contradicts its height everywhere, which must not be searched without end.
+    // Its slope contradicts its height everywhere, which must not lead to an endless search.
     let wrong = AnalyticLine::new(|x| -x, |_| 1.0, [0.0, 1.0]).unwrap();
     assert!(leading_edge(&wrong).is_ok(), "{wrong:?}");
 }

@@ -110,7 +110,7 @@ fn the_window_hides_the_edges() {
         .skip(1)
         .map(|[_, density]| 2.0 * density)
         .sum();
-    // The window along y has waves of its own, of which the mean is two thirds.
+    // The window along y has waves of its own; their mean is two thirds.
     assert_close!(both * TAU / 3e-3 => 2e-12, within 1e-2; "variance");
 }
 
@@ -137,7 +137,7 @@ fn lengths_whose_powers_are_no_numbers_are_refused() {
         [1e-29, 1e29].map(|scale| Roughness::of(&map(scale, 1.0), false).map(|of| of.nayak));
     let [small, large] = spread.map(|nayak| nayak.expect("numbers"));
     assert_close!(small => large, within 1e-12; "Nayak's parameter has no unit");
-    // Waves of two elements are not told, and nothing is left.
+    // Waves of two elements are not resolved, so that no wave remains.
     let board = (0..16)
         .map(|index| f64::from((index / 4 + index) % 2))
         .collect();

@@ -99,7 +99,7 @@ impl Foundation {
         let dashpot = self.dashpot * per_length;
         let rise = segment.end() - start_value(&segment.displacements);
 
-        // The solution begins with the spring and the lone dashpot, whose load follows the displacement and its rate at once.
+        // The solution begins with the spring and the lone dashpot, whose load follows the displacement and its rate without delay.
         let mut solution = SegmentSolution {
             smooth: [0.0; MAX_TERMS],
             n_terms: rates.len(),

@@ -7,7 +7,7 @@
 //! ```
 //! The lowest point of the line is over an element at the beginning of every step. A kink there then falls between two
 //! elements and never inside a step, and a stationary state repeats itself to the last digit. Where a spring carries the
-//! contact at once, the line is pressed before the first step.
+//! contact from the beginning, the line is pressed before the first step.
 //!
 //! Theory: docs/theory/line-viscoelastic.md, "Step by step".
 

@@ -386,7 +386,7 @@ impl<'a> WinklerFoundation<'a> {
         } else {
             0.0
         };
-        // Bring each element that the line penetrates into contact at once.
+        // Bring each element that the line penetrates into contact immediately.
         let mut stored = 0.0;
         for (element, height) in (self.window[0]..=self.window[1]).zip(&self.heights) {
             let ElementState::Free { limit, .. } = self.elements.states[element] else {

@@ -13,7 +13,7 @@
 //! dashpot.
 //!
 //! The line is a sequence of polynomials, and between two events everything is integrated in closed form: boundary layers
-//! of the width v τ_i need no mesh. F_h is summed as the energy that the dashpots dissipate and that is lost at release.
+//! of the width v τ_i need no mesh. F_h is summed as the energy that the dashpots and the release dissipate.
 //! These terms do not cancel, so that small friction keeps its digits.
 //!
 //! Theory: docs/theory/line-viscoelastic.md.

@@ -392,7 +392,7 @@ fn the_energy_of_a_cycle_at_a_depth_has_a_bar_of_its_own() {
     assert!(apart <= coarse.error + fine.error, "{coarse:?}, {fine:?}");
 }
 
-/// A material of two branches, of which one relaxes over a number of cycles.
+/// A material of two branches; one relaxes over the given number of cycles.
 fn slow_material(period: f64, cycles: f64) -> Prony {
     let slow = RelaxationBranch::new(3e6, cycles * period);
     let branches = vec![RelaxationBranch::new(5e6, 0.1 * period), slow];

@@ -37,7 +37,7 @@ fn too_few_elements_are_refused() {
 #[test]
 fn contact_reaches_the_last_element() {
     let ramp = line([0.0, 1.0], |x| x);
-    // Three parts of 0.9 with six elements each are elements of 0.15, of which the last one is at 0.9.
+    // Three parts of 0.9 with six elements each are elements of 0.15; the last one is at 0.9.
     let load = load_for_depth(0.99).after(2.7).expect("a distance");
     let slid = slide(&ramp, &material(VISCOSITY), &load, Accuracy::Elements(6));
     assert_matches!(

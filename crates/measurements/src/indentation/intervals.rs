@@ -76,7 +76,7 @@ impl Statistics {
         let rise = |k: usize| {
             let diagonal = k * (n + 1);
             let ratio = covariance[diagonal] / inverse[diagonal];
-            // If parameters cannot be told apart, rounding decides the sign of this ratio; then the variance without it is used.
+            // If parameters are not identifiable, rounding decides the sign of this ratio; then the variance without it is used.
             let is_known = ratio.is_finite() && ratio > 0.0;
             let ratio = if is_known { ratio } else { variance };
             NORMAL_QUANTILE * NORMAL_QUANTILE * ratio

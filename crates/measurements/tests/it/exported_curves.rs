@@ -1,4 +1,4 @@
-//! Curves in the layouts of instruments are read with what they say, and what is guessed is said.
+//! Curves in the layouts of instruments are read with the constants that they state, and every guess is reported.
 //!
 //! The layouts are those of public examples and manuals; the numbers are made up.
 

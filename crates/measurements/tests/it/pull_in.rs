@@ -140,7 +140,7 @@ fn every_body_that_is_pulled_in_is_flagged_or_refused() {
     write_table("pull-in.txt", &table);
 }
 
-/// None is silent; above 5 % all are refused, and below none.
+/// Every pull-in is reported; above 5 % all curves are refused, and below none.
 #[track_caller]
 fn assert_said(what: &str, part: f64, all: &[Said], table: &mut String) {
     let count = |is: fn(&Said) -> bool| all.iter().filter(|one| is(one)).count();

@@ -14,7 +14,7 @@ use crate::support::Normal;
 pub(crate) struct Case {
     pub(crate) name: &'static str,
     pub(crate) body: Box<dyn Axisymmetric>,
-    /// Of the sample, if it is not a half space, \[m].
+    /// Thickness of the sample, if it is not a half space, \[m].
     pub(crate) thickness: Option<f64>,
     pub(crate) material: Prony,
     pub(crate) rheology: Rheology,
@@ -162,7 +162,7 @@ pub(crate) fn thin() -> Case {
     }
 }
 
-/// Of the force, from point to point, and of the depth, in parts of its range.
+/// Noise of the force, from point to point, and of the depth, in parts of its range.
 pub(crate) struct Noise {
     pub(crate) name: &'static str,
     pub(crate) correlation: f64,

@@ -87,7 +87,7 @@ pub(super) fn shift_by_law(mut known: Vec<KnownShift>, sought: [f64; 2]) -> Opti
         .map(|pair| law.derivatives(pair.temperatures))
         .collect();
     let normal: Matrix2<f64> = derivatives.iter().map(|own| own * own.transpose()).sum();
-    // If the pole is distant, its effect and that of the steepness cannot be told apart; a ridge keeps the matrix regular.
+    // If the pole is distant, its effect is indistinguishable from that of the steepness; a ridge keeps the matrix regular.
     let ridge = Matrix2::from_diagonal(&(normal.diagonal() * NORMAL_ROUNDING));
     let of_sought = (normal + ridge).try_inverse()? * law.derivatives(sought);
     let weights = known

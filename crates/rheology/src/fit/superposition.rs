@@ -460,7 +460,7 @@ impl Superposition<'_> {
         let overlaps = without.iter().filter_map(|placed| placed.place);
         let points: f64 = overlaps.clone().flat_map(|place| place.overlaps).sum();
         let costs = 0.5 * (0.5 * points).max(1.0).ln() * overlaps.count() as f64;
-        // Compute the difference between free and bound factors of each isotherm, of which the largest decides.
+        // Compute the difference between free and bound factors of each isotherm; the largest decides.
         let [free, bound] =
             [freed, without].map(|placed| self.sum_along_chain(placed, |one| one.log_modulus));
         let away = free

@@ -109,7 +109,7 @@ fn degenerate_spectra_convert() {
     assert_close!(element.compliance => 75.0 / 289.0, within 1e-15);
 }
 
-/// Their squares underflow, so that the search for a retardation time once went on without end.
+/// Their squares underflow, so that the search for a retardation time once never ended.
 #[test]
 fn branches_that_relax_at_once_are_converted() {
     for time in [1e-150, 1e-200, 1e-300] {

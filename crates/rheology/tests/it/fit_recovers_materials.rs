@@ -97,7 +97,7 @@ fn exact_data_give_back_their_spectrum() {
     }
 }
 
-/// Asserts that fits have at most so many branches and smaller squares than those of pyvisco.
+/// Asserts that fits have at most the given number of branches and smaller squares than those of pyvisco.
 fn assert_better_than_pyvisco(
     curve: &MeasuredCurve,
     rows: &[(Control, usize, f64)],

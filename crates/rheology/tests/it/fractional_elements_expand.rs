@@ -87,7 +87,7 @@ fn fractional_standard_solid_creeps_like_its_closed_form() {
     }
 }
 
-/// Of another unit of time only the rounding differs.
+/// Another unit of time changes the rounding only.
 #[test]
 fn the_series_does_not_depend_on_the_unit_of_time() {
     for unit in [2.0_f64.powi(-7), 3.0, 1e12] {

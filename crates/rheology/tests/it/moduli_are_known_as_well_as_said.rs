@@ -52,7 +52,7 @@ fn measured(truth: &RelaxationSpectrum, seed: u64, scale: f64) -> Vec<Isotherm> 
     (0..6).map(isotherm).collect()
 }
 
-/// Of 200 experiments 95 per cent are expected within 1.96 standard errors, give or take 1.5 by chance; bands half as wide hold
+/// Expects 95 per cent of 200 experiments within 1.96 standard errors, give or take 1.5 by chance; bands half as wide hold
 /// only two thirds.
 #[test]
 fn bands_hold_the_true_material_as_often_as_they_say() {

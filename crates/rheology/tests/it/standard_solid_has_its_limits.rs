@@ -29,7 +29,7 @@ fn loss_peak_and_viscous_window_match_the_closed_forms() {
             case.check("gamma_c", StandardSolid::LARGEST_VISCOUS_RATIO);
             continue;
         }
-        // A relaxation time other than 1 shows that ω and Ω are told apart.
+        // A relaxation time other than 1 shows that ω and Ω are distinguished.
         let (g2, tau) = (4.0, 0.25);
         let solid = solid([case.input("gamma") * g2, g2, g2 * tau]);
         let peak = solid.loss_peak();

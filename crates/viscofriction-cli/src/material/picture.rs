@@ -30,7 +30,7 @@ pub(super) struct Isotherms {
     pub(super) unit: &'static str,
 }
 
-/// The figure of a fit: measured and fitted moduli, and beside them the relative errors of the fit.
+/// The figure of a fit: measured and fitted moduli, and the relative errors of the fit.
 pub(super) fn figure(comparison: &Comparison) -> Figure {
     let (x, moduli) = match comparison.names {
         OSCILLATION => ("angular frequency ω [rad/s]", &["G′", "G″"][..]),

@@ -35,7 +35,7 @@ fn prose(page: &str) -> Vec<(usize, String)> {
     lines
 }
 
-/// The same line without code between backticks.
+/// A line without the code between backticks.
 fn without_code(line: &str) -> String {
     let parts = line.split('`').enumerate();
     let parts = parts.map(|(place, part)| if place % 2 == 0 { part } else { "" });

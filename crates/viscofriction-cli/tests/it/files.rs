@@ -1,4 +1,4 @@
-//! Nothing that a person has is lost, nothing is left by halves, and nothing is read without end.
+//! No file of the user is deleted, no result is left incomplete, and no endless input is read.
 #![cfg(unix)]
 
 use std::fs::{self, File, Permissions, hard_link};
@@ -297,7 +297,7 @@ fn answer(folder: &Folder, out: &str) -> Vec<(String, Vec<u8>)> {
     names.map(read).collect()
 }
 
-/// Two answers with other files each; what a person has put beside the first stays.
+/// Two answers with other files each; files that the user has added to the first stay.
 #[test]
 fn a_folder_is_of_one_answer_when_a_run_that_replaces_it_is_killed() {
     let folder = Folder::new("exchanged");

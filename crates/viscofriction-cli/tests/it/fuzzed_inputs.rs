@@ -85,7 +85,7 @@ fn number_at(text: &[u8], place: usize) -> Range<usize> {
     digit - before.count()..digit + behind.count()
 }
 
-/// How many files of a kind are mutated: as many as the environment variable `FUZZ_CASES` says, or else so many.
+/// Number of files of a kind that are mutated: that in the environment variable `FUZZ_CASES`, or else `otherwise`.
 fn cases(otherwise: u32) -> u32 {
     let given = env::var("FUZZ_CASES").ok();
     given.map_or(otherwise, |cases| {
@@ -93,7 +93,7 @@ fn cases(otherwise: u32) -> u32 {
     })
 }
 
-/// The same cases in every run, unless the environment variable `FUZZ_SEED` asks for others.
+/// Configuration with the same cases in every run, unless the environment variable `FUZZ_SEED` asks for others.
 fn config(cases: u32) -> Config {
     let fixed = fixed_cases(cases);
     let seed = env::var("FUZZ_SEED").ok();

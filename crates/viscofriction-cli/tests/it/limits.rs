@@ -41,7 +41,7 @@ fn limited(folder: &Folder, words: &[String], memory: u64) -> Said {
     )
 }
 
-/// The program on so many threads within limits of the shell.
+/// Runs the program on the given number of threads within limits of the shell.
 fn within(limits: &str, folder: &Folder, threads: &str, words: &[String]) -> Said {
     let limits = format!("{limits}; exec \"$0\" \"$@\"");
     let mut command = Command::new("sh");
@@ -363,7 +363,7 @@ fn no_scene_takes_more_memory_than_it_allows() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// A sweep of a rough elastic surface that is pressed, with so many MiB and 64 MiB beside.
+/// Runs a sweep of a rough elastic surface that is pressed, with `allowed` MiB and 64 MiB more.
 fn pressed_sweep(folder: &Folder, threads: &str, allowed: u32, parts: [&str; 3]) -> Said {
     let [body, solution, values] = parts;
     let solution = format!("duration = 1.0, {solution}, max_memory = \"{allowed} MiB\"");

@@ -1,4 +1,4 @@
-//! The program in a folder, and what it says.
+//! Runs of the program in a folder, with its output.
 
 use std::fs;
 use std::path::PathBuf;

@@ -27,7 +27,7 @@ pub struct Dissipation {
 const MAX_EXTRAPOLATED_FRACTION: f64 = 0.1;
 
 impl Dissipation {
-    /// Whether so much of the friction comes from outside the measured frequencies that the answer has a warning.
+    /// Whether the fraction of the friction from outside the measured frequencies is so large that the answer has a warning.
     pub fn is_extrapolated(&self) -> bool {
         let outside = self.outside_window;
         outside.is_some_and(|fraction| fraction > MAX_EXTRAPOLATED_FRACTION)

@@ -6,7 +6,7 @@ use crate::files::Files;
 use crate::scene::{Indenter, MaterialTable, Scene, SceneError};
 use crate::solve::{BodyOfScene, HalfSpace, Parts, body, half_space};
 
-/// Largest number of bodies, and of elastomers, that are kept for other points. Chosen: the search among so many takes
+/// Largest number of bodies, and of elastomers, that are kept for other points. Chosen: a search among them takes
 /// microseconds.
 const MAX_ENTRIES: usize = 64;
 /// Largest fraction of the memory limit that the kept bodies may occupy. Chosen: several maps fit, and most is left to the

@@ -1,4 +1,4 @@
-//! Scenes that move to and fro, or through points.
+//! Scenes with a reciprocating motion, or one through points.
 
 use viscofriction::scene::Scene;
 use viscofriction::{Answer, Problem, plan, solve};

@@ -76,7 +76,7 @@ fn the_way_from_rest_ends_in_the_stationary_state() {
     assert!(more > less, "{pressed}");
 }
 
-/// Of full contact the friction is a sum over waves of q q_x a² G″(q_x v).
+/// The friction of full contact is a sum over waves of q q_x a² G″(q_x v).
 #[test]
 fn the_shortest_octave_has_the_part_of_the_friction_that_goes_without_it() {
     let folder = Folder::new("rough-cut-off");
@@ -115,7 +115,7 @@ fn the_shortest_octave_has_the_part_of_the_friction_that_goes_without_it() {
     assert!(answer.get("dissipation").is_none(), "{answer}");
 }
 
-/// The same two waves, written on two grids.
+/// Two waves on two grids give the same answer.
 #[test]
 fn a_periodic_map_is_the_same_surface_on_any_grid() {
     let folder = Folder::new("rough-map");

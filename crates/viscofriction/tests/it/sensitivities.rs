@@ -11,7 +11,7 @@ pub(crate) fn no_file(path: &Path, _: u64) -> Result<Vec<u8>, WrongInput> {
     Err(WrongInput(format!("{}: no file", path.display())))
 }
 
-/// The parts that were done, as they were told.
+/// The completed fractions, in the order of their reports.
 #[derive(Debug, Default)]
 pub(crate) struct Told(pub(crate) Mutex<Vec<f64>>);
 

@@ -43,7 +43,7 @@ impl Folder {
     }
 }
 
-/// The scene of `body; material; load; solution`, of which the first two may be names.
+/// The scene of `body; material; load; solution`; the first two may be names.
 #[track_caller]
 pub(crate) fn scene(parts: &str) -> String {
     let parts: Vec<&str> = parts.split("; ").collect();

@@ -16,7 +16,7 @@ use super::{HEIGHTS, Lengths, Motion, PROFILE, Range, SPECTRUM, keys_of, read};
 use crate::evidence::unit::Unit;
 use crate::random::Random;
 
-/// Relative error requested of motions to and fro or through points on the half space. Chosen: a smaller one takes too long.
+/// Relative error requested of reciprocating motions, and of those through points, on the half space. Chosen: a smaller one takes too long.
 const ERROR_OF_MOTION: f64 = 0.1;
 /// Range of validity of drawn shift laws, \[°C]. Chosen; reference and actual temperature are drawn from it.
 const TEMPERATURES: [f64; 2] = [10.0, 40.0];
@@ -346,8 +346,8 @@ impl Sample<'_> {
         Ok([4.0 * self.contact * depth / compliance, depth])
     }
 
-    /// Draws a motion at about `velocity` \[m/s]: to and fro over a part of a contact or some contacts, or through up to five
-    /// points, at some of which the body rests. On the half space it is solved to [`ERROR_OF_MOTION`].
+    /// Draws a motion at about `velocity` \[m/s]: reciprocating over a part of a contact or some contacts, or through up to five
+    /// points with a rest at some of them. On the half space it is solved to [`ERROR_OF_MOTION`].
     fn move_along(&mut self, scene: &mut Scene, velocity: f64) {
         if scene.solve.model.is_none() {
             scene.solve.relative_error = Some(ERROR_OF_MOTION);

@@ -44,13 +44,13 @@ struct Extent {
     curve_ratios: Vec<f64>,
     /// Points of a curve.
     curve_speeds: Decades,
-    /// Of all curves.
+    /// Relative error requested of all curves.
     curve_error: f64,
     /// Rows of the map.
     map_ratios: Decades,
     /// Columns of the map.
     map_speeds: Decades,
-    /// Of the whole map.
+    /// Relative error requested of the whole map.
     map_error: f64,
 }
 

@@ -17,7 +17,7 @@ const BUILD: &str = "build --quiet --profile ci --workspace --all-features --bin
 
 /// The copy, in a folder with all that is built from it.
 pub(super) struct Checkout {
-    /// Of the copy and the builds.
+    /// Folder of the copy and the builds.
     folder: PathBuf,
     /// Files that are copied, from the root of the checkout.
     tracked: Vec<PathBuf>,
@@ -67,7 +67,7 @@ impl Checkout {
         self.folder.join("checkout").join(file)
     }
 
-    /// Writes the scene of the reference beside the scene, so that it finds the same other files.
+    /// Writes the scene of the reference into the folder of the scene, so that it finds the same other files.
     pub(super) fn write_reference(&self, scene: &BenchmarkScene) -> Result<PathBuf> {
         let file = self.copy(&scene.file);
         let text = String::from_utf8(read(&file)?)?;

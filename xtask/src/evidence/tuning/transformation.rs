@@ -26,7 +26,7 @@ pub(super) struct Source {
     text: String,
     /// The text with blanks in place of comments, literals in quotes, imports and tests; as many bytes.
     code: String,
-    /// Of constants, in their order.
+    /// Declarations of constants, in their order.
     declarations: Vec<Declaration>,
 }
 

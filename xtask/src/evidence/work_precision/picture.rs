@@ -77,7 +77,7 @@ fn style(row: &Row) -> (Colour, Marker) {
     }
 }
 
-/// The relative error of the reference, if it is large enough to be drawn: errors below cannot be told from it.
+/// The relative error of the reference, if it is large enough to be drawn: errors below it are not resolved.
 fn visible_floor(row: &Row) -> Option<f64> {
     (row.reference_error > MIN_DRAWN_FLOOR).then_some(row.reference_error)
 }

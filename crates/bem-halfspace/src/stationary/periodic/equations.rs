@@ -34,7 +34,7 @@ use crate::stationary::periodic::kernel::{PeriodicKernel, Sliding};
 use crate::{BemError, Grid};
 
 /// Largest number of GCR steps on one active set if the basis has to be truncated to fit into memory. Chosen to limit the time.
-/// Beyond it the equations are solved directly if they are few enough; otherwise the search goes on with the pressure so far.
+/// Beyond it the equations are solved directly if they are few enough; otherwise the search continues with the pressure so far.
 const MAX_STEPS_IF_TRUNCATED: usize = 80;
 /// Largest number of GCR steps if the whole basis fits into memory. Chosen.
 ///

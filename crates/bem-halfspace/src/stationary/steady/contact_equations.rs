@@ -29,7 +29,7 @@ use crate::stationary::steady::wiener_hopf::WienerHopf;
 /// at 557 unknowns 0.4 to 0.7 ms against 7 ms. It has a case of `evidence tuning`.
 const DIRECT_SOLVE_WORK_PER_ELEMENT: f64 = 5e3;
 /// Largest number of GCR steps on one active set, and of directions in the basis. Chosen to limit time and memory; a
-/// preconditioned contact needs some tens. Beyond it the search of a contact goes on with the loads so far. Adjoint equations are
+/// preconditioned contact needs some tens. Beyond it the search of a contact continues with the loads so far. Adjoint equations are
 /// then solved directly, or fail if they are too large.
 pub(super) const MAX_GCR_STEPS: usize = 150;
 /// GCR without truncation: the basis keeps all directions.

@@ -175,7 +175,7 @@ impl GridKernel {
             return;
         }
 
-        // With retardations, the recursion along rows gives all kernels at once, beginning ahead.
+        // With retardations, a single recursion along rows gives all kernels, beginning ahead.
         let rows = self.max_offsets[0].cast_signed();
         let columns = self.max_offsets[1] + 1;
         let position = |offset: isize| offset as f64 + part.collocation_shift;

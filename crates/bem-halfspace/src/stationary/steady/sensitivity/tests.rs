@@ -137,7 +137,7 @@ fn changed(case: &Case, state: &SensitivityOnGrid, index: usize) -> Change<f64> 
     change.expect("a change")[0]
 }
 
-/// Of the friction, and of the depth or the force.
+/// Changes of the friction, and of the depth or the force.
 fn values(change: &Change<f64>) -> [f64; 2] {
     let other = change.indentation_depth.or(change.normal_force);
     [change.friction_coefficient, other.unwrap_or(0.0)]
