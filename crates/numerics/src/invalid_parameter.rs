@@ -55,11 +55,11 @@ impl Display for MessageNumber {
 
 /// Absolute values of numbers that are written without a power of ten: those for which `Debug` does so.
 pub(crate) const POSITIONAL_RANGE: Range<f64> = 1e-5..1e16;
-/// Number of significant digits of a short decimal number that the rounding errors of a few operations do not change:
+/// Number of significant digits of a short decimal number that the rounding errors of a few operations do not change. Derived:
 /// one less than those that survive reading and writing.
 const RELIABLE_DIGITS: usize = f64::DIGITS as usize - 1;
-/// Largest number of characters of the mantissa, with its point, of a number that is written as a short decimal one
-/// in messages. Chosen; no result depends on it.
+/// Largest number of characters of the mantissa, with its point, of a number that is written as a short decimal one in messages.
+/// Chosen for the reader; no result depends on it.
 const MAX_SHORT_MANTISSA: usize = 10;
 
 /// The short decimal number from which this one differs by rounding errors only, such as 0.3 for 0.1 + 0.2.

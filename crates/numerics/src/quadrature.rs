@@ -10,12 +10,13 @@ use crate::Estimate;
 /// Step in t of the coarsest trapezoidal sum, which is halved at least [`MIN_HALVINGS`] times. Chosen; it moves integrals by less
 /// than their stated error.
 const COARSEST_STEP: f64 = 0.5;
-/// Largest number of times that the step is halved, to limit the computing time: a sum then has some 12 000 nodes.
+/// Largest number of times that the step is halved. Chosen to limit the computing time: a sum then has some 12 000 nodes. The
+/// last change is returned as the error.
 const MAX_HALVINGS: usize = 9;
 /// Number of halvings before the change by a halving is trusted as the error. Chosen: the first sums may agree by chance, for
 /// example if both miss a narrow feature. The first trusted sum has 195 nodes; with fewer halvings narrower features are missed.
 const MIN_HALVINGS: usize = 3;
-/// Largest |t| of a node: from asinh(708.4/π) = 6.11 on, the weights e^(−π sinh t) fall below the smallest normal
+/// Largest |t| of a node. Derived: from asinh(708.4/π) = 6.11 on, the weights e^(−π sinh t) fall below the smallest normal
 /// number, e^(−708.4).
 const LAST_NODE: f64 = 6.1;
 

@@ -207,8 +207,8 @@ fn relative_to(value: f64, scale: f64) -> String {
 /// Number of elements on which a relative error is first sought. Chosen; twice or half as many change which
 /// resolution reaches the error (case of `evidence tuning`).
 pub const FIRST_ELEMENTS: usize = 16;
-/// Smallest number n of elements whose error estimate also uses 3n/8 elements: the default of the first error
-/// estimate, with 6 elements on the coarsest resolution.
+/// Smallest number n of elements whose error estimate also uses 3n/8 elements. Chosen as the default of the first error estimate,
+/// with 6 elements on the coarsest resolution; on fewer, errors need not fall like a power.
 const MIN_ELEMENTS_FOR_THREE_EIGHTHS: usize = FIRST_ELEMENTS;
 /// Factors on the error estimates by n/2, 3n/4 and 3n/8 elements; chosen on random scenes (docs/calibration.md, "What was
 /// measured"; case of `evidence tuning`).
@@ -216,7 +216,8 @@ const ESTIMATE_WEIGHTS: [f64; 3] = [1.25, 0.625, 0.85];
 /// Factor on the larger of the estimates by n/2 and 3n/4 elements if there is no third one (docs/calibration.md, "What was
 /// measured").
 const WEIGHT_OF_TWO_ESTIMATES: f64 = 1.7;
-/// Smallest convergence order that is assumed: with it, half of an error takes 2¹⁰ times the elements, which no refinement affords.
+/// Smallest convergence order that is assumed. Chosen: with it, half of an error takes 2¹⁰ times the elements, which no
+/// refinement affords.
 pub const MIN_CONVERGENCE_ORDER: f64 = 0.1;
 /// Share of the requested relative error that an iteration on each resolution may leave, such as that to a limit cycle.
 ///

@@ -53,12 +53,13 @@ const MAX_STEPS: usize = 100;
 /// Damping λ of the first step, relative to the diagonal: the value that Press et al., Numerical Recipes, section "Nonlinear
 /// Models", advise. It changes the path to the minimum, not the minimum.
 const INITIAL_DAMPING: f64 = 1e-3;
-/// Factor on the damping after a step that lowers the sum. Chosen; it changes the number of steps, not the minimum.
+/// Factor on the damping after a step that lowers the sum. Chosen: a smaller one comes closer to Gauss–Newton steps sooner, and
+/// is more often followed by a step that has to be repeated. It changes the number of steps, not the minimum.
 const DAMPING_DECREASE: f64 = 0.2;
-/// Factor on the damping after a step that does not lower the sum. Chosen; it changes the number of steps, not the
-/// minimum.
+/// Factor on the damping after a step that does not lower the sum. Chosen: a smaller one repeats a step more often, a larger one
+/// shortens it more than needed. It changes the number of steps, not the minimum.
 const DAMPING_INCREASE: f64 = 4.0;
-/// Damping at which the search gives up lowering the sum, to limit the computing time. A step is then 1e-9 of that without
+/// Damping at which the search gives up lowering the sum. Chosen to limit the computing time: a step is then 1e-9 of that without
 /// damping along each parameter.
 const MAX_DAMPING: f64 = 1e9;
 /// Damping of a step by the model alone, relative to the diagonal, which keeps a singular matrix positive definite. Chosen far

@@ -25,8 +25,8 @@ const MAX_TRIALS: usize = 20;
 /// If it is not enough, the sum after the predicted decrease of the last model is used. In a curved valley that is too small
 /// rather than too large, and the interval becomes wider.
 const MAX_EVALUATIONS: usize = 12;
-/// Ratio of the sufficient decrease of the inner minimisation to the product of `rise` and the relative tolerance. It moves
-/// √(rise of the minimal sum/`rise`) by at most 0.15 of the tolerance.
+/// Ratio of the sufficient decrease of the inner minimisation to the product of `rise` and the relative tolerance. Derived: half
+/// of it, 0.15 of the tolerance, is the largest change of √(rise of the minimal sum/`rise`).
 const INNER_TOLERANCE: f64 = 0.3;
 /// Bounds of the position of the next trial in the bracket, as a fraction of its length. Chosen: each trial shortens the bracket
 /// by at least 2 %. It changes the number of trials, not the end.
