@@ -273,8 +273,7 @@ fn radius_of_moment(body: &dyn Axisymmetric, target: f64) -> Result<Option<f64>,
         .map(Some)
 }
 
-/// Factor between two radii of the search for a bracket. It changes the number of evaluations only: the root is the
-/// same.
+/// Factor between two radii of the search for a bracket. Chosen; it changes the number of evaluations only: the root is the same.
 const BRACKET_FACTOR: f64 = 64.0;
 
 /// Two radii \[m] between which the excess of the moment changes its sign.

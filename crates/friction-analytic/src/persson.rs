@@ -229,14 +229,15 @@ pub fn persson_of_spectrum(
 const N_TERMS: usize = 3;
 /// Number of results: the area fraction, the variance of the pressure, and the terms of the friction.
 const N_RESULTS: usize = N_TERMS + 2;
-/// Relative difference up to which the lengths of two wave vectors count as equal: some thousand units in the last
-/// place, for the rounding of their components.
+/// Relative difference up to which the lengths of two wave vectors count as equal. Chosen: some thousand units in the last place,
+/// for the rounding of their components. Waves that are really so close act as one shell, which changes the friction by as
+/// little.
 const EQUAL_LENGTHS: f64 = 1e-12;
 /// Number of steps of Simpson's rule on each of the two ranges below and above the roll-off, on the coarsest grid. Chosen: they
 /// are doubled until the requested error is reached, so that fewer steps take one more doubling.
 const MIN_STEPS: usize = 16;
-/// Number of steps of Simpson's rule on each of the two ranges from which on they are not doubled, to limit the computing time.
-/// A larger error than asked for is then [`FrictionError::NotConverged`].
+/// Number of steps of Simpson's rule on each of the two ranges from which on they are not doubled. Chosen to limit the computing
+/// time: a larger error than asked for is then [`FrictionError::NotConverged`].
 const MAX_STEPS: usize = 1 << 14;
 /// Requested relative error of the integrals over the angle. Chosen: 450 units in the last place, which the integrands allow. The
 /// error that is reached is part of the error bar.
@@ -378,7 +379,8 @@ struct SpectralIntegrals {
 }
 
 impl SpectralIntegrals {
-    /// Adds a contribution to the friction in full contact, times the present area fraction P and S = 1, P² and P⁴.
+    /// Adds a contribution to all terms of the friction. Given that of full contact, `in_full_contact`, the term of S is P S
+    /// times it, with the present area fraction P and S = 1, P² and P⁴.
     fn add_friction(&mut self, in_full_contact: f64) {
         let area = area_fraction(2.0 * self.g);
         let mut added = area * in_full_contact;

@@ -5,11 +5,11 @@ use numerics::{Estimate, integrate};
 
 use crate::FrictionError;
 
-/// Requested relative accuracy of an integral. Slopes that are integrals themselves are known to 1e-14, so that a
+/// Requested relative accuracy of an integral. Chosen: slopes that are integrals themselves are known to 1e-14, so that a much
 /// smaller one could not be distinguished from noise.
 const REQUESTED_ACCURACY: f64 = 1e-12;
-/// Largest relative error of an integral that is accepted: a hundred times the requested one, for integrands that are
-/// known less accurately (docs/conventions.md, "Errors and tolerances").
+/// Largest relative error of an integral that is accepted. Chosen as a hundred times the requested one, for integrands that are
+/// known less accurately (docs/conventions.md, "Errors and tolerances"); a larger error is refused.
 const ACCEPTED_ACCURACY: f64 = 1e2 * REQUESTED_ACCURACY;
 
 /// Integral over the pieces between successive `ends`, each of which may have a singular end; its error is the sum of theirs, each

@@ -18,8 +18,9 @@ use crate::FrictionError;
 use crate::error::{out_of_range, representable};
 use crate::stationary::depth_under_force;
 
-/// Largest difference between the rise of the contact and the depth, relative to the depth, with which they count as
-/// equal: the contact comes from a root search, or from a table of the caller with nine digits.
+/// Largest difference between the rise of the contact and the depth, relative to the depth, with which they count as equal.
+/// Chosen above the rounding of a contact from a root search, or from a table of the caller with nine digits; it only decides
+/// what is refused.
 const HEIGHT_TOLERANCE: f64 = 1e-9;
 
 /// Velocity v_z at which a sliding line sinks while it touches over the `contact` intervals \[m] of its own frame, \[m/s].

@@ -84,8 +84,8 @@ const DEPTH_BOUND: f64 = 0.25;
 /// Upper bound of the relative error of the integrals of the first term. Chosen far below the bounds on the terms of higher
 /// order; an integral with a larger error is refused.
 const QUADRATURE_ERROR: f64 = 1e-10;
-/// Distance from the apex, divided by the contact radius, beyond which changes of the slope count in the other terms. Chosen;
-/// the bounds of the terms were measured with it.
+/// Distance from the apex, divided by the contact radius, beyond which changes of the slope count in the other terms. Chosen; the
+/// bounds of the terms were measured with it, and would have to be measured again for another distance.
 const APEX_REGION: f64 = 0.25;
 
 /// Slow sliding over a solid half space, from the elastic contact of the same radius.

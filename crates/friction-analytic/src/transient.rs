@@ -201,7 +201,8 @@ fn distance_since_lift_off(y: f64) -> f64 {
     y - y.ln() - 0.5 - LN_2
 }
 
-/// Number of Newton steps for y: the start is within e^z < ½ of the root, and 6 steps of quadratic convergence reach rounding.
+/// Number of Newton steps for y. Derived: the start is within e^z < ½ of the root, and 6 steps of quadratic convergence reach
+/// rounding; two more are a margin.
 const NEWTON_STEPS: usize = 8;
 
 /// Relative distance y from the stationary state at the distance T ≥ 0 since lift-off, as a multiple of x_d: y = −W₀(−½ e^(−1/2 −
@@ -223,7 +224,7 @@ fn missing_fraction(since_lift_off: f64) -> f64 {
     z.exp()
 }
 
-/// Largest q for which −q − ln(1 − q) is summed as a series: its 17 terms reach rounding there, and above it the
+/// Largest q for which −q − ln(1 − q) is summed as a series. Derived: its 17 terms reach rounding there, and above it the
 /// difference enlarges rounding by a factor of 20 at most.
 const MAX_LOG_SERIES_Q: f64 = 0.1;
 

@@ -180,11 +180,11 @@ fn maxwell_paraboloid(ratio: f64) -> Result<RelativeSliding, FrictionError> {
     })
 }
 
-/// Largest q for which artanh q − q is summed as a series, which reaches rounding there; above it the difference
-/// enlarges rounding by a factor of 300 at most.
+/// Largest q for which artanh q − q is summed as a series. Derived: the series reaches rounding there, and above it the
+/// difference enlarges rounding by a factor of 300 at most.
 const MAX_ARTANH_SERIES_Q: f64 = 0.1;
-/// Margin of the bracket of the contact length above its upper bound, for rounding. It changes the number of
-/// evaluations only: the root is the same.
+/// Margin of the bracket of the contact length above its upper bound, for rounding. Chosen; it changes the number of evaluations
+/// only: the root is the same.
 const BRACKET_MARGIN: f64 = 0.1;
 
 /// The functions φ₁ = (1 − e^(−z))/z and φ_(k+1) = (1/k! − φ_k)/z of z > 0, without cancellation.

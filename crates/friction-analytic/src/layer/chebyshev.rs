@@ -6,10 +6,11 @@
 
 use std::f64::consts::PI;
 
-/// Number of nodes of the first interpolation. It changes the number of evaluations only: nodes are added until the
-/// tail is within the tolerance.
+/// Number of nodes of the first interpolation. Chosen; it changes the number of evaluations only: nodes are added until the tail
+/// is within the tolerance.
 const INITIAL_NODES: usize = 9;
-/// Factor on the number of nodes per refinement: with 3, the zeros of T_n are among those of T_3n.
+/// Factor on the number of nodes per refinement. Derived: 3 is the smallest with which the zeros of T_n are among those of the
+/// next polynomial, T_3n, so that no value is computed twice.
 const NODE_GROWTH: usize = 3;
 /// Largest number of nodes. Chosen to limit the computing time: three refinements from [`INITIAL_NODES`]. The series is then
 /// returned with the tail that it has, which the caller judges.

@@ -24,17 +24,18 @@ use rheology::layer_deficit;
 
 use crate::FrictionError;
 
-/// Wave number times the thickness at which the integral over ξ ends. From there on 1 − M is below 1e-12.
+/// Wave number times the thickness at which the integral over ξ ends. Derived: from there on 1 − M is below 1e-12.
 const MAX_WAVE_NUMBER: f64 = 17.0;
 /// Number of points of the rule over the wave number, which grows with the contact radius.
 ///
 /// Chosen together with [`CONTACT_POINTS`] and [`LINE_POINTS`]: doubling all three changes the depth and the force of a punch by less
 /// than 1e-9 up to a radius of a hundred thicknesses.
 const WAVE_POINTS: PointCount = PointCount::new(45.0, 11.5);
-/// Number of points of the rule over the contact for q, which grows with the contact radius. Chosen as [`WAVE_POINTS`] are.
+/// Number of points of the rule over the contact for q, which grows with the contact radius. Chosen together with
+/// [`WAVE_POINTS`], whose doc has the effect of twice as many.
 const CONTACT_POINTS: PointCount = PointCount::new(16.0, 4.0);
 /// Number of points of the rule over one smooth piece of the equivalent line, which grows with the length of the piece. Chosen
-/// as [`WAVE_POINTS`] are.
+/// together with [`WAVE_POINTS`], whose doc has the effect of twice as many.
 const LINE_POINTS: PointCount = PointCount::new(30.0, 6.0);
 /// Number of which every number of points is a multiple, so that similar radii share a rule. Chosen: it only raises the numbers
 /// of points, by up to seven.

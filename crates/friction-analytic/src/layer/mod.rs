@@ -15,8 +15,8 @@ use crate::FrictionError;
 use crate::error::representable;
 use equation::{ContactDisc, EquivalentLine, WaveQuadrature};
 
-/// Largest ratio of the contact radius to the thickness for which the equations are solved. It limits the computing time, which
-/// grows like the cube of the radius; larger radii are refused.
+/// Largest ratio of the contact radius to the thickness for which the equations are solved. Chosen to limit the computing time,
+/// which grows like the cube of the radius; larger radii are refused.
 ///
 /// A wider contact is close to that on a Winkler foundation or a film ([`ThinLayer`](crate::ThinLayer)).
 const MAX_RADIUS_OVER_THICKNESS: f64 = 100.0;

@@ -41,7 +41,8 @@ const LEFT_OUT_TERMS_ERROR: f64 = 2e-8;
 /// on a film, on which the profile c r^p has the height (1 + p/2) d at the contact boundary. The ratio [(1 + p/2) √π Γ(p/2 +
 /// 1)/Γ(p/2 + 1/2)]^(1/p) falls with p, from 2.7 at p = 1/2. A larger bound costs wave numbers that are not needed.
 const MAX_RADIUS_RATIO: f64 = 3.0;
-/// Factor on the radius per step of the search for a depth. Chosen: it changes the number of evaluations only.
+/// Factor on the radius per step of the search for a depth. Chosen: it changes the number of evaluations only. A larger one may
+/// end at a larger radius, whose equations take longer.
 const SEARCH_GROWTH: f64 = 1.25;
 /// Ratio of the depth at which the interpolated radius aims to the depth that is sought. Chosen close to 1: the cost of the
 /// equations grows like the cube of the radius (case of `evidence tuning`).
