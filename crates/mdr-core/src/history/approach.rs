@@ -125,7 +125,7 @@ pub(super) struct Approach {
 /// Number of steps of the search for the edge that are not guarded by bisection; afterwards every other step halves the
 /// bracket. Chosen: a larger number only delays searches in which Halley's method does not converge.
 const UNGUARDED_EDGE_STEPS: usize = 16;
-/// Largest number of steps in the search for the edge. By then 91 of them have halved the bracket, which is narrower than
+/// Largest number of steps in the search for the edge. Derived: 91 of them have then halved the bracket, which is narrower than
 /// rounding.
 const MAX_EDGE_STEPS: usize = 200;
 /// Relative change of the depth of the edge at which the search for the edge ends. Chosen: the derivatives of the force have

@@ -275,8 +275,8 @@ struct CurveErrors {
     largest_force: f64,
 }
 
-/// Rounding of a sum of loads or of their rates, relative to the sum of the sizes of its terms: 64 units in the last place.
-/// The tests compare such sums with 40 digits.
+/// Rounding of a sum of loads or of their rates, relative to the sum of the sizes of its terms. Measured: 64 units in the last
+/// place bound the errors that tests find by a comparison with 40 digits.
 pub(crate) const SUM_ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// Sums over a contact, and the sizes of their terms, from which their rounding follows.
@@ -299,7 +299,8 @@ struct ContactSums {
 }
 
 impl CurveErrors {
-    /// The point of the curve for the sums over the present contact, with the errors of force and radius.
+    /// The point of the curve with force, depth and radius of the present contact, and their errors by rounding, moduli and
+    /// polynomials.
     fn point(&mut self, contact: &ContactSums) -> CurvePoint {
         let ContactSums { time, depth, .. } = *contact;
         let force = self.factor * contact.load;

@@ -13,7 +13,8 @@ use numerics::bracketed_root;
 
 use crate::MdrError;
 
-/// Number of coefficients of the polynomial on one piece. Chosen: pieces are halved until it is enough.
+/// Number of coefficients of the polynomial on one piece. Chosen: pieces are halved until it is enough, so that it decides the
+/// number of pieces and the time.
 pub(super) const N_COEFFICIENTS: usize = 16;
 /// Size of the last two coefficients, relative to the radius, below which a piece is not divided. Chosen: the missing
 /// coefficients are a hundredth of that, which is nine units in the last place; a smaller tolerance would divide pieces for their

@@ -19,8 +19,8 @@ const SEARCH_DISTANCE_RATIO: f64 = 1024.0;
 /// an endless line. Chosen: it decides where the search inwards begins, and so the number of its samples.
 const OUTWARD_STRIDE: f64 = 8.0;
 
-/// Distance from a vertical edge, such as the equator of a sphere, up to which a body is followed, as a part of its
-/// length from the lowest point. Closer to the edge the nodes of a piece are at the rounding of positions.
+/// Distance from a vertical edge, such as the equator of a sphere, up to which a body is followed, as a part of its length from
+/// the lowest point. Derived: closer to the edge the nodes of a piece are at the rounding of positions.
 const EDGE_INSET: f64 = MIN_PIECE_LENGTH;
 
 /// Positions between which all heights below the height limit lie.

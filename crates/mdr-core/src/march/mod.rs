@@ -40,8 +40,8 @@ pub use slide::{Sliding, SlidingStep, slide, slide_memory};
 /// Largest number of elements along the contact in a refinement. Chosen, to limit the computing time: the refinement stops
 /// there, even if the error is still larger than asked for.
 const MAX_ELEMENTS_ALONG_CONTACT: usize = 4096;
-/// The work grows with this power of the number of elements along the contact: the number of steps grows in proportion to it,
-/// and so does the work of each step.
+/// Exponent of the work as a function of the number of elements along the contact. Derived: the number of steps grows in
+/// proportion to it, and so does the work of each step.
 const WORK_EXPONENT: f64 = 2.0;
 /// Largest order of convergence that is assumed. Chosen: smooth bodies have a better one, but the place of their contact boundary
 /// between the elements makes it unsafe to assume more. A higher order makes error bars narrower.
@@ -50,8 +50,8 @@ const MAX_ORDER: f64 = 1.0;
 /// bound for bodies whose sides keep rising; no solution depends on it.
 const FOUNDATION_PER_CONTACT: f64 = 4.0;
 
-/// Largest product of elements, steps and cycles of a resolution that a refinement takes up. Chosen: about a minute of one
-/// thread.
+/// Largest product of elements, steps and cycles of a resolution that a refinement takes up. Chosen to limit the time to about a
+/// minute of one thread, which grows in proportion to it. The refinement ends before a larger resolution.
 const MAX_WORK: f64 = 5e8;
 /// Number of elements along the contact from which on the refinement of a limit cycle may give up. It stops if the friction is
 /// smaller than its change by the last halving of the spacing. The friction is then only an error of the elements.

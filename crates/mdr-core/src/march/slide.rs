@@ -46,8 +46,8 @@ const DRIFT_TOLERANCE: f64 = 1e-9;
 /// Rounding of sums of forces times slopes, relative to the mean slope, and of sliding distances. Derived as
 /// [`numerics::SUMMATION_ERROR`] is, for sums over up to 4·10⁶ elements.
 const FRICTION_ROUNDING: f64 = 1e-12;
-/// Largest ratio of the changes over two successive contact lengths that counts as exponential decay; slower changes
-/// are rounding. Chosen: it bounds the remaining change by 99 times the last one.
+/// Largest ratio of the changes over two successive contact lengths that counts as exponential decay; slower changes are
+/// rounding. Chosen: it bounds the remaining change by 0.99/(1 − 0.99), or 99 times the last one.
 const MAX_CHANGE_RATIO: f64 = 0.99;
 /// Error of an end of the contact, as a multiple of the spacing: the end lies within one spacing of the outermost loaded element,
 /// which is loaded within one more. It has a case of `evidence tuning`.

@@ -28,8 +28,8 @@ const FIRST_TOLERANCE_FRACTION: f64 = 0.1;
 /// Tolerance of the polynomials, in depths, in the first search for a depth and in the check of kinks. Chosen: a second search at
 /// the final tolerance follows (case of `evidence tuning`).
 const SEARCH_TOLERANCE: f64 = 1e-3;
-/// Smallest tolerance of the polynomials, in depths: 45 units in the last place. An error that is too large even with it is
-/// [`MdrError::NotConverged`].
+/// Smallest tolerance of the polynomials, in depths. Chosen: 45 units in the last place, below which polynomials would follow
+/// rounding. An error that is too large even with it is [`MdrError::NotConverged`].
 const MIN_TOLERANCE: f64 = 1e-14;
 /// Tolerance of the polynomials, in depths, where the contact length only decides on the size of elements. Chosen: a change of
 /// that size by 1e-9 changes no digit of an error bar.
@@ -37,8 +37,8 @@ const LENGTH_TOLERANCE: f64 = 1e-9;
 /// Factor on the tolerance of a second solution, whose distance from the first is the error of the ends of the contact. Chosen:
 /// even at a level end, where the error of the end is the root of that of the height, the second solution has a hundredth of it.
 const END_TOLERANCE_FACTOR: f64 = 1e-4;
-/// Error of the ends by rounding, relative to the contact length: the square root of [`STATE_ROUNDING`], because a line that is
-/// level at its end moves it by the root of an error of the height.
+/// Error of the ends by rounding, relative to the contact length. Derived: the square root of [`STATE_ROUNDING`], because a line
+/// that is level at its end moves it by the root of an error of the height.
 const END_ROUNDING: f64 = 2.4e-7;
 
 /// A line that moves over a foundation at one speed.

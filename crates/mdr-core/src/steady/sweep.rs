@@ -17,8 +17,8 @@ const N_SEGMENT_SAMPLES: usize = 12;
 /// Penetration, in depths, up to which a gap still counts as open: 16 units in the last place of the depth. Chosen: the
 /// displacements of line and free surface are sums of some ten terms, each rounded by up to half a unit.
 const GAP_ROUNDING: f64 = 16.0 * f64::EPSILON;
-/// Displacement at the rear end of the line, in depths, below which what an elastic foundation releases there counts
-/// as rounding. Its energy is below 1e-12 of the whole.
+/// Displacement at the rear end of the line, in depths, below which what an elastic foundation releases there counts as rounding.
+/// Derived: its energy, the square, is below 1e-12 of the whole.
 const ELASTIC_END_DISPLACEMENT: f64 = 1e-6;
 /// Smallest width of a boundary layer, and of a part of the list of loads, in units of t, that is sampled. Chosen: a change of
 /// sign inside a thinner layer is only found at the next sample.

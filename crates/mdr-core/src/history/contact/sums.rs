@@ -10,8 +10,8 @@ use crate::history::radius::N_COEFFICIENTS;
 /// then resolved to 2⁻¹² of the panel. The change by the last halving counts as error in any case, so that a smaller number
 /// widens bars.
 const MAX_PANEL_DIVISIONS: u32 = 12;
-/// Ratio of the error that is assumed for a panel to its change by the last division. Where the stress jumps inside a panel,
-/// each half keeps an error as large as the change, together 2; the other factor of 2 is a margin.
+/// Ratio of the error that is assumed for a panel to its change by the last division. Derived: where the stress jumps inside a
+/// panel, each half keeps an error as large as the change, together 2; the other factor of 2 is a margin.
 const QUADRATURE_ERROR_OVER_CHANGE: f64 = 4.0;
 
 impl Contact<'_> {
