@@ -7,7 +7,7 @@ use crate::elements::mirror::Mirror;
 
 /// Perimeter correction: mean excess of a counted area, in elements, per edge between an element in contact and one outside.
 ///
-/// It is the mean over all directions of the contact boundary (Yastrebov, Anciaux & Molinari 2017).
+/// Derived as the mean over all directions of the contact boundary (Yastrebov, Anciaux & Molinari 2017).
 pub(crate) const EXCESS_PER_EDGE: f64 = (PI - 1.0 + LN_2) / 24.0;
 
 /// Area of `count` elements with `edges` edges to elements outside, after the perimeter correction, in areas of an element. It is more

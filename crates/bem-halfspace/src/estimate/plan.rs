@@ -12,7 +12,7 @@ use crate::{BemError, Elastomer};
 /// Number of elements along the contact length of the one-dimensional model on the coarsest grids. Chosen: with 4
 /// bars are 0.3 to 3.9 times as wide, with 3 an answer leaves its bar (case of `evidence tuning`).
 const ELEMENTS_ON_COARSEST_GRID: f64 = 5.0;
-/// Largest edge of the coarsest elements in thicknesses of a layer: half of the edge that is refused, because nested
+/// Largest edge of the coarsest elements in thicknesses of a layer. Derived: half of the edge that is refused, because nested
 /// iteration and error estimates also solve on elements of up to twice the edge.
 const MAX_SPACING_OVER_THICKNESS: f64 = 0.5 * MAX_EDGE_OVER_THICKNESS;
 /// Largest value of [`GridPlan::kinks`] at which a surface is treated as smooth: the sum of the squared jumps of its slope in
@@ -29,7 +29,8 @@ const MIN_EDGE_JUMP: f64 = 0.3;
 /// Largest number of refinements of the coarsest grid by √2. Chosen to limit the time: the finest grid has 2¹² times as many
 /// elements along the contact as the coarsest. Most refinements end earlier at the limit of unknowns.
 pub(crate) const MAX_REFINEMENTS: i32 = 24;
-/// Ratio of the contact length of a paraboloid in the one-dimensional model to the length on which it lies below the depth: 1/√2.
+/// Ratio of the contact length of a paraboloid in the one-dimensional model to the length on which it lies below the depth.
+/// Derived: the equivalent line of r² is 2 x², so that it has the depth at 1/√2 of the distance.
 const CONTACT_OVER_INTERSECTION_LENGTH: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
 /// Plan of the grids on which a surface is solved.

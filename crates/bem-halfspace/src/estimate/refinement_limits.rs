@@ -2,12 +2,13 @@
 
 use numerics::{FIRST_ELEMENTS, Goal, Request};
 
-/// Exponent of the work of a contact as a function of the elements along it: transforms of all elements along x and y dominate, and
-/// finer grids need hardly more operator applications.
+/// Exponent of the work of a contact as a function of the elements along it. Derived: transforms of all elements along x and y
+/// dominate, and finer grids need hardly more operator applications.
 const CONTACT_WORK_EXPONENT: f64 = 2.0;
-/// Exponent of the work of a march as a function of the elements along the contact: the number of steps is proportional to them.
+/// Exponent of the work of a march as a function of the elements along the contact. Derived: the number of steps is proportional
+/// to them.
 pub(crate) const MARCH_WORK_EXPONENT: f64 = CONTACT_WORK_EXPONENT + 1.0;
-/// Convergence order of a march under a smooth body in the spacing: that of steps over which the load is held.
+/// Convergence order of a march under a smooth body in the spacing. Derived: that of steps over which the load is held.
 pub(crate) const MARCH_ORDER: f64 = 1.0;
 /// Factor on the discretisation error if the refinement ends because a relative error is met: grids are then selected whose
 /// estimated error is small by chance. Chosen on the random scenes of docs/calibration.md (case of `evidence tuning`).

@@ -28,7 +28,8 @@ use crate::substrate::base::SINGULARITY_DISTANCE;
 /// Influence radius of a load on a layer on a rigid base, in thicknesses: 1/ρ + c(ρ), which decays exponentially, is below 1e-15
 /// beyond. On other substrates c is computed from long waves beyond it.
 pub(super) const RIGID_BASE_INFLUENCE_RADIUS: f64 = 44.0;
-/// Upper limit of the integral over s, without unit: on a layer on a rigid base 1 − M ∼ s² e^(−2s) is below 1e-15 beyond.
+/// Upper limit of the integral over s, without unit. Derived: on a layer on a rigid base 1 − M ∼ s² e^(−2s) is below 1e-15
+/// beyond.
 pub(super) const MAX_WAVE_NUMBER: f64 = 24.0;
 /// Number of panels of the integral over s from 0 to [`MAX_WAVE_NUMBER`]. Derived: up to the influence radius J₀(sρ) has 168
 /// waves, 21 on each panel, with 4.6 of the [`POINTS_PER_WAVE_PANEL`] points each.
@@ -50,7 +51,8 @@ const SHORT_PANEL_LENGTH: f64 = 0.0625;
 /// so that the truncation error is of the order 128⁻⁶, or 2e-13.
 const SHORT_PANEL_TERMS: usize = 6;
 
-/// End of the table, in thicknesses: the remainder of c beyond [M(0) − 1]/ρ falls like ρ^−3 and is below rounding from here on.
+/// End of the table, in thicknesses. Derived: the remainder of c beyond [M(0) − 1]/ρ falls like ρ^−3, and is of the order 1e-15
+/// from here on.
 const TABLE_END: f64 = 1e5;
 /// Width A of the window exp(−(u/A)^n) in the integral over u. Derived: with it the term O(A^−n ρ^−3) of the head of this file
 /// and the transform of the window are below 1e-12.
@@ -58,10 +60,11 @@ const WINDOW_WAVE_NUMBER: f64 = 120.0;
 /// Power n of the window exp(−(u/A)^n) in the integral over u. Chosen: A⁻⁶ is 3e-13 with [`WINDOW_WAVE_NUMBER`]; a smaller power
 /// needs a wider window.
 const WINDOW_POWER: i32 = 6;
-/// Number of panels of the integral over u from 0 to [`FAR_MAX_WAVE_NUMBER`]. With [`POINTS_PER_WAVE_PANEL`] points each, a wave of
-/// J₀(u) has more than twenty.
+/// Number of panels of the integral over u from 0 to [`FAR_MAX_WAVE_NUMBER`]. Chosen: J₀(u) has 35 waves there, with more than
+/// twenty of the [`POINTS_PER_WAVE_PANEL`] points of the panels each. The substrate may add variation of its own.
 const FAR_WAVE_PANELS: u8 = 9;
-/// Upper limit of the integral over u, beyond which the window exp(−(u/A)^n) is below rounding: (220/120)^6 = 38.
+/// Upper limit of the integral over u. Derived: beyond it the exponent of the window exp(−(u/A)^n) is above (220/120)^6 = 38, so
+/// that the window is below rounding.
 const FAR_MAX_WAVE_NUMBER: f64 = 220.0;
 
 /// Correction c(ρ) as piecewise polynomials: short panels of equal length up to the influence radius of a rigid base, then panels

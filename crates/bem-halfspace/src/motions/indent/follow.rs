@@ -20,8 +20,8 @@ use crate::{BemError, Elastomer, GridOptions};
 /// Largest number of time steps of a history on one grid. Chosen: steps are not halved beyond it, even if they miss the error
 /// asked for, so that the time is limited. [`MIN_STEPS_PER_INTERVAL`] takes precedence for histories of many points.
 const MAX_HISTORY_STEPS: usize = 4096;
-/// Number of steps between two points that is always allowed: three halvings of one step give two successive changes of the
-/// extrapolated values, and so their ratio.
+/// Number of steps between two points that is always allowed. Derived: three halvings of one step give two successive changes of
+/// the extrapolated values, and so their ratio.
 const MIN_STEPS_PER_INTERVAL: usize = 8;
 /// Duration of a jump of force or depth, as a fraction of the duration of the history. Chosen: short compared with any interval,
 /// so that hardly anything creeps meanwhile, and far above the rounding 1e-16 of times.

@@ -19,10 +19,11 @@ use crate::estimate::refinement_limits::PRESS;
 use crate::march::{March, Motion};
 use crate::{Base, BemError, Elastomer, Footprint, GridOptions, Layer};
 
-/// Convergence order that error estimates assume for depth and force: a lower bound, also under cusps.
+/// Convergence order that error estimates assume for depth and force. Chosen as a lower bound, which also holds under cusps; a
+/// higher order makes bars narrower.
 pub(super) const PRESSED_ORDER: f64 = 1.0;
-/// Convergence order of the counted contact area without sliding. The longest straight runs of a smooth outline of n elements have √n
-/// edges and are displaced by up to half an element: an error of √n/2 elements in an area of about n² elements.
+/// Convergence order of the counted contact area without sliding. Derived: the longest straight runs of a smooth outline of n
+/// elements have √n edges and are displaced by up to half an element, an error of √n/2 elements in an area of about n² elements.
 pub(super) const PRESSED_AREA_ORDER: f64 = 1.5;
 /// Factor on n^(−3/4) in the smallest relative error of depth or force, for n elements in contact.
 ///
@@ -40,7 +41,7 @@ const PUNCH_WIDENING: f64 = 0.113;
 /// same disc, so that no error can be estimated.
 const MIN_ELEMENTS_OF_DISC: usize = 4;
 
-/// Upper bound of the memory per element in front of the mirrors, \[bytes]; a test compares it with the memory taken
+/// Upper bound of the memory per element in front of the mirrors, \[bytes]. Measured: a test compares it with the memory taken
 /// (tests/it/memory.rs).
 pub(super) const PRESS_BYTES_PER_ELEMENT: f64 = 600.0;
 

@@ -77,7 +77,8 @@ impl<'a> MovingSurface<'a> {
     /// Prepares a motion for all grids: spectra of the material, wave numbers along x, and the search for the limit cycle.
     ///
     /// # Errors
-    /// [`BemError::DepthFromRest`] for a prescribed depth; [`BemError::NoCycle`] for a reciprocating motion on a material that flows; other errors for a material without finite spectra, and for too few elements.
+    /// [`BemError::DepthFromRest`] for a prescribed depth; [`BemError::NoCycle`] for a reciprocating motion on a material that flows;
+    /// other errors for a material without finite spectra, and for too few elements.
     pub(super) fn new(
         surface: &'a PeriodicSurface,
         elastomer: &'a dyn Elastomer,

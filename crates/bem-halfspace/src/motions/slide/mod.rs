@@ -69,7 +69,7 @@ fn follow_march(
 
 /// Moves `surface` through `motions` over an undeformed half space or layer.
 ///
-/// At time zero the lowest point is over the centre of an element at position zero.
+/// At time zero the lowest point is over the centre of an element at position zero. The result has one row per step in time.
 ///
 /// # Errors
 /// Like [`March::new`] and [`March::step`].

@@ -31,8 +31,9 @@ const MAX_DRIFT: f64 = 0.05;
 /// λ. A march ends earlier if the friction has settled, and fails with [`BemError::NotStationary`] otherwise. Chosen; from 1.2 to
 /// 120 no answer changes by more than 1e-13 of its bar (case of `evidence tuning`).
 const MAX_DISTANCE_OVER_MEMORY: f64 = 12.0;
-/// Smallest sliding distance, in contact lengths, to which the elements are fitted so that it is a whole number of them. Over a shorter
-/// distance the elements keep their length and the steps are shorter. Chosen: the fit changes their length by a factor of 2/3 to 3/2.
+/// Smallest sliding distance, in contact lengths, to which the elements are fitted so that it is a whole number of them. Over a
+/// shorter distance the elements keep their length and the steps are shorter. Chosen: the fit changes their length by a factor of
+/// 2/3 to 3/2. With a smaller distance it would make contacts of fewer elements.
 const MIN_DISTANCE_FOR_WHOLE_ELEMENTS: f64 = 2.0 / 3.0;
 /// Longest march to the stationary state, in contact lengths. Chosen to limit the time, which grows in proportion to it: a longer
 /// march is refused with [`BemError::MemoryTooLong`].

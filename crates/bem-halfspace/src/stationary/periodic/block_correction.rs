@@ -26,8 +26,8 @@ use crate::stationary::conjugate_residuals::{GcrLimits, GcrState, gcr, norm};
 use crate::stationary::periodic::kernel::{PeriodicKernel, Sliding};
 use crate::{BemError, Grid};
 
-/// Length of a block along x, in elements: the largest for which no block is divided between two row blocks, the shares of the
-/// threads.
+/// Length of a block along x, in elements. Derived: the largest for which no block is divided between two row blocks, the shares
+/// of the threads.
 const BLOCK_LENGTH: usize = RowBlocks::MAX_COARSE_BLOCK;
 /// Weight of an element in the mean over a block, 1/[`BLOCK_LENGTH`].
 const INVERSE_BLOCK_LENGTH: f32 = 1.0 / BLOCK_LENGTH as f32;

@@ -23,12 +23,13 @@ pub(super) const MAX_USUAL_GRID: f64 = (1_u64 << 22) as f64;
 /// The edges of a first grid with one element per shortest wave are multiples of this number of elements, so that nested
 /// iteration can coarsen them. Chosen; from 2 to 32 no digit of an answer changes (case of `evidence tuning`).
 const COARSE_EDGE_MULTIPLE: usize = 8;
-/// Upper bound of the memory per element without the GCR basis, \[bytes]; a test compares memory stated and taken (tests/it/memory.rs).
+/// Upper bound of the memory per element without the GCR basis, \[bytes]. Measured: a test compares memory stated and taken
+/// (tests/it/memory.rs).
 const BYTES_PER_ELEMENT: f64 = 186.0;
-/// Memory of the GCR basis per element on a small grid, \[bytes].
+/// Memory of the GCR basis per element on a small grid, 1 KiB, \[bytes].
 const BASIS_BYTES_PER_ELEMENT: f64 =
     (size_of::<f32>() * BASIS_FLOATS_PER_ELEMENT_ON_SMALL_GRID) as f64;
-/// Largest memory of the GCR basis on a small grid, \[bytes].
+/// Largest memory of the GCR basis on a small grid, 64 MiB, \[bytes].
 const MAX_SMALL_BASIS_BYTES: f64 = (size_of::<f32>() * MAX_BASIS_FLOATS_ON_SMALL_GRID) as f64;
 /// Ratio of the elements along an edge on the last of three grids to those on the first: two doublings.
 pub(super) const FINEST_OVER_COARSEST: usize = 4;

@@ -32,7 +32,8 @@ pub(super) const AREA_RATE: ConvergenceRate = ConvergenceRate {
     min_reduction: 0.3,
     ..FRICTION_RATE
 };
-/// Assumed convergence of all other quantities: of the first order, so that changes halve, with a safety factor of 2.
+/// Assumed convergence of all other quantities. Chosen as the first order, so that changes halve and the error equals the last
+/// change; the safety factor of 2 doubles it.
 pub(super) const FIRST_ORDER_RATE: ConvergenceRate = ConvergenceRate {
     safety: 2.0,
     min_reduction: 0.5,

@@ -29,8 +29,8 @@ const MAX_DISSIPATION_ERROR_RATIO_ON_ELEMENTS: f64 = 0.2;
 /// Largest number of footprints that are tried. Chosen to limit the time: a contact that reaches the boundary of the last one is
 /// an error. Each is 1.5 times as long as the one before, so that the last is 11 times as long as the first.
 const MAX_FOOTPRINTS: usize = 7;
-/// Upper bound of the memory per element of the footprint that is solved for, most of it for kernel and transforms, \[bytes]. A
-/// test compares the memory that is stated with the memory that is taken (tests/it/memory.rs).
+/// Upper bound of the memory per element of the footprint that is solved for, most of it for kernel and transforms, \[bytes].
+/// Measured: a test compares memory stated and taken (tests/it/memory.rs).
 const STEADY_BYTES_PER_ELEMENT: f64 = 1000.0;
 
 /// Largest memory of [`steady`] for a number of elements along the contact, \[bytes]. Where the contact is longer than expected, its

@@ -27,11 +27,11 @@ use numerics::{in_range, positive};
 use crate::stationary::steady::sliding_creep::SlidingCreep;
 use crate::{BemError, Elastomer};
 
-/// Number of bisections of the logarithm of the contact length, which begin with a factor of 2 between its bounds. They leave
-/// 2⁻⁶⁰ of an octave, which is enough for all digits of a number.
+/// Number of bisections of the logarithm of the contact length, which begin with a factor of 2 between its bounds. Derived: they
+/// leave 2⁻⁶⁰ of an octave, which is below rounding.
 const BISECTIONS: usize = 60;
-/// Largest number of doublings or halvings of the contact length in the search for its bounds. Beyond 2^±900 heights and forces
-/// leave the range of numbers.
+/// Largest number of doublings or halvings of the contact length in the search for its bounds. Derived: beyond 2^±900 heights and
+/// forces leave the range of numbers.
 const MAX_DOUBLINGS: usize = 900;
 /// Number of directions in which the height of a surface is averaged, for a scale that need not be exact. Chosen; from 4 to 32 no
 /// answer changes by more than 1e-10 of its bar.

@@ -6,10 +6,11 @@ use numerics::Estimate;
 
 /// Convergence order that the front of the contact causes (docs/theory/stationary-half-space.md, "Scatter, order, error bar").
 pub(super) const FRONT_ORDER: f64 = 1.5;
-/// Convergence order at the edge of a flat end just inside the contact, where the elements resolve a punch only: its pressure grows
-/// like the inverse root of the distance.
+/// Convergence order at the edge of a flat end just inside the contact, where the elements resolve a punch only. Derived: the
+/// pressure of a punch grows like the inverse root of the distance, so that an element at the edge carries a part like the root
+/// of its length.
 pub(super) const FLAT_END_ORDER: f64 = 0.5;
-/// Range of observed convergence orders under edges: from that of a hidden flat end to that of a front without edges.
+/// Range of observed convergence orders under edges. Derived: from that of a hidden flat end to that of a front without edges.
 pub(super) const OBSERVED_ORDERS: [f64; 2] = [FLAT_END_ORDER, FRONT_ORDER];
 /// Range of orders where elements hide an edge. No observed order counts, because values may turn around once the edge is resolved.
 pub(super) const HIDDEN_EDGE_ORDERS: [f64; 2] = [FLAT_END_ORDER; 2];
@@ -60,10 +61,11 @@ pub(super) fn extrapolate(values: &[f64], order: f64, faster_orders: &[f64]) -> 
     best
 }
 
-/// Change of the limit if errors fall with the observed order, limited to a range, instead of `order`.
+/// Absolute change of the extrapolated limit of `values` if the observed convergence order, limited to a range, replaces `order`.
+/// The observed order is that of two successive changes over two refinements each, which halve the elements.
 ///
-/// Where the edge of a flat end is just inside the contact, elements that are longer than the contact beyond it resolve a punch only.
-/// Its errors fall with the order 1/2. The larger of the last two changes counts, because one may be small by accident.
+/// Where the edge of a flat end is just inside the contact, elements that are longer than the contact beyond it resolve a punch
+/// only. Its errors fall with the order 1/2. The larger of the last two changes counts, because one may be small by accident.
 pub(super) fn change_at_observed_order(values: &[f64], order: f64, range: [f64; 2]) -> f64 {
     let [min_ratio, max_ratio] = range.map(f64::exp2);
     let change = |window: &[f64]| {

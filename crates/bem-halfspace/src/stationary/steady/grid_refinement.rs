@@ -30,8 +30,8 @@ use crate::stationary::steady::{Reuse, SteadyOptions, solve};
 /// Shifts of the grid along x and y, in elements, which keep the mirror symmetry in y. Derived: each of the two diagonal pairs,
 /// the first two and the last two, cancels the first harmonic of the scatter along either axis.
 const BODY_PHASES: [[f64; 2]; 4] = [[0.0, 0.0], [0.5, 0.5], [0.5, 0.0], [0.0, 0.5]];
-/// Shifts of the grid in plane strain, in elements. As a function of the shift the friction has a second harmonic, by which the means
-/// over the first two and over the last two differ. The mean of all four eliminates it.
+/// Shifts of the grid in plane strain, in elements. Derived: as a function of the shift the friction has a second harmonic, by
+/// which the means over the first two and over the last two differ. The mean of all four eliminates it.
 const STRIP_PHASES: [[f64; 2]; 4] = [[0.0, 0.0], [0.5, 0.0], [0.25, 0.0], [-0.25, 0.0]];
 /// Number of refinements in plane strain, up to the last one, whose largest scatter is added to the error bar. On a single one
 /// the scatter may be small by chance, and the extrapolated limit contains that of all values that it uses. Chosen; with 1 the
@@ -55,7 +55,7 @@ const MIN_REFINEMENTS: i32 = 5;
 /// refinement ends before a larger grid. The ratio is large because a steep body touches with a thin crescent.
 const ELEMENTS_PER_UNKNOWN: f64 = 50.0;
 /// Number of footprint elements above which [`LARGE_GRID_ELEMENTS_PER_UNKNOWN`] replaces [`ELEMENTS_PER_UNKNOWN`]. Chosen to
-/// limit the memory to some GB.
+/// limit the memory: with 1000 bytes for an element that is solved for, such a grid takes 1 to 2 GB.
 const LARGE_GRID_ELEMENTS: f64 = 2e6;
 /// Largest ratio of the elements of a footprint of more than [`LARGE_GRID_ELEMENTS`] to the allowed number of unknown pressures.
 /// Chosen to limit memory and time: refinement ends before a larger grid.

@@ -15,8 +15,8 @@ use crate::{BemError, Elastomer, Footprint};
 /// Why a depth on a material that flows requires a sliding distance, for an error message.
 const SINKS_WITHOUT_LIMIT: &str =
     "on a material that flows the body sinks without limit, so that a depth belongs to a distance";
-/// Sliding distance, in lengths of the footprint, that is assumed for a given depth on a solid. Chosen; there the distance has no
-/// effect on the solution.
+/// Sliding distance, in lengths of the footprint, that is assumed for a given depth on a solid. Chosen; on a solid the distance
+/// has no effect on the solution, so that any other would do.
 const DISTANCE_ON_SOLID: f64 = 100.0;
 
 /// The equation `depth · δ + load · Σ x = right` that prescribes depth or force, in the units of the mesh.

@@ -51,7 +51,7 @@ const ROW_RULES: [DistanceRule; 3] = [
     from_distance(41.0, 8),
     from_distance(29.0, 10),
 ];
-/// Number of rows that are stored on either side of an element: half the points of the longest of [`ROW_RULES`].
+/// Number of rows that are stored on either side of an element. Derived: half the points of the longest of [`ROW_RULES`].
 const ROWS_PER_SIDE: usize = 5;
 /// Length, in Δx, below which a panel next to a singularity on its own line is not divided further. Chosen as 2⁻²⁶, the square
 /// root of the rounding error; with 1e-12 no answer changes by more than 1e-10 of its bar.

@@ -35,7 +35,8 @@ use crate::steady::sensitivity::{ByModuli, Change, TwoGridExtrapolation};
 use crate::{BemError, Elastomer, Grid, PressureField};
 use adjoint::{Adjoint, Gradient, KernelChange, unit_pressure};
 
-/// Largest relative difference of two periods that count as equal. Chosen above the rounding of numbers of ten digits in a file.
+/// Largest relative difference of two periods that count as equal. Chosen above the rounding 5e-10 of numbers of ten digits in a
+/// file; it only decides whether a surface is refused.
 const PERIOD_TOLERANCE: f64 = 1e-9;
 /// Derivatives and error bars from two grids. The derivatives are those on the fine grid, because the elements at the contact
 /// boundary differ from grid to grid without a common order. The error bar is 2.5 times the difference of the grids. The factor
