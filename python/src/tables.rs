@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyList, PyString, PyTuple};
 use toml::{Table, Value};
 use viscofriction::Files;
-use viscofriction::scene::{Indenter, MaterialTable, SceneError};
+use viscofriction::scene::{Indenter, Interface, MaterialTable, SceneError};
 use viscofriction::solve::{body, half_space};
 
 use crate::reading::read_file;
@@ -44,6 +44,9 @@ pub(crate) fn check_table(dictionary: &Bound<'_, PyDict>) -> PyResult<()> {
     let table = table(dictionary, "")?;
     if table.contains_key("indenter") {
         Indenter::try_from(table).and_then(|body| check_body(&body))
+    } else if table.contains_key("interface") {
+        // The file of a table is read with the first answer.
+        Interface::try_from(table).and_then(|interface| interface.check())
     } else {
         MaterialTable::try_from(table).and_then(|material| check_material(&material))
     }

@@ -1,4 +1,4 @@
-"""Bodies and materials with the keys of a scene, in SI. `cargo xtask kinds` writes this file."""
+"""Bodies, materials and interfaces with the keys of a scene, in SI. `cargo xtask kinds` writes this file."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass
 from typing import Literal
 
-from ._tables import Body, Material
+from ._tables import Body, Interface, Material
 
 __all__ = [
     "Power",
@@ -34,10 +34,14 @@ __all__ = [
     "Springpot",
     "FractionalMaxwell",
     "MaterialFile",
+    "ConstantShear",
+    "BellShear",
+    "ShearFile",
 ]
 
 # Words of a scene.
 Edges = Literal["wall", "periodic", "mirrored"]
+EnergyUnit = Literal["J/mol", "eV"]
 HeightsAre = Literal["surface", "gap"]
 LengthUnit = Literal["m", "mm", "um", "nm"]
 Method = Literal["analytic", "mdr-steady", "mdr-transient", "bem-steady", "bem-transient"]
@@ -442,3 +446,47 @@ class MaterialFile(Material):
     temperature: float | None = None
     valid_frequencies: tuple[float, float] | None = None
     _kind = "file"
+
+
+@dataclass(frozen=True)
+class ConstantShear(Interface):
+    """A shear strength that is the same at every velocity and temperature.
+
+    ``shear_strength``: Shear strength > 0, [Pa].
+    """
+
+    shear_strength: float
+    _kind = "constant"
+
+
+@dataclass(frozen=True)
+class BellShear(Interface):
+    """A shear strength that is largest at one velocity, τ_0 exp(−(log₁₀(v a_T/v_0)/w)²) (Lorenz et al. 2015).
+
+    ``shear_strength``: Largest shear strength τ_0 > 0, [Pa].
+    ``velocity``: Velocity v_0 > 0 of the largest shear strength at the reference temperature, [m/s].
+    ``activation_energy``: Activation energy > 0 of a_T by Arrhenius' law, by default in J/mol; without it the temperature has no influence.
+    ``activation_energy_unit``: Unit of the activation energy.
+    ``reference_temperature``: Temperature at which a_T = 1, [°C]; without it 20.
+    ``width``: Decades w > 0 of velocity over which the shear strength falls to τ_0/e; without it √10.
+    """
+
+    shear_strength: float
+    velocity: float
+    _: KW_ONLY
+    activation_energy: float | None = None
+    activation_energy_unit: Literal["J/mol", "eV"] = "J/mol"
+    reference_temperature: float = 20.0
+    width: float = 3.1622776601683795
+    _kind = "bell"
+
+
+@dataclass(frozen=True)
+class ShearFile(Interface):
+    """Measured shear strengths, interpolated on logarithmic scales and never extrapolated.
+
+    ``file``: A CSV file beside the scene file with the columns velocity_m_per_s and shear_strength_pa, and optionally temperature_c.
+    """
+
+    file: str | os.PathLike[str]
+    _kind = "table"

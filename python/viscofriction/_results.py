@@ -59,6 +59,10 @@ class Answer(Compared):
         friction_coefficient_error: Values | None
         mu: Values | None
         mu_error: Values | None
+        friction_from_hysteresis: Values | None
+        friction_from_hysteresis_error: Values | None
+        friction_from_shear: Values | None
+        friction_from_shear_error: Values | None
         tangential_force: Values | None
         tangential_force_error: Values | None
         indentation_depth: Values | None

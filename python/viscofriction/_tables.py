@@ -1,4 +1,4 @@
-"""Bodies and materials as tables of a scene."""
+"""Bodies, materials and interfaces as tables of a scene."""
 
 from __future__ import annotations
 
@@ -46,6 +46,13 @@ class Body(Table):
     """A rigid body. Its lowest point is the origin; lengths are in metres."""
 
     _family = "indenter"
+
+
+class Interface(Table):
+    """Shear strength of the real contact, whose part of the friction is the shear strength times the contact area over the normal
+    force."""
+
+    _family = "interface"
 
 
 class Material(Table):

@@ -1,4 +1,4 @@
-//! The files that list all bodies and materials, written from the schema of the scene: the schema itself, the tables of keys
+//! The files that list all bodies, materials and interfaces, written from the schema of the scene: the schema itself, the tables of keys
 //! on pages of `docs/`, and the Python classes.
 
 use std::fs;
@@ -9,17 +9,28 @@ use viscofriction::scene::{Key, Kind, json_schema, keys, kinds, number, resolved
 
 use crate::ci::workspace_root;
 
-/// Kind of a scene, and its class in Python, where the class is not the kind in camel case: these three read a file.
-const CLASS_NAMES: [(&str, &str); 3] = [
-    ("table", "ProfileFile"),
-    ("height-map", "HeightMapFile"),
-    ("file", "MaterialFile"),
+/// Definition and kind of a scene, and its class in Python, where the class is not the kind in camel case: those that read a file, and
+/// those whose kind does not say what they are.
+const CLASS_NAMES: [(&str, &str, &str); 6] = [
+    ("Indenter", "table", "ProfileFile"),
+    ("Indenter", "height-map", "HeightMapFile"),
+    ("MaterialTable", "file", "MaterialFile"),
+    ("Interface", "constant", "ConstantShear"),
+    ("Interface", "bell", "BellShear"),
+    ("Interface", "table", "ShearFile"),
+];
+/// Definitions of the schema whose kinds are classes in Python, with the class that these are derived from.
+const FAMILIES: [(&str, &str); 3] = [
+    ("Indenter", "Body"),
+    ("MaterialTable", "Material"),
+    ("Interface", "Interface"),
 ];
 /// The material whose class is not generated but written by hand, in `_materials.py`: its constructor takes branches.
 const BY_HAND: &str = "prony";
 /// Sets of words in a scene that are also types of arguments of Python functions.
-const CHOICES: [&str; 6] = [
+const CHOICES: [&str; 7] = [
     "Edges",
+    "EnergyUnit",
     "HeightsAre",
     "LengthUnit",
     "Method",
@@ -28,7 +39,7 @@ const CHOICES: [&str; 6] = [
 ];
 /// Begin of `_kinds.py`; `NAMES` is replaced by the quoted names of all classes, `CHOICES` by definitions of types.
 const HEAD: &str = "\
-\"\"\"Bodies and materials with the keys of a scene, in SI. `cargo xtask kinds` writes this file.\"\"\"
+\"\"\"Bodies, materials and interfaces with the keys of a scene, in SI. `cargo xtask kinds` writes this file.\"\"\"
 
 from __future__ import annotations
 
@@ -37,7 +48,7 @@ from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass
 from typing import Literal
 
-from ._tables import Body, Material
+from ._tables import Body, Interface, Material
 
 __all__ = [
     NAMES,
@@ -70,10 +81,10 @@ pub(crate) fn write() -> Result<()> {
 /// `<!-- NAME -->` and `<!-- /NAME -->` is replaced.
 fn files() -> Result<Vec<(&'static str, String)>> {
     let (mut classes, mut names) = (HEAD.to_owned(), Vec::new());
-    for (definition, base) in [("Indenter", "Body"), ("MaterialTable", "Material")] {
+    for (definition, base) in FAMILIES {
         for kind in kinds(definition).iter().filter(|kind| kind.name != BY_HAND) {
-            classes += &class(kind, base);
-            names.push(format!("\"{}\"", class_name(kind)));
+            classes += &class(kind, (definition, base));
+            names.push(format!("\"{}\"", class_name(definition, kind)));
         }
     }
     let schema = json_schema()?;
@@ -125,7 +136,10 @@ fn table(name: &str) -> String {
         )
     } else {
         let head = "kind | in Python | what it is | keys, and those that may be left out";
-        (head, kinds.iter().map(row).collect())
+        (
+            head,
+            kinds.iter().map(|kind| row(definition, kind)).collect(),
+        )
     };
     let line = vec!["---"; head.split(" | ").count()].join("|");
     let rows: String = rows.iter().map(|row| format!("| {row} |\n")).collect();
@@ -133,7 +147,7 @@ fn table(name: &str) -> String {
 }
 
 /// The row of a kind in Markdown, without its outer bars: first the required keys, then, behind a semicolon, the others.
-fn row(kind: &Kind) -> String {
+fn row(definition: &str, kind: &Kind) -> String {
     let (required, others): (Vec<Key>, Vec<Key>) =
         kind.keys.iter().copied().partition(|key| key.is_required);
     let lists = [required, others].map(|keys| {
@@ -141,7 +155,7 @@ fn row(kind: &Kind) -> String {
         names.join(", ")
     });
     let lists = lists.join("; ");
-    let (name, class, sentence) = (kind.name, class_name(kind), kind.sentence);
+    let (name, class, sentence) = (kind.name, class_name(definition, kind), kind.sentence);
     let lists = lists.trim_end_matches("; ");
     format!("`{name}` | `{class}` | {sentence} | {lists}")
 }
@@ -222,15 +236,16 @@ fn cells(key: &Key) -> String {
 }
 
 /// Name of the class in Python: of [`CLASS_NAMES`], or the kind in camel case.
-fn class_name(kind: &Kind) -> String {
-    let known = CLASS_NAMES.iter().find(|(name, _)| *name == kind.name);
+fn class_name(definition: &str, kind: &Kind) -> String {
+    let mut known = CLASS_NAMES.iter();
+    let known = known.find(|(of, name, _)| [*of, *name] == [definition, kind.name]);
     let words = kind.name.split('-');
     let words = words.map(|word| word[..1].to_uppercase() + &word[1..]);
-    known.map_or_else(|| words.collect(), |(_, class)| (*class).to_owned())
+    known.map_or_else(|| words.collect(), |(_, _, class)| (*class).to_owned())
 }
 
-/// Source of the dataclass in Python, derived from `base`. Keys that may be left out are keyword-only and have their defaults.
-fn class(kind: &Kind, base: &str) -> String {
+/// Source of the dataclass in Python of a kind of a definition, derived from `base`. Keys that may be left out are keyword-only and have their defaults.
+fn class(kind: &Kind, (definition, base): (&str, &str)) -> String {
     let (mut docs, mut fields, mut lists) = (String::new(), String::new(), String::new());
     for key in &kind.keys {
         let Key {
@@ -258,7 +273,8 @@ fn class(kind: &Kind, base: &str) -> String {
         };
         fields += &format!("    {name}: {}{default}\n", type_of(key));
     }
-    let (class, name, sentence) = (class_name(kind), kind.name, kind.sentence);
+    let (name, sentence) = (kind.name, kind.sentence);
+    let class = class_name(definition, kind);
     format!(
         "\n\n@dataclass(frozen=True)\nclass {class}({base}):\n    \"\"\"{sentence}\n\n{docs}    \"\"\"\n\n{fields}    _kind = \"{name}\"\n{lists}"
     )

@@ -54,6 +54,21 @@ pub enum RheologyError {
         /// Highest temperature of the range, \[°C].
         highest: f64,
     },
+    /// A velocity or temperature outside a table of shear strengths.
+    #[error(
+        "the {name} must be from {} to {}, the range of the table of shear strengths, but is {}",
+        MessageNumber(*lowest), MessageNumber(*highest), MessageNumber(*value)
+    )]
+    OutsideShearTable {
+        /// Name of the quantity, with its unit.
+        name: &'static str,
+        /// The refused value; not a number if it is missing.
+        value: f64,
+        /// Lowest value of the table.
+        lowest: f64,
+        /// Highest value of the table.
+        highest: f64,
+    },
     /// Shifts that neither the law of Williams, Landel and Ferry nor that of Arrhenius describes.
     #[error(
         "no shift law leads from the nearest isotherm, at {}, to the reference temperature {}: a law needs isotherms \

@@ -35,6 +35,7 @@ mod fractional;
 mod layer;
 mod material;
 mod materials;
+mod shear_strength;
 mod shift;
 mod spectrum;
 mod step;
@@ -57,6 +58,10 @@ pub use materials::elementary::{Elastic, KelvinVoigt, Maxwell, Viscous};
 pub use materials::generalised::{Compressible, Prony};
 pub use materials::standard_solid::{LossPeak, StandardSolid, StandardSolidParameters};
 pub use numerics::InvalidParameter;
+pub use shear_strength::{
+    BellParameters, BellShearStrength, ConstantShearStrength, DEFAULT_BELL_WIDTH, ShearStrength,
+    ShearStrengthPoint, ShearStrengthTable,
+};
 pub use shift::{KELVIN_AT_ZERO_CELSIUS, Shift, ShiftLaw, VerticalLaw};
 pub use spectrum::creep::{CreepSpectrum, RetardationElement};
 pub use spectrum::relaxation::{RelaxationBranch, RelaxationSpectrum};

@@ -2,11 +2,10 @@
 //!
 //! Tables, JSON, CSV, ensemble means, derivatives, uncertainties, pictures and the Python package are loops over [`QUANTITIES`].
 
-use bem_halfspace::steady::sensitivity::Change;
 use numerics::Estimate;
 use serde::ser::SerializeMap;
 
-use crate::solve::{Answer, Coarse, relative_change};
+use crate::solve::{Answer, AnswerChange, Coarse, relative_change};
 
 /// A physical quantity of an answer.
 #[derive(Debug, Clone, Copy)]
@@ -33,9 +32,8 @@ pub struct Quantity {
     pub(crate) log_change: Option<LogChange>,
 }
 
-/// Change of the logarithm of a quantity of an answer, with its error. The second argument has the changes of all quantities
-/// that the adjoint method finds for a change of the scene. `None` if the quantity is given.
-pub(crate) type LogChange = fn(&Answer, &Change<Estimate>) -> Option<Estimate>;
+/// Change of the logarithm of a quantity of an answer for a change of the scene, with its error. `None` if the quantity is given.
+pub(crate) type LogChange = fn(&Answer, &AnswerChange) -> Option<Estimate>;
 
 /// Unit of a quantity; empty for a number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -105,24 +103,43 @@ macro_rules! stored {
 }
 
 /// All quantities, in the order of the output.
-pub static QUANTITIES: [Quantity; 12] = [
+pub static QUANTITIES: [Quantity; 14] = [
     Quantity {
         symbol: "μ",
         is_dissipative: true,
-        on_coarse_grid: Some(|coarse| coarse.friction_coefficient),
+        on_coarse_grid: Some(Coarse::friction_coefficient),
         has_scatter: true,
         log_change: Some(|answer, change| {
-            relative_change(
-                Some(change.friction_coefficient),
-                answer.friction_coefficient,
-            )
+            let hysteresis = change.contact.friction_coefficient;
+            let friction = match answer.friction_from_shear {
+                None => hysteresis,
+                Some(shear) => hysteresis + change.of_log_shear(answer)? * shear.value,
+            };
+            relative_change(Some(friction), answer.friction_coefficient)
         }),
         ..stored!(friction_coefficient, Unit::NUMBER)
     },
     Quantity {
+        is_dissipative: true,
+        on_coarse_grid: Some(|coarse| coarse.friction_from_hysteresis),
+        log_change: Some(|answer, change| {
+            let hysteresis = change.contact.friction_coefficient;
+            relative_change(Some(hysteresis), answer.friction_from_hysteresis)
+        }),
+        ..stored!(friction_from_hysteresis, Unit::NUMBER)
+    },
+    Quantity {
+        on_coarse_grid: Some(|coarse| coarse.friction_from_shear),
+        log_change: Some(|answer, change| {
+            answer.friction_from_shear?;
+            change.of_log_shear(answer)
+        }),
+        ..stored!(friction_from_shear, Unit::NUMBER)
+    },
+    Quantity {
         symbol: "F",
         log_change: Some(|answer, change| {
-            relative_change(change.normal_force, Some(answer.normal_force))
+            relative_change(change.contact.normal_force, Some(answer.normal_force))
         }),
         ..computed("normal_force", Unit::FORCE, |answer| {
             Some(answer.normal_force)
@@ -137,14 +154,14 @@ pub static QUANTITIES: [Quantity; 12] = [
         symbol: "d",
         on_coarse_grid: Some(|coarse| coarse.mean_depth),
         log_change: Some(|answer, change| {
-            relative_change(change.indentation_depth, answer.indentation_depth)
+            relative_change(change.contact.indentation_depth, answer.indentation_depth)
         }),
         ..stored!(indentation_depth, Unit::LENGTH)
     },
     Quantity {
         symbol: "A",
         on_coarse_grid: Some(|coarse| coarse.contact_area),
-        log_change: Some(|_, change| change.contact_area),
+        log_change: Some(|_, change| change.contact.contact_area),
         ..stored!(contact_area, Unit::AREA)
     },
     stored!(peak_pressure, Unit::PRESSURE),
@@ -164,7 +181,7 @@ pub static QUANTITIES: [Quantity; 12] = [
     },
     Quantity {
         is_dissipative: true,
-        on_coarse_grid: Some(|coarse| coarse.friction_coefficient),
+        on_coarse_grid: Some(|coarse| coarse.friction_from_hysteresis),
         ..stored!(friction_from_dissipation, Unit::NUMBER)
     },
     Quantity {

@@ -7,6 +7,7 @@ use encoding_rs::UTF_8;
 use indenters::rough::TabulatedSpectrum;
 use indenters::{IndenterError, PiecewiseLinearProfile};
 use numerics::{InvalidParameter, MessageNumber, not_negative, positive};
+use rheology::{RheologyError, ShearStrength, ShearStrengthPoint};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
@@ -70,6 +71,35 @@ pub fn spectrum(file: &Path, contents: &[u8], factor: f64) -> Result<TabulatedSp
     let last = rows.last().map_or(1, |(line, _)| *line);
     TabulatedSpectrum::new(wave_numbers, densities)
         .map_err(|error| wrong((last, error.to_string())))
+}
+
+/// A row of a table of shear strengths: velocity \[m/s], shear strength \[Pa], and optionally temperature \[°C].
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ShearStrengthRow {
+    velocity_m_per_s: f64,
+    shear_strength_pa: f64,
+    temperature_c: Option<f64>,
+}
+
+/// Shear strengths from the contents of a CSV file with the columns `velocity_m_per_s` and `shear_strength_pa`, and optionally
+/// `temperature_c`; the error is a message with file and line.
+pub(super) fn shear_strengths(file: &Path, contents: &[u8]) -> Result<ShearStrength, String> {
+    let wrong = |(line, problem): (usize, String)| located(file, line, &problem);
+    let rows = rows::<ShearStrengthRow>(contents).map_err(wrong)?;
+    let point = |(_, row): &(usize, ShearStrengthRow)| ShearStrengthPoint {
+        velocity: row.velocity_m_per_s,
+        shear_strength: row.shear_strength_pa,
+        temperature: row.temperature_c,
+    };
+    let points: Vec<ShearStrengthPoint> = rows.iter().map(point).collect();
+    ShearStrength::table(&points).map_err(|error| {
+        let row = match &error {
+            RheologyError::InvalidElement { index, .. } => rows.get(*index),
+            _ => rows.last(),
+        };
+        wrong((row.map_or(1, |(line, _)| *line), error.to_string()))
+    })
 }
 
 /// A row of a load history: time \[s], and force \[N] or depth \[m].

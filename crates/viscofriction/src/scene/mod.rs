@@ -8,6 +8,7 @@ mod files;
 mod height_map;
 mod history;
 mod indenter;
+mod interface;
 mod load;
 mod material;
 mod motion;
@@ -31,6 +32,7 @@ pub use indenter::{
     Edges, Indenter, IndenterKind, SelfAffineSurface, SpectrumConvention, SpectrumSurface, Term,
 };
 pub use indenters::Control;
+pub use interface::{EnergyUnit, Interface};
 pub use load::{Load, LoadPoint, MotionPoint, StrokeShape};
 pub use material::{Approximation, Branch, MaterialKind, MaterialTable};
 pub use numerics::Accuracy;
@@ -61,6 +63,9 @@ pub struct Scene {
     /// A layer bonded to a rigid base; without it a half space.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub layer: Option<Layer>,
+    /// Shear strength of the contact; without it only the hysteresis of the bulk is computed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub interface: Option<Interface>,
     /// How the body is pressed and moved.
     pub load: Load,
     /// What is asked, and how well.
@@ -79,6 +84,7 @@ impl Scene {
             indenter,
             material,
             layer: None,
+            interface: None,
             load,
             solve: Solve::default(),
             uncertainty: BTreeMap::new(),

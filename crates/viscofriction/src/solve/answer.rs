@@ -32,6 +32,10 @@ pub struct Answer {
     pub model: Model,
     /// μ = F_h/F_N, for a motion ∫ F_t dx / ∫ F_N |dx|; `None` if nothing slides.
     pub friction_coefficient: Option<Estimate>,
+    /// Part of the friction coefficient from the dissipation in the bulk; `None` without an interface, where it is all of it.
+    pub friction_from_hysteresis: Option<Estimate>,
+    /// Part of the friction coefficient from the shear of the contact area, τ_f A/F_N; `None` without an interface.
+    pub friction_from_shear: Option<Estimate>,
     /// Largest |F_t|/F_N during a motion; `None` if the load is not a motion.
     pub peak_friction: Option<Estimate>,
     /// Energy dissipated per cycle of a reciprocating motion, \[J]; `None` for other loads.
@@ -205,6 +209,8 @@ impl Answer {
             method,
             model,
             friction_coefficient: None,
+            friction_from_hysteresis: None,
+            friction_from_shear: None,
             peak_friction: None,
             dissipated_energy: None,
             normal_force,

@@ -71,6 +71,29 @@ pub enum SolveError {
         /// Absolute error of this quantity.
         error: f64,
     },
+    /// The sum of hysteresis and shear does not have the requested error.
+    #[error(
+        "the friction coefficient was not reached to the relative error {}: it is {friction}, of which {shear} from the shear of the \
+         contact area; give a larger solve.relative_error",
+        MessageNumber(*asked)
+    )]
+    ShearNotReached {
+        /// Relative error asked for.
+        asked: f64,
+        /// Friction coefficient.
+        friction: Estimate,
+        /// Its part from the shear of the contact area.
+        shear: Estimate,
+    },
+    /// The contact area, on which shear acts, is not known.
+    #[error(
+        "{} does not know the contact area, on which the shear of the interface acts; bem-steady does",
+        method.name()
+    )]
+    NoAreaForShear {
+        /// The method of the answer.
+        method: Method,
+    },
     /// The mean over the random surfaces does not have the requested standard error.
     #[error(
         "the relative standard error {} of the mean was not reached: it is {:.1e} after {surfaces} surfaces; give a larger \

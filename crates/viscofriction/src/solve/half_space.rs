@@ -23,6 +23,8 @@ pub struct HalfSpace {
     pub expansion: Option<Expansion>,
     /// Range of angular frequencies covered by measurements, \[rad/s]; `None` if the scene states none.
     pub window: Option<[f64; 2]>,
+    /// Temperature of the material, \[°C]; `None` unless it has a shift law.
+    pub temperature: Option<f64>,
 }
 
 /// Builds the material of a `material` table of the scene file.
@@ -127,12 +129,17 @@ fn shear_material(table: &MaterialTable, files: &Files<'_>) -> Result<HalfSpace,
             viscosity,
             branches,
             approximation,
+            shift,
             ..
         } => {
             let branch = |one: &Branch| RelaxationBranch::new(one.modulus, one.relaxation_time);
             let branches = branches.iter().map(branch).collect();
             let spectrum = RelaxationSpectrum::new(*equilibrium_modulus, *viscosity, branches);
-            return series(&table.key(), spectrum, *approximation);
+            let found = series(&table.key(), spectrum, *approximation)?;
+            return Ok(HalfSpace {
+                temperature: shift.as_ref().map(|shift| shift.temperature),
+                ..found
+            });
         }
         &MaterialTable::Springpot {
             coefficient,
@@ -173,6 +180,7 @@ fn exact(material: impl Material + 'static) -> HalfSpace {
         material: Box::new(material),
         expansion: None,
         window: None,
+        temperature: None,
     }
 }
 

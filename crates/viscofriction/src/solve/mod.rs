@@ -25,6 +25,7 @@ mod realisations;
 mod road;
 pub(crate) mod sensitivity;
 mod shared_memory;
+mod shear;
 mod validity;
 mod warning;
 mod with_fields;
@@ -48,11 +49,11 @@ pub use problem::{Motion, Problem};
 pub(crate) use realisations::Coarse;
 pub use realisations::{Ensemble, Realisation, Scatter};
 pub use road::{CutOff, cut_offs};
+pub(crate) use sensitivity::{AnswerChange, check_uncertainties, relative_change};
 pub use sensitivity::{
     Budget, ByFrequency, Sensitivity, Source, SpectralSensitivity, check_sensitivity,
     check_spectral_sensitivity, sampled, spectral_sensitivity, with_sensitivity,
 };
-pub(crate) use sensitivity::{check_uncertainties, relative_change};
 pub use shared_memory::share_memory;
 pub use warning::Warning;
 pub use with_fields::with_fields;
@@ -86,8 +87,13 @@ impl Plan<'_> {
         realisations::mean(problem, |watch| self.solve_one(watch), watch)
     }
 
-    /// Solves for the body of the problem, of random surfaces the first. Refuses a first grid that exceeds the memory limit.
+    /// Solves for the body of the problem, of random surfaces the first, as finely as the sum of hysteresis and shear needs.
     fn solve_one(self, watch: &dyn Progress) -> Result<Answer> {
+        shear::solve(self, watch)
+    }
+
+    /// Solves once for the body of the problem, of random surfaces the first. Refuses a first grid that exceeds the memory limit.
+    fn solve_once(self, watch: &dyn Progress) -> Result<Answer> {
         let Self {
             problem,
             method,
@@ -130,16 +136,24 @@ impl Found {
         let missed = self.missed.or_else(|| problem.missed(&answer));
         // Closed forms of indentation belong to both models.
         let model = method.model().unwrap_or(problem.model());
-        let mut answer = Answer {
+        let answer = Answer {
             model,
             left_out: left_out(problem, &answer),
             dissipation: dissipation(problem, &answer),
             not_modelled: not_modelled(problem),
             ..answer
         };
-        answer.warnings = warnings(problem, &answer);
-        // Reject numbers that are not finite or not physical. If the requested error was missed, say so in the answer.
-        let answer = answer.finite().and_then(|answer| answer.physical(problem));
+        // Reject numbers that are not finite or not physical, and add the shear of the contact area to the friction.
+        let answer = answer
+            .finite()
+            .and_then(|answer| answer.physical(problem))
+            .and_then(|answer| problem.with_shear(answer))
+            .and_then(Answer::finite)
+            .map(|answer| Answer {
+                warnings: warnings(problem, &answer),
+                ..answer
+            });
+        // If the requested error was missed, say so in the answer.
         match (answer, missed) {
             (answer, None) => answer,
             (Err(_), Some(why)) => Err(why),

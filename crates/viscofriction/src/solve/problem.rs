@@ -15,6 +15,7 @@ use super::expansion::Expansion;
 use super::half_space::{Simple, simple};
 use super::parts::Parts;
 use super::sensitivity::check_uncertainties;
+use super::shear::Shear;
 use crate::files::{Files, ReadFile};
 use crate::scene::{Accuracy, Method, Model, Scene, SceneError};
 use crate::text::WrongInput;
@@ -28,13 +29,15 @@ use crate::text::WrongInput;
 ///     problem.material = Box::new(viscofriction::rheology::Elastic::new(1e6).unwrap());
 /// }
 /// ```
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Problem {
     /// Body and elastomer.
     parts: Parts,
     /// Thickness of the elastomer, \[m]; infinite for a half space.
     thickness: f64,
     motion: Motion,
+    /// Shear strength of the contact; `None` if only hysteresis is computed.
+    shear: Option<Shear>,
     accuracy: Accuracy,
     method: Option<Method>,
     model: Model,
@@ -137,6 +140,9 @@ impl Problem {
             Some(layer) => positive("layer.thickness", layer.thickness)?,
             None => f64::INFINITY,
         };
+        let law = scene.interface.as_ref().map(|table| table.law(&files));
+        let temperature = parts.half_space.temperature;
+        let shear = law.transpose()?.map(|law| Shear { law, temperature });
         let not_reduced = |error: RheologyError| SceneError::at("material", error.to_string());
         let of_method = scene.solve.method.and_then(Method::model);
         let (count, standard_error) = scene.indenter.realisations()?;
@@ -152,6 +158,7 @@ impl Problem {
             parts,
             thickness,
             motion,
+            shear,
             accuracy: scene.solve.accuracy()?,
             method: scene.solve.method,
             model: scene.solve.model.or(of_method).unwrap_or(Model::HalfSpace),
@@ -165,6 +172,7 @@ impl Problem {
         problem.check_control()?;
         problem.check_track()?;
         problem.check_layer()?;
+        problem.check_interface()?;
         check_uncertainties(scene, folder, read)?;
         Ok(problem)
     }
@@ -290,6 +298,11 @@ impl Problem {
     /// Load and motion of the body.
     pub const fn motion(&self) -> &Motion {
         &self.motion
+    }
+
+    /// Shear strength of the contact; `None` if only hysteresis is computed.
+    pub(super) const fn shear(&self) -> Option<&Shear> {
+        self.shear.as_ref()
     }
 
     /// Length of the closed track, after which the body returns to the same place, \[m]; `None` without a track.

@@ -41,9 +41,22 @@ pub(super) fn warnings(problem: &Problem, answer: &Answer) -> Vec<Warning> {
             thickness: problem.thickness(),
         });
     }
+    warnings.extend(coupling_warning(problem));
     warnings.extend(extrapolation_warning(problem, answer).or_else(|| duration_warning(problem)));
     warnings.extend(shortest_octave_warning(body, answer));
     warnings
+}
+
+/// Warning if the shear of the contact moves the surface vertically, which is neglected: on a layer, and for a Poisson ratio below 1/2.
+/// `None` otherwise.
+fn coupling_warning(problem: &Problem) -> Option<Warning> {
+    problem.shear()?;
+    let poisson_ratio = problem.material().poisson_ratio();
+    let is_layer = problem.thickness().is_finite();
+    (is_layer || poisson_ratio < 0.5).then_some(Warning::NeglectedCoupling {
+        poisson_ratio,
+        is_layer,
+    })
 }
 
 /// Warning if a large part of the friction comes from frequencies at which the material was not measured; `None` otherwise.
@@ -89,7 +102,7 @@ pub(super) fn not_modelled(problem: &Problem) -> Vec<&'static str> {
         ("adhesion", true),
         ("strain dependence", dissipates),
         ("heating", slides && dissipates),
-        ("interfacial shear", slides),
+        ("interfacial shear", slides && problem.shear().is_none()),
     ];
     let words = words.into_iter().filter(|(_, applies)| *applies);
     words.map(|(word, _)| word).collect()
@@ -106,7 +119,10 @@ pub(super) fn mean_slope(body: &Body, answer: &Answer) -> Option<f64> {
     let widest = curve.largest(RADIUS).max((curve.largest(AREA) / PI).sqrt());
     let ends = answer.contact_box.as_ref().map(|contact| contact.x);
     let Some(ends) = ends.or((widest > 0.0).then_some([-widest, widest])) else {
-        return answer.friction_coefficient.map(|friction| friction.value);
+        let hysteresis = answer
+            .friction_from_hysteresis
+            .or(answer.friction_coefficient);
+        return hysteresis.map(|friction| friction.value);
     };
     let radius = ends[0].abs().max(ends[1].abs()).max(widest);
     let height = match body {

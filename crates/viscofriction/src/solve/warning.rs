@@ -33,6 +33,13 @@ pub enum Warning {
         /// Thickness of the layer, \[m].
         thickness: f64,
     },
+    /// The shear of the contact moves the surface vertically, and the contact without shear is computed.
+    NeglectedCoupling {
+        /// Poisson ratio ν.
+        poisson_ratio: f64,
+        /// True on a layer, where there is coupling for every Poisson ratio.
+        is_layer: bool,
+    },
     /// Friction comes from frequencies at which the material was not measured.
     UnmeasuredFrequencies {
         /// Fractions of the friction from frequencies below and above the measured ones.
@@ -100,6 +107,19 @@ impl fmt::Display for Warning {
                  theory ends",
                 Rounded(*thickness)
             ),
+            Self::NeglectedCoupling { is_layer: true, .. } => out.write_str(
+                "on a layer the shear of the contact also moves the surface vertically, and its effect on pressure and area is neglected",
+            ),
+            Self::NeglectedCoupling { poisson_ratio, .. } => {
+                // Ratio of the vertical displacements by a tangential and by a normal traction (Johnson 1985, § 3.2).
+                let coupling = (1.0 - 2.0 * poisson_ratio) / (2.0 * (1.0 - poisson_ratio));
+                write!(
+                    out,
+                    "with a Poisson ratio of {} the shear of the contact also moves the surface vertically, which is neglected: pressure \
+                     and area change by a part of the order of {coupling:.2} times the friction coefficient from shear",
+                    Rounded(*poisson_ratio)
+                )
+            }
             Self::UnmeasuredFrequencies {
                 outside,
                 outside_window,

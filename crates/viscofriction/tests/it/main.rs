@@ -21,6 +21,7 @@ mod scenes;
 mod sensitivities;
 mod sensitivities_of_more_scenes;
 mod shared;
+mod shear;
 mod support;
 mod sweeps_share_bodies;
 mod warnings;

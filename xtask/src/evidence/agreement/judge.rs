@@ -361,7 +361,9 @@ fn problem_of(answer: &Answer) -> Option<String> {
         let is_of = |names: &str| names.split(' ').any(|one| one == name);
         // Friction of an elastic material is 0, which numerical methods meet only within their error bars, so it may be slightly
         // negative.
-        let rubs = is_of("dissipated_energy friction_coefficient tangential_force");
+        let rubs = is_of(
+            "dissipated_energy friction_coefficient friction_from_hysteresis tangential_force",
+        );
         let is_signed =
             is_of("x_min x_max y_min y_max indentation_depth work dissipation_shortest_octave");
         if value < if rubs { -error } else { 0.0 } && !is_signed {

@@ -7,8 +7,8 @@ use anyhow::Result;
 use toml::{Table, Value};
 use viscofriction::Files;
 use viscofriction::scene::{
-    Branch, Edges, Key, LoadPoint, Model, MotionPoint, Scene, Shift, ShiftLaw, StrokeShape, Term,
-    VerticalLaw,
+    Branch, Edges, EnergyUnit, Interface, Key, LoadPoint, Model, MotionPoint, Scene, Shift,
+    ShiftLaw, StrokeShape, Term, VerticalLaw,
 };
 use viscofriction::solve::{Body, body, half_space};
 
@@ -43,6 +43,24 @@ impl Sample<'_> {
     fn draw<V: Into<Value>, const N: usize>(&mut self, names: &str, values: [V; N]) {
         let names = names.split(' ').map(str::to_owned);
         self.drawn.extend(names.zip(values.map(Into::into)));
+    }
+
+    /// The shear strength of a contact: constant, or a bell over the velocity.
+    pub(super) fn interface(&mut self) -> Interface {
+        let shear_strength = self.stress * 10_f64.powf(self.random.between([-4.0, 0.0]));
+        let velocity = self.contact / self.contact_time * self.random.decades(2.0);
+        let width = self.random.between([0.5, 4.0]);
+        if self.random.uniform() < 0.5 {
+            return Interface::Constant { shear_strength };
+        }
+        Interface::Bell {
+            shear_strength,
+            velocity,
+            width,
+            activation_energy: None,
+            activation_energy_unit: EnergyUnit::default(),
+            reference_temperature: TEMPERATURES[0],
+        }
     }
 
     /// Draws what a body of this kind may need: slopes, radii and what no range of a key describes.

@@ -338,6 +338,7 @@ pub(super) fn sample(random: &mut Random, source: &Source, folder: &Path) -> Res
             indenter,
             material,
             layer: is_thin.then_some(Layer { thickness }),
+            interface: None,
             load: Load::default(),
             solve: Solve::default(),
             uncertainty: BTreeMap::new(),
@@ -355,8 +356,21 @@ pub(super) fn sample(random: &mut Random, source: &Source, folder: &Path) -> Res
             break;
         }
     }
+    // Draw the shear of the contact last, so that all other numbers of a scene are those that it has without. Scenes that have no shear,
+    // such as those without sliding, stay without.
+    let interface = sample.interface();
+    if sample.random.uniform() < SHEAR_SHARE {
+        case.scene.interface = Some(interface);
+        let has_plan = |problem: Problem| plan(&problem).is_ok();
+        if !case.problem(folder).is_ok_and(has_plan) {
+            case.scene.interface = None;
+        }
+    }
     Ok(case)
 }
+
+/// Part of the scenes that have a shear strength, if something slides at a constant velocity. Chosen.
+const SHEAR_SHARE: f64 = 0.4;
 
 /// Largest number of motions that are drawn for a body and a material until some method takes one. Chosen; the last one stays
 /// even if it is refused, since refusals have to be right too.

@@ -17,7 +17,9 @@ pub(super) const REFINEMENT_FACTORS: [usize; 4] = [1, 2, 4, 8];
 pub(crate) struct Coarse {
     /// Friction coefficient from the dissipated power, which vanishes with the loss of the material; that from the slopes has a
     /// discretisation error even on a spring.
-    pub(crate) friction_coefficient: f64,
+    pub(crate) friction_from_hysteresis: f64,
+    /// Friction coefficient from the shear of the contact area; 0 without an interface.
+    pub(crate) friction_from_shear: f64,
     /// Contact area as a fraction of the period.
     pub(crate) area_fraction: f64,
     /// Contact area of one period, \[m²].
@@ -48,20 +50,27 @@ pub(super) fn solve(problem: &Problem, surface: u64, finer: usize) -> Option<Coa
     };
     let rough = rough(&one, surface).ok()?;
     let (found, persson) = elements::on_coarse_grid(&one, rough, finer).ok()?;
-    Some(Coarse::of(&found, persson))
+    let strength = one.shear_strength().ok()?.unwrap_or(0.0);
+    Some(Coarse::of(&found, strength / rough.mean_pressure, persson))
 }
 
 impl Coarse {
-    /// Collects the quantities of a solution on one grid.
-    fn of(found: &PeriodicSliding, persson: Option<Persson>) -> Self {
+    /// Collects the quantities of a solution on one grid. `shear` is the ratio of shear strength and mean pressure.
+    fn of(found: &PeriodicSliding, shear: f64, persson: Option<Persson>) -> Self {
         let period = found.pressure.grid.n_elements() as f64 * found.pressure.grid.element_area();
         Self {
-            friction_coefficient: found.friction_from_dissipation,
+            friction_from_hysteresis: found.friction_from_dissipation,
+            friction_from_shear: shear * found.area_fraction,
             area_fraction: found.area_fraction,
             contact_area: found.area_fraction * period,
             mean_depth: found.mean_depth,
             persson,
             elements: found.pressure.grid.n_elements(),
         }
+    }
+
+    /// Friction coefficient: hysteresis and shear.
+    pub(crate) fn friction_coefficient(&self) -> f64 {
+        self.friction_from_hysteresis + self.friction_from_shear
     }
 }

@@ -3,7 +3,7 @@
 use bem_halfspace::Elastomer;
 use bem_halfspace::periodic::sensitivity::PeriodicSensitivity;
 use bem_halfspace::steady::sensitivity::{ByModuli, Change, SteadySensitivity};
-use indenters::{SlidingLoad, Surface};
+use indenters::{Control, SlidingLoad, Surface};
 use numerics::{Estimate, WorkProgress};
 use rheology::Material;
 
@@ -36,7 +36,8 @@ pub(super) fn sensitivities(
     let contact = Contact::new(problem, load, answer)?;
     let of = |number: &Number| {
         let ends = neighbours(numbers, problem, number)?;
-        let change = change_between_ends(&contact, number, &ends)?;
+        let contact = change_between_ends(&contact, number, &ends)?;
+        let change = AnswerChange::new(contact, &ends)?;
         let width = (ends[1].1 / ends[0].1).ln();
         progress.add(1.0);
         Ok(log_derivatives(number.path(), answer, change, width))
@@ -162,6 +163,7 @@ fn change_between_ends(
     let velocities = [from, to].map(velocity);
     let is_layer = to.thickness().is_finite();
     Ok(match number.ends() {
+        ["interface", _] => scaled(contact.by_load(), 0.0),
         [
             "load",
             "normal_force" | "mean_pressure" | "indentation_depth",
@@ -209,13 +211,56 @@ fn scaled(change: Change<Estimate>, factor: f64) -> Change<Estimate> {
 pub(super) fn log_derivatives(
     parameter: String,
     answer: &Answer,
-    change: Change<Estimate>,
+    change: AnswerChange,
     width: f64,
 ) -> Sensitivity {
     let derivative = |of: &Quantity| Some((of.log_change?)(answer, &change)? * width.recip());
     Sensitivity {
         parameter,
         derivatives: ByQuantity::new(derivative),
+    }
+}
+
+/// The change of an answer to first order: of its contact, and of what the contact does not depend on.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct AnswerChange {
+    /// Changes of the quantities of the contact.
+    pub(crate) contact: Change<Estimate>,
+    /// Change of ln(τ_f/F_N) for the shear strength τ_f and a given normal force F_N; of ln τ_f at a given depth. 0 without shear.
+    log_shear_over_load: f64,
+}
+
+impl AnswerChange {
+    /// The change between two problems, with the values of the number in which they differ.
+    fn new(contact: Change<Estimate>, ends: &[(Problem, f64); 2]) -> Result<Self> {
+        let logs = |(problem, _): &(Problem, f64)| -> Result<Option<f64>> {
+            let load = match problem.motion().control() {
+                Control::NormalForce(force) => force,
+                Control::IndentationDepth(_) => 1.0,
+            };
+            Ok((problem.shear_strength()?).map(|strength| (strength / load).ln()))
+        };
+        let [from, to] = [logs(&ends[0])?, logs(&ends[1])?];
+        Ok(Self {
+            contact,
+            log_shear_over_load: to.zip(from).map_or(0.0, |(to, from)| to - from),
+        })
+    }
+
+    /// The change of a contact whose load and shear strength stay.
+    pub(super) const fn of_contact(contact: Change<Estimate>) -> Self {
+        Self {
+            contact,
+            log_shear_over_load: 0.0,
+        }
+    }
+
+    /// Change of the logarithm of the friction from shear, ln(τ_f A/F_N); `None` if that of the contact area is not known.
+    pub(crate) fn of_log_shear(&self, answer: &Answer) -> Option<Estimate> {
+        let area = self.contact.contact_area?;
+        let force = relative_change(self.contact.normal_force, Some(answer.normal_force));
+        let force = force.unwrap_or(Estimate::exact(0.0));
+        Some(area + force * -1.0 + Estimate::exact(self.log_shear_over_load))
     }
 }
 

@@ -21,7 +21,7 @@ use super::work::work;
 use crate::files::ReadFile;
 use crate::quantity::{ByQuantity, Quantity};
 use crate::scene::{Method, Model, Scene, SceneError};
-pub(crate) use adjoint::relative_change;
+pub(crate) use adjoint::{AnswerChange, relative_change};
 use budget::budget;
 pub use budget::{Budget, Source};
 use differences::Values;

@@ -15,13 +15,22 @@ use crate::solve::half_space::{half_space, material_of_file};
 use crate::solve::problem::Problem;
 
 /// Tables of the scene that contain moduli, times, loads, speeds and lengths.
-const TABLES: [&str; 5] = ["indenter", "material", "layer", "load", "solve"];
-/// Keys in these tables by which answers are not differentiated: ranges of the material, the selection of waves, and options.
-const EXCLUDED_KEYS: [&str; 11] = [
+const TABLES: [&str; 6] = [
+    "indenter",
+    "material",
+    "layer",
+    "interface",
+    "load",
+    "solve",
+];
+/// Keys in these tables by which answers are not differentiated: ranges of the material, the selection of waves,
+/// temperatures in °C, which have no logarithm, and options.
+const EXCLUDED_KEYS: [&str; 12] = [
     "approximation",
     "covariance",
     "longest_wavelength",
     "period",
+    "reference_temperature",
     "relative_error",
     "shortest_wavelength",
     "seed",

@@ -7,6 +7,7 @@ use numerics::{Estimate, Progress, WorkProgress};
 use serde::Serialize;
 
 use super::Sensitivity;
+use super::adjoint::AnswerChange;
 use super::adjoint::{self, Contact, check_surfaces};
 use crate::scene::{Method, SceneError};
 use crate::solve::answer::Answer;
@@ -178,6 +179,7 @@ fn band_edges([lowest, highest]: [f64; 2], window: Option<[f64; 2]>) -> Vec<f64>
 /// Derivatives by both moduli in one band.
 fn derivatives_in_band(answer: &Answer, band: ByModuli) -> ByFrequency {
     let of = |name: &str, change: Change<Estimate>| {
+        let change = AnswerChange::of_contact(change);
         adjoint::log_derivatives(name.to_owned(), answer, change, 1.0)
     };
     ByFrequency {

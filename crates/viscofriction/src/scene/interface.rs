@@ -1,0 +1,147 @@
+//! `[interface.…]`: shear strength of the contact.
+
+use std::path::PathBuf;
+
+use rheology::{BellParameters, DEFAULT_BELL_WIDTH, RheologyError, ShearStrength};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use strum::IntoStaticStr;
+use toml::Table;
+
+use super::SceneError;
+use super::files::shear_strengths;
+use super::schema::check_ranges;
+use super::source::checked;
+use crate::files::Files;
+use crate::text::WrongInput;
+
+/// Shear strength τ_f of the real contact: its part of the friction coefficient is τ_f times the contact area over the normal force.
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema, IntoStaticStr)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+#[strum(serialize_all = "kebab-case")]
+pub enum Interface {
+    /// A shear strength that is the same at every velocity and temperature.
+    Constant {
+        /// Shear strength > 0, \[Pa].
+        shear_strength: f64,
+    },
+    /// A shear strength that is largest at one velocity, τ_0 exp(−(log₁₀(v a_T/v_0)/w)²) (Lorenz et al. 2015).
+    Bell {
+        /// Largest shear strength τ_0 > 0, \[Pa].
+        shear_strength: f64,
+        /// Velocity v_0 > 0 of the largest shear strength at the reference temperature, \[m/s].
+        velocity: f64,
+        /// Decades w > 0 of velocity over which the shear strength falls to τ_0/e; without it √10.
+        #[serde(default = "default_width")]
+        width: f64,
+        /// Activation energy > 0 of a_T by Arrhenius' law, by default in J/mol; without it the temperature has no influence.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        activation_energy: Option<f64>,
+        /// Unit of the activation energy.
+        #[serde(default)]
+        activation_energy_unit: EnergyUnit,
+        /// Temperature at which a_T = 1, \[°C]; without it 20.
+        #[serde(default = "default_reference")]
+        reference_temperature: f64,
+    },
+    /// Measured shear strengths, interpolated on logarithmic scales and never extrapolated.
+    Table {
+        /// A CSV file beside the scene file with the columns velocity_m_per_s and shear_strength_pa, and optionally temperature_c.
+        file: PathBuf,
+    },
+}
+
+/// Unit of an activation energy.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+pub enum EnergyUnit {
+    /// Joule per mole.
+    #[default]
+    #[serde(rename = "J/mol")]
+    JoulePerMole,
+    /// Electronvolt per bond.
+    #[serde(rename = "eV")]
+    Electronvolt,
+}
+
+/// One electronvolt per particle, [J/mol]: the product of elementary charge and Avogadro constant, exact in the SI of 2019.
+const ELECTRONVOLT: f64 = 96_485.332_123_310_02;
+
+/// Width of a bell of which the scene gives none, \[decades].
+const fn default_width() -> f64 {
+    DEFAULT_BELL_WIDTH
+}
+
+/// Reference temperature of a bell of which the scene gives none, \[°C].
+const fn default_reference() -> f64 {
+    20.0
+}
+
+impl Interface {
+    /// Path of the table.
+    fn key(&self) -> String {
+        let name: &str = self.into();
+        format!("interface.{name}")
+    }
+
+    /// Checks every number against its range.
+    ///
+    /// # Errors
+    /// [`SceneError`] for the first number out of range.
+    pub fn check(&self) -> Result<(), SceneError> {
+        check_ranges("interface", self)
+    }
+
+    /// The shear strength, checked; reads the file of a table.
+    pub(crate) fn law(&self, files: &Files<'_>) -> Result<ShearStrength, SceneError> {
+        self.check()?;
+        let refused = |error: RheologyError| SceneError::at(self.key(), error.to_string());
+        match self {
+            Self::Constant { shear_strength } => {
+                ShearStrength::constant(*shear_strength).map_err(refused)
+            }
+            Self::Bell {
+                shear_strength,
+                velocity,
+                width,
+                activation_energy,
+                activation_energy_unit,
+                reference_temperature,
+            } => {
+                let unit = match activation_energy_unit {
+                    EnergyUnit::JoulePerMole => 1.0,
+                    EnergyUnit::Electronvolt => ELECTRONVOLT,
+                };
+                let parameters = BellParameters {
+                    shear_strength: *shear_strength,
+                    velocity: *velocity,
+                    width: *width,
+                    activation_energy: activation_energy.map(|energy| unit * energy),
+                    reference_temperature: *reference_temperature,
+                };
+                ShearStrength::bell(parameters).map_err(refused)
+            }
+            Self::Table { file } => {
+                let at_file = |WrongInput(problem)| SceneError::at("interface.table.file", problem);
+                let (file, contents) = files.table(file).map_err(at_file)?;
+                shear_strengths(&file, &contents)
+                    .map_err(|problem| SceneError::at("interface.table.file", problem))
+            }
+        }
+    }
+}
+
+/// Contents of a table with an interface alone.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct InterfaceAlone {
+    interface: Interface,
+}
+
+/// Reads an interface, with one table `[interface.…]`, from its keys and values.
+impl TryFrom<Table> for Interface {
+    type Error = SceneError;
+
+    fn try_from(table: Table) -> Result<Self, SceneError> {
+        checked(table, &["interface"]).map(|alone: InterfaceAlone| alone.interface)
+    }
+}

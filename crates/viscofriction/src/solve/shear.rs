@@ -1,0 +1,194 @@
+//! Shear of the real contact: the part of the friction that does not come from the bulk of the elastomer.
+//!
+//! A shear strength τ_f that is the same everywhere in the contact area A adds F_τ = τ_f A to the tangential force. On an
+//! incompressible half space tangential tractions do not move the surface vertically, so that the sum μ = μ_hysteresis + τ_f A/F_N
+//! is exact (Johnson 1985, Contact Mechanics, § 3.2). The error of the area is then an error of the friction.
+//!
+//! Theory: docs/theory/shear.md.
+
+use numerics::{ErrorParts, Estimate, Progress};
+use rheology::ShearStrength;
+
+use super::answer::Answer;
+use super::error::{Result, SolveError};
+use super::plan::{Plan, plan};
+use super::problem::{Motion, Problem};
+use super::work::work;
+use crate::scene::{Accuracy, Model, SceneError};
+
+/// Largest relative error that is requested of the friction from hysteresis. Chosen: the first solution only has to show which part
+/// of the friction is hysteresis.
+const MAX_HYSTERESIS_ERROR: f64 = 0.1;
+/// Fraction of the allowed error that the next request aims at, because errors on successive grids scatter about their trend. Chosen.
+const AIMED_SHARE: f64 = 0.7;
+/// Range of the ratio of successive requests. Chosen: a single coarse solution may mislead by less than a factor of 100, and each
+/// solution shall be appreciably finer than the one before.
+const REQUEST_RATIOS: [f64; 2] = [0.01, 0.7];
+/// Largest number of solutions with smaller and smaller requested errors. Derived: with the largest of [`REQUEST_RATIOS`] the request
+/// falls by a factor of 0.7⁹ = 1/25, and with the smallest far below rounding.
+const MAX_SOLUTIONS: usize = 10;
+
+/// Shear strength of the contact at the temperature of the elastomer.
+#[derive(Debug, Clone)]
+pub(crate) struct Shear {
+    /// The law over velocity and temperature.
+    pub(crate) law: ShearStrength,
+    /// Temperature of the contact, \[°C]; `None` if the scene gives none.
+    pub(crate) temperature: Option<f64>,
+}
+
+impl Shear {
+    /// Shear strength at a velocity \[m/s], \[Pa]; the error names the table of the scene.
+    pub(crate) fn strength(&self, velocity: f64) -> Result<f64, SceneError> {
+        let strength = self.law.at(velocity, self.temperature);
+        strength.map_err(|error| SceneError::at("interface", error.to_string()))
+    }
+}
+
+impl Problem {
+    /// Shear strength of the contact, \[Pa]; `None` unless the scene has one and the body slides at a constant velocity.
+    pub(crate) fn shear_strength(&self) -> Result<Option<f64>, SceneError> {
+        match (self.shear(), self.motion()) {
+            (Some(shear), Motion::Sliding(load)) => shear.strength(load.velocity()).map(Some),
+            _ => Ok(None),
+        }
+    }
+
+    /// Rejects a shear strength where nothing slides, in the one-dimensional model, without the temperature that it needs, and at a
+    /// velocity outside its table.
+    pub(super) fn check_interface(&self) -> Result<(), SceneError> {
+        let Some(shear) = self.shear() else {
+            return Ok(());
+        };
+        let refused = |problem: &str| Err(SceneError::at("interface", problem));
+        if self.model() == Model::Line {
+            return refused(
+                "the scene asks for the one-dimensional model, which does not know the contact area that shear acts on; boundary \
+                 elements do",
+            );
+        }
+        if shear.law.depends_on_temperature() && shear.temperature.is_none() {
+            return refused(
+                "it depends on the temperature, and the scene gives none: give heat.ambient_temperature, or a material of a file with a \
+                 shift law",
+            );
+        }
+        match self.motion() {
+            Motion::Sliding(_) => self.shear_strength().map(drop),
+            Motion::Moving(_) => refused(
+                "the contact area along a motion is not computed; shear acts on a body that slides at a constant load.velocity",
+            ),
+            Motion::Pressing(_) | Motion::History { .. } => {
+                refused("nothing slides here, and without sliding there is no shear; leave it out")
+            }
+        }
+    }
+
+    /// Adds the shear of the contact area to the friction of an answer.
+    pub(super) fn with_shear(&self, answer: Answer) -> Result<Answer> {
+        let Some(strength) = self.shear_strength()? else {
+            return Ok(answer);
+        };
+        let (Some(hysteresis), Some(area)) = (answer.friction_coefficient, answer.contact_area)
+        else {
+            let method = answer.method;
+            return Err(SolveError::NoAreaForShear { method });
+        };
+        let shear = over_force(area * strength, answer.normal_force);
+        let mut answer = Answer {
+            friction_coefficient: Some(sum(hysteresis, shear)),
+            friction_from_hysteresis: Some(hysteresis),
+            friction_from_shear: Some(shear),
+            error_parts: (answer.error_parts).plus(ErrorParts::discretisation_only(shear.error)),
+            ..answer
+        };
+        // Without the shortest octave, the smaller area has its own shear.
+        if let (Some(without), Some(pressure)) =
+            (&mut answer.without_shortest_octave, answer.mean_pressure)
+        {
+            let shear = over_force(without.area_fraction * strength, pressure);
+            without.friction_coefficient =
+                (without.friction_coefficient).map(|hysteresis| sum(hysteresis, shear));
+        }
+        Ok(answer)
+    }
+}
+
+/// Quotient of a tangential and a normal force \[N], or of a mean stress and a mean pressure \[Pa].
+fn over_force(tangential: Estimate, normal: Estimate) -> Estimate {
+    let ratio = tangential.value / normal.value;
+    let error = (tangential.error + ratio * normal.error) / (normal.value - normal.error);
+    Estimate::new(ratio, error)
+}
+
+/// Sum of two parts of the friction, whose errors may have the same sign.
+fn sum(a: Estimate, b: Estimate) -> Estimate {
+    Estimate::new(a.value + b.value, a.error + b.error)
+}
+
+/// Solves for the sum of hysteresis and shear to the requested relative error, without shear like [`Plan::solve_once`].
+///
+/// The methods control the relative error of the friction from hysteresis. It is requested coarsely at first, and then as finely as
+/// the sum needs: a small hysteresis beside a large shear need not be known well, and the error of the contact area adds to both.
+pub(super) fn solve(first: Plan, watch: &dyn Progress) -> Result<Answer> {
+    let problem = first.problem;
+    let (Accuracy::RelativeError(asked), Some(_)) = (problem.accuracy(), problem.shear()) else {
+        return first.solve_once(watch);
+    };
+    let mut request = asked.max(MAX_HYSTERESIS_ERROR);
+    let mut solutions = 0;
+    loop {
+        let near = problem
+            .clone()
+            .with_accuracy(Accuracy::RelativeError(request));
+        let (answer, missed) = match plan_again(&near)?.solve_once(watch) {
+            Ok(answer) => (answer, None),
+            Err(SolveError::NotReached { answer, why }) => (*answer, Some(why)),
+            Err(other) => return Err(other),
+        };
+        solutions += 1;
+        let Some(friction) = answer.friction_coefficient else {
+            return Ok(answer);
+        };
+        let allowed = asked * friction.value.abs();
+        if friction.error <= allowed {
+            let not_reached = None;
+            return Ok(Answer {
+                not_reached,
+                ..answer
+            });
+        }
+        let too_coarse = (solutions == MAX_SOLUTIONS).then(|| {
+            Box::new(SolveError::ShearNotReached {
+                asked,
+                friction,
+                shear: answer.friction_from_shear.unwrap_or(friction),
+            })
+        });
+        if let Some(why) = missed.or(too_coarse) {
+            let not_reached = Some(why.to_string());
+            let answer = Box::new(Answer {
+                not_reached,
+                ..answer
+            });
+            return Err(SolveError::NotReached { answer, why });
+        }
+        let [smallest, largest] = REQUEST_RATIOS;
+        let ratio = AIMED_SHARE * allowed / friction.error;
+        request *= ratio.clamp(smallest, largest);
+    }
+}
+
+/// The plan of a problem with another accuracy. A closed form may meet a coarse request and refuse a finer one, for which another
+/// method is chosen unless the scene names one.
+fn plan_again(problem: &Problem) -> Result<Plan<'_>> {
+    let Some(method) = problem.method() else {
+        return Ok(plan(problem)?);
+    };
+    let work = work(problem, method).map_err(|why| SolveError::Refused { method, why })?;
+    Ok(Plan {
+        problem,
+        method,
+        work,
+    })
+}

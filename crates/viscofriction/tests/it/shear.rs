@@ -1,0 +1,290 @@
+//! Shear of the real contact: its part of the friction is τ_f A/F_N, with the error of the area.
+
+use std::f64::consts::PI;
+
+use serde_json::Value;
+
+use crate::sensitivities::{answered, of};
+use crate::support::{Folder, assert_close, number};
+
+/// A ball on a rubber, slower and faster than its relaxation.
+const BALL: &str = "[indenter.sphere]\nradius = 5e-3\n[material.prony]\nequilibrium_modulus = 1e6\nbranches = [{ modulus = 1e7, \
+     relaxation_time = 1e-3 }, { modulus = 3e6, relaxation_time = 0.1 }]\n[load]\nnormal_force = 1.0\nvelocity = 0.01\n";
+
+/// Requires that the parts of the friction add up, and that shear is the strength times the area over the force.
+#[track_caller]
+fn check_parts(answer: &Value, strength: f64) {
+    let [sum, hysteresis, shear] = ["coefficient", "from_hysteresis", "from_shear"]
+        .map(|part| number(answer, &format!("friction_{part}")));
+    assert_close("sum", sum, hysteresis + shear, 1e-14);
+    let [force, area] = ["normal_force", "contact_area"].map(|key| number(answer, key));
+    assert_close("shear", shear, strength * area / force, 1e-14);
+    let [error, of_area] =
+        ["friction_from_shear_error", "contact_area_error"].map(|key| number(answer, key));
+    assert_close("its error", error, strength * of_area / force, 1e-12);
+    let [total, of_hysteresis] = [
+        "friction_coefficient_error",
+        "friction_from_hysteresis_error",
+    ]
+    .map(|key| number(answer, key));
+    assert_close("error of the sum", total, of_hysteresis + error, 1e-12);
+}
+
+/// An elastic body slides with the shear of the contact of Hertz, a³ = 3 F R/(4 E*), E* = 4 G.
+#[test]
+fn an_elastic_ball_has_the_shear_of_hertz() {
+    let folder = Folder::new("shear-hertz");
+    let answer = folder.answer(
+        "[indenter.paraboloid]\ncurvature = 100.0\n[material.elastic]\nshear_modulus = 1e6\n[interface.constant]\nshear_strength = \
+         1e5\n[load]\nnormal_force = 1.0\nvelocity = 0.01\n",
+    );
+    let radius = (3.0 * 5e-3 / (4.0 * 4e6_f64)).cbrt();
+    assert_close(
+        "friction",
+        number(&answer, "friction_coefficient"),
+        1e5 * PI * radius * radius,
+        1e-10,
+    );
+    let hysteresis = number(&answer, "friction_from_hysteresis");
+    assert!(hysteresis.abs() < f64::MIN_POSITIVE, "{hysteresis}");
+    check_parts(&answer, 1e5);
+}
+
+/// The sum has the requested error, whichever part prevails; hysteresis is that without an interface.
+#[test]
+fn the_sum_has_the_requested_error() {
+    let folder = Folder::new("shear-sum");
+    let asked = "[solve]\nrelative_error = 5e-3\n";
+    let alone = folder.answer(format!("{BALL}{asked}"));
+    assert!(alone.get("friction_from_shear").is_none(), "{alone}");
+    for strength in [1e3, 1e5, 1e7] {
+        let text = format!("{BALL}{asked}[interface.constant]\nshear_strength = {strength:e}\n");
+        let answer = folder.answer(text);
+        check_parts(&answer, strength);
+        let [sum, error] =
+            ["friction_coefficient", "friction_coefficient_error"].map(|key| number(&answer, key));
+        assert!(error <= 5e-3 * sum, "{strength:e}: {sum} ± {error}");
+        let [same, bar] =
+            ["", "_error"].map(|end| number(&answer, &format!("friction_from_hysteresis{end}")));
+        let [hysteresis, own] =
+            ["friction_coefficient", "friction_coefficient_error"].map(|key| number(&alone, key));
+        assert!(
+            (same - hysteresis).abs() <= bar + own,
+            "{same} for {hysteresis}"
+        );
+        let words = answer["not_modelled"].to_string();
+        assert!(
+            !words.contains("shear") && words.contains("adhesion"),
+            "{words}"
+        );
+    }
+}
+
+/// The derivatives of the sum are those of its parts, by the shear strength as by numbers that both parts depend on.
+#[test]
+fn derivatives_of_the_sum_are_slopes_between_answers() {
+    let folder = Folder::new("shear-derivatives");
+    let scene = |strength: f64, velocity: f64, force: f64| {
+        let ball = BALL.replace("velocity = 0.01", &format!("velocity = {velocity:e}"));
+        let ball = ball.replace("normal_force = 1.0", &format!("normal_force = {force:e}"));
+        format!(
+            "{ball}[solve]\nrelative_error = 5e-3\n[interface.bell]\nshear_strength = {strength:e}\nvelocity = 1e-4\nwidth = 2.0\n"
+        )
+    };
+    let (answer, known) = answered(&scene(1e5, 0.01, 1.0));
+    let known = known.expect("derivatives");
+    let [friction, shear] = [answer.friction_coefficient, answer.friction_from_shear]
+        .map(|part| part.expect("a part of the friction").value);
+    let derivative = |path: &str| {
+        let found = of(&known, path).derivatives.of("friction_coefficient");
+        let found = found.expect("a derivative");
+        [found.value, found.error]
+    };
+    let [by_strength, error] = derivative("interface.bell.shear_strength");
+    let part = shear / friction;
+    assert!(
+        (by_strength - part).abs() < error + 1e-12,
+        "{by_strength} ± {error}"
+    );
+    // ln τ changes by −2 log₁₀(v/v_0)/(w² ln 10) with ln v, and with ln v_0 by the opposite.
+    let [by_peak, error] = derivative("interface.bell.velocity");
+    let slope = 2.0 * 2.0 / (4.0 * 10.0_f64.ln());
+    assert!(
+        (by_peak - slope * part).abs() < error + 1e-6,
+        "{by_peak} ± {error}"
+    );
+    for (path, [velocity, force]) in [
+        ("load.velocity", [1.05, 1.0]),
+        ("load.normal_force", [1.0, 1.05]),
+    ] {
+        let at = |side: f64| {
+            let text = scene(
+                1e5,
+                0.01 * f64::powf(velocity, side),
+                f64::powf(force, side),
+            );
+            let answer = folder.answer(text);
+            ["friction_coefficient", "friction_coefficient_error"].map(|key| number(&answer, key))
+        };
+        let ([low, low_error], [high, high_error]) = (at(-1.0), at(1.0));
+        let width = 2.0 * 1.05_f64.ln();
+        let slope = (high / low).ln() / width;
+        let bar = (high_error / high + low_error / low) / width;
+        let [found, error] = derivative(path);
+        assert!(
+            (found - slope).abs() < error + bar,
+            "{path}: {found} ± {error} for {slope} ± {bar}"
+        );
+    }
+}
+
+/// Cylinders, height maps and periodic surfaces have the shear of their areas; realisations that of each surface.
+#[test]
+fn every_kind_of_body_has_shear() {
+    let folder = Folder::new("shear-bodies");
+    folder.write("map.csv", "4,1,4,9\n1,0,1,4\n4,1,4,9\n9,4,9,16\n");
+    let rubber = "[material.standard-solid]\nequilibrium_modulus = 1e6\nmaxwell_modulus = 4e6\nviscosity = 4e4\n";
+    let rough = "[indenter.self-affine]\nperiod = [1e-3, 1e-3]\nhurst_exponent = 0.8\nrms_slope = 0.1\nlongest_wavelength = \
+         1e-3\nshortest_wavelength = 2.5e-4\nseed = 1\n";
+    let two = rough.replace("seed = 1", "seed = 1\nrealisations = 2");
+    for (body, load) in [
+        (
+            "[indenter.cylinder]\nradius = 5e-3\n",
+            "normal_force = 100.0",
+        ),
+        (
+            "[indenter.height-map]\nfile = \"map.csv\"\nspacing = [1e-3, 1e-3]\nunit = \"um\"\nheights_are = \"gap\"\n",
+            "normal_force = 2e-3",
+        ),
+        (rough, "mean_pressure = 1e5"),
+        (&two, "mean_pressure = 1e5"),
+    ] {
+        let text = format!(
+            "{body}{rubber}[interface.constant]\nshear_strength = 2e4\n[load]\n{load}\nvelocity = 0.02\n[solve]\nrelative_error = 0.05\n"
+        );
+        let answer = folder.answer(text);
+        check_parts(&answer, 2e4);
+        if let Some(fraction) = answer.get("area_fraction") {
+            let shear = 2e4 * fraction.as_f64().expect("a number") / 1e5;
+            assert_close(
+                "of the fraction",
+                number(&answer, "friction_from_shear"),
+                shear,
+                1e-12,
+            );
+        }
+    }
+}
+
+/// What has no shear, or a law that says nothing about the scene, is refused with its key.
+#[test]
+fn scenes_without_shear_are_refused() {
+    let folder = Folder::new("shear-refused");
+    folder.write(
+        "table.csv",
+        "velocity_m_per_s,shear_strength_pa\n1e-3,1e5\n5e-3,2e5\n",
+    );
+    folder.write(
+        "short.csv",
+        "velocity_m_per_s,shear_strength_pa\n1e-3,1e5\n",
+    );
+    folder.write(
+        "negative.csv",
+        "velocity_m_per_s,shear_strength_pa\n1e-3,1e5\n5e-3,-2e5\n",
+    );
+    let constant = "[interface.constant]\nshear_strength = 1e5\n";
+    let pressed = BALL.replace("velocity = 0.01", "velocity = 0.0\n[solve]\nduration = 1.0");
+    let stroke = BALL.replace("velocity = 0.01", "stroke = 1e-3\nfrequency = 1.0");
+    for (text, needed) in [
+        (
+            format!("{BALL}{}", constant.replace("1e5", "-1e5")),
+            "interface.constant.shear_strength must be finite and greater than 0",
+        ),
+        (
+            format!("{BALL}[solve]\nmodel = \"line\"\n{constant}"),
+            "one-dimensional",
+        ),
+        (format!("{pressed}{constant}"), "nothing slides"),
+        (format!("{stroke}{constant}"), "interface: "),
+        (
+            format!("{BALL}[interface.table]\nfile = \"table.csv\"\n"),
+            "velocity [m/s] must be from 0.001 to 0.005",
+        ),
+        (
+            format!("{BALL}[interface.table]\nfile = \"short.csv\"\n"),
+            "short.csv:2: at least 2 points",
+        ),
+        (
+            format!("{BALL}[interface.table]\nfile = \"negative.csv\"\n"),
+            "negative.csv:3: shear_strength",
+        ),
+        (
+            format!("{BALL}[interface.table]\nfile = \"none.csv\"\n"),
+            "none.csv",
+        ),
+        (
+            format!(
+                "{BALL}[interface.bell]\nshear_strength = 1e5\nvelocity = 1e-3\nactivation_energy = 1.0\nactivation_energy_unit = \"eV\"\n"
+            ),
+            "depends on the temperature",
+        ),
+        (
+            format!("{BALL}[interface.bell]\nshear_strength = 1e5\nvelocity = 1e-3\nwidth = 0.0\n"),
+            "interface.bell.width",
+        ),
+    ] {
+        folder.write("scene.toml", text);
+        folder.ends("scene.toml", 2, needed);
+    }
+}
+
+/// The shear strength of a bell has the temperature of the material: 40 °C act like 1/a_T times the velocity.
+#[test]
+fn a_bell_has_the_temperature_of_the_material() {
+    let folder = Folder::new("shear-temperature");
+    folder.write(
+        "material.toml",
+        "[material.prony]\nequilibrium_modulus = 1e6\nbranches = [{ modulus = 1e7, relaxation_time = 1e-3 }]\n[material.prony.shift]\n\
+         temperature = 20.0\ntemperature_range = [0.0, 60.0]\nlaw = { arrhenius = 1.0e5 }\n",
+    );
+    let scene = |celsius: f64, velocity: f64| {
+        format!(
+            "[indenter.sphere]\nradius = 5e-3\n[material.file]\npath = \"material.toml\"\ntemperature = {celsius}\n[interface.bell]\n\
+             shear_strength = 1e5\nvelocity = 1e-3\nwidth = 2.0\nactivation_energy = 1e5\n[load]\nnormal_force = 1.0\nvelocity = \
+             {velocity:e}\n[solve]\nrelative_error = 0.01\n"
+        )
+    };
+    // With the same activation energy, moduli and shear strength depend on a_T v alone.
+    let shift = (1e5 / 8.314_462_618_153_24_f64 * (1.0 / 313.15 - 1.0 / 293.15)).exp();
+    let warm = folder.answer(scene(40.0, 0.01));
+    let cold = folder.answer(scene(20.0, 0.01 * shift));
+    for key in [
+        "friction_coefficient",
+        "friction_from_shear",
+        "contact_area",
+    ] {
+        assert_close(key, number(&warm, key), number(&cold, key), 1e-9);
+    }
+}
+
+/// A layer and a compressible half space are answered with a warning about the coupling that is neglected.
+#[test]
+fn neglected_coupling_is_said() {
+    let folder = Folder::new("shear-coupling");
+    let interface = "[solve]\nrelative_error = 0.05\n[interface.constant]\nshear_strength = 1e5\n";
+    let compressible = BALL.replace("[load]", "poisson_ratio = 0.3\n[load]");
+    let layer = format!("{BALL}{interface}[layer]\nthickness = 1e-3\n");
+    for (text, needed) in [
+        (format!("{BALL}{interface}"), None),
+        (
+            format!("{compressible}{interface}"),
+            Some("Poisson ratio of 0.3"),
+        ),
+        (layer, Some("on a layer")),
+    ] {
+        let warnings = folder.answer(text)["warnings"].to_string();
+        let says = warnings.contains("shear of the contact");
+        assert_eq!(says, needed.is_some(), "{warnings}");
+        assert!(warnings.contains(needed.unwrap_or_default()), "{warnings}");
+    }
+}
