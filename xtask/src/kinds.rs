@@ -93,11 +93,12 @@ fn files() -> Result<Vec<(&'static str, String)>> {
         let words = literal(&definitions["$defs"][name]);
         format!("{name} = {words}")
     });
-    let classes = classes.replace("NAMES", &names.join(",\n    "));
-    let classes = classes.replace("CHOICES", &choices.join("\n"));
+    let module = classes
+        .replace("NAMES", &names.join(",\n    "))
+        .replace("CHOICES", &choices.join("\n"));
     let mut files = vec![
         ("docs/scene.schema.json", schema),
-        ("python/viscofriction/_kinds.py", classes),
+        ("python/viscofriction/_kinds.py", module),
     ];
     for path in PAGES {
         let page = fs::read_to_string(workspace_root().join(path)).context(path)?;
@@ -113,8 +114,9 @@ fn with_tables(page: &str) -> Result<String> {
     while let Some(part) = parts.next() {
         let (name, _) = part.split_once(" -->").context("an open comment")?;
         let end = parts.next().and_then(|part| part.strip_prefix('/'));
-        let rest = end.and_then(|part| part.strip_prefix(name));
-        let rest = rest.with_context(|| format!("no end of the table {name}"))?;
+        let rest = end
+            .and_then(|part| part.strip_prefix(name))
+            .with_context(|| format!("no end of the table {name}"))?;
         text += &format!("<!-- {name} -->\n\n{}\n<!-- /{name}{rest}", table(name));
     }
     Ok(text)
@@ -154,16 +156,18 @@ fn row(definition: &str, kind: &Kind) -> String {
         let names: Vec<String> = keys.iter().map(name_cell).collect();
         names.join(", ")
     });
-    let lists = lists.join("; ");
+    let joined = lists.join("; ");
+    let keys = joined.trim_end_matches("; ");
     let (name, class, sentence) = (kind.name, class_name(definition, kind), kind.sentence);
-    let lists = lists.trim_end_matches("; ");
-    format!("`{name}` | `{class}` | {sentence} | {lists}")
+    format!("`{name}` | `{class}` | {sentence} | {keys}")
 }
 
 /// A row in Markdown, without its outer bars, for each key of the kinds; kinds that have the same key share its row.
 fn rows_of_kinds(kinds: &[Kind]) -> Vec<String> {
-    let kinds = kinds.iter().filter(|kind| !OWN_TABLES.contains(&kind.name));
-    let kinds: Vec<&Kind> = kinds.collect();
+    let kinds: Vec<&Kind> = kinds
+        .iter()
+        .filter(|kind| !OWN_TABLES.contains(&kind.name))
+        .collect();
     let mut rows: Vec<([String; 2], Vec<&str>)> = Vec::new();
     for kind in &kinds {
         for key in &kind.keys {
@@ -175,11 +179,14 @@ fn rows_of_kinds(kinds: &[Kind]) -> Vec<String> {
         }
     }
     let row = |([name, cells], of): &([String; 2], Vec<&str>)| {
-        let others = kinds.iter().map(|kind| kind.name);
-        let others = others.filter(|kind| !of.contains(kind)).collect();
-        let (word, listed) = match others {
-            others if of.len() > 4 => ("all but ", others),
-            _ => ("", of.clone()),
+        let names = kinds.iter().map(|kind| kind.name);
+        let (word, listed) = if of.len() > 4 {
+            (
+                "all but ",
+                names.filter(|kind| !of.contains(kind)).collect(),
+            )
+        } else {
+            ("", of.clone())
         };
         format!("{name} | {word}`{}` | {cells}", listed.join("`, `"))
     };
@@ -225,14 +232,14 @@ fn cells(key: &Key) -> String {
         default => format!("`{default}`"),
     };
     let choices = resolved(key.words)["oneOf"].as_array();
-    let choices = choices.into_iter().flatten().map(|choice| {
+    let described = choices.into_iter().flatten().map(|choice| {
         let table = keys(choice).next().map(|key| key.name.to_owned());
         let name = table.unwrap_or_else(|| choice["const"].to_string());
         let description = choice["description"].as_str().unwrap_or_default();
         format!(" `{name}`: {}", description.replace('\n', " "))
     });
-    let choices: String = choices.collect();
-    format!("{unit} | {range} | {default} | {meaning}{choices}")
+    let list: String = described.collect();
+    format!("{unit} | {range} | {default} | {meaning}{list}")
 }
 
 /// Name of the class in Python: of [`CLASS_NAMES`], or the kind in camel case.
@@ -240,11 +247,15 @@ fn class_name(definition: &str, kind: &Kind) -> String {
     let mut known = CLASS_NAMES.iter();
     let known = known.find(|(of, name, _)| [*of, *name] == [definition, kind.name]);
     let words = kind.name.split('-');
-    let words = words.map(|word| word[..1].to_uppercase() + &word[1..]);
-    known.map_or_else(|| words.collect(), |(_, _, class)| (*class).to_owned())
+    let capitalized = words.map(|word| word[..1].to_uppercase() + &word[1..]);
+    known.map_or_else(
+        || capitalized.collect(),
+        |(_, _, class)| (*class).to_owned(),
+    )
 }
 
-/// Source of the dataclass in Python of a kind of a definition, derived from `base`. Keys that may be left out are keyword-only and have their defaults.
+/// Source of the dataclass in Python of a kind of a definition, derived from `base`. Keys that may be left out are keyword-only and
+/// have their defaults.
 fn class(kind: &Kind, (definition, base): (&str, &str)) -> String {
     let (mut docs, mut fields, mut lists) = (String::new(), String::new(), String::new());
     for key in &kind.keys {
@@ -253,14 +264,17 @@ fn class(kind: &Kind, (definition, base): (&str, &str)) -> String {
             words,
             is_required,
         } = key;
-        let description = words["description"].as_str().unwrap_or_default();
-        let description = description.replace('\\', "").replace('\n', "\n    ");
+        let description = words["description"]
+            .as_str()
+            .unwrap_or_default()
+            .replace('\\', "")
+            .replace('\n', "\n    ");
         docs += &format!("    ``{name}``: {description}\n");
         if let Some(items) = list_of(key) {
             let pair = items.replace(", ", " and ");
             docs += &format!("    Each is a pair of {pair}.\n");
-            let items = items.replace(", ", "\", \"");
-            lists += &format!("    _lists = {{\"{name}\": (\"{items}\")}}\n");
+            let quoted = items.replace(", ", "\", \"");
+            lists += &format!("    _lists = {{\"{name}\": (\"{quoted}\")}}\n");
         }
         if !is_required && !fields.contains("KW_ONLY") {
             fields += "    _: KW_ONLY\n";

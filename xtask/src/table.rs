@@ -36,7 +36,6 @@ impl Table {
     /// The table in Markdown with the columns that `columns` names, separated by blanks. A number whose row has a column
     /// `NAME_error` shows only the digits that this error leaves certain. Fails where a column is not there.
     pub(crate) fn markdown(&self, columns: &str) -> Result<String> {
-        let columns = columns.split_whitespace();
         let mut reader = csv::Reader::from_reader(self.contents.as_bytes());
         let names = reader.headers()?.clone();
         let place = |column: &str| names.iter().position(|name| name == column);
@@ -45,7 +44,7 @@ impl Table {
             let record = record?;
             let number = |place: usize| record[place].parse::<f64>().ok();
             let mut line = Vec::new();
-            for column in columns.clone() {
+            for column in columns.split_whitespace() {
                 let cell = place(column).with_context(|| format!("no column {column}"))?;
                 let error = place(&format!("{column}_error")).and_then(number);
                 line.push(match number(cell) {
@@ -55,7 +54,10 @@ impl Table {
             }
             lines.push(line);
         }
-        let header: Vec<String> = columns.map(|name| name.replace('_', " ")).collect();
+        let header: Vec<String> = columns
+            .split_whitespace()
+            .map(|name| name.replace('_', " "))
+            .collect();
         Ok(markdown_table(&header, lines).to_string())
     }
 }
@@ -69,7 +71,7 @@ pub(crate) const ROWS_AT_ONCE: usize = 64;
 pub(crate) struct GrowingTable<R> {
     /// Where the table is kept, as CSV.
     pub(crate) file: PathBuf,
-    /// Those of the file when it was opened, then those added since.
+    /// Rows of the file when it was opened, then those added since.
     pub(crate) rows: Vec<R>,
 }
 
@@ -79,8 +81,11 @@ impl<R: Serialize + Send> GrowingTable<R> {
     where
         R: DeserializeOwned,
     {
-        let rows = file.exists().then(|| read_csv(&file)).transpose()?;
-        let rows = rows.unwrap_or_default();
+        let rows = if file.exists() {
+            read_csv(&file)?
+        } else {
+            Vec::new()
+        };
         Ok(Self { file, rows })
     }
 
@@ -119,9 +124,10 @@ pub(crate) fn to_csv<R: Serialize>(rows: &[R]) -> Result<String> {
 
 /// Reads a table that [`to_csv`] wrote.
 pub(crate) fn read_csv<R: DeserializeOwned>(path: &Path) -> Result<Vec<R>> {
-    let rows = std::fs::read(path).map_err(Into::into);
-    let rows = rows.and_then(|contents| parse_csv(&contents));
-    rows.with_context(|| format!("reading {}", path.display()))
+    let contents = std::fs::read(path).map_err(Into::into);
+    contents
+        .and_then(|contents| parse_csv(&contents))
+        .with_context(|| format!("reading {}", path.display()))
 }
 
 /// The rows of a table that [`to_csv`] wrote; fails where a column of `R` is missing or a cell is not of its type.
@@ -180,8 +186,8 @@ pub(crate) fn known_digits(value: f64, error: Option<f64>) -> String {
     let is_below = |count: f64| move |&digit: &usize| (digit as f64) < count;
     let decimals = |count| (0..20).take_while(is_below(count)).count();
     if (-3.0..6.0).contains(&first) {
-        let last = last.max(first - 3.0);
-        return format!("{value:.*}", decimals(-last));
+        let last_shown = last.max(first - 3.0);
+        return format!("{value:.*}", decimals(-last_shown));
     }
     format!("{value:.*e}", decimals((first - last).min(2.0)))
 }

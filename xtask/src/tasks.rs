@@ -8,15 +8,19 @@ use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
 
 /// Results of `run` for every item, computed on all threads, in the order of the items; or the error of one that failed.
-/// `task` stands beside the bar.
+/// `task` is the label of the progress bar.
 pub(crate) fn in_parallel<T: Sync, R: Send>(
     task: impl Into<Cow<'static, str>>,
     items: &[T],
     run: impl Fn(&T) -> Result<R> + Sync + Send,
 ) -> Result<Vec<R>> {
     let bar = bar(task, items.len());
-    let results = items.par_iter().with_max_len(1).map(run);
-    let results = results.inspect(|_| bar.inc(1)).collect();
+    let results = items
+        .par_iter()
+        .with_max_len(1)
+        .map(run)
+        .inspect(|_| bar.inc(1))
+        .collect();
     bar.finish_and_clear();
     results
 }

@@ -126,9 +126,9 @@ fn for_mdbook(page: &str, place: &Path) -> Result<String> {
 fn mathml(formula: &str, display_mode: DisplayMode) -> Result<String> {
     let storage = Storage::new();
     // Refuse a formula that the parser cannot read, because the writer would draw the error in red.
-    let events: Result<Vec<_>, ParserError> =
-        pulldown_latex::Parser::new(formula, &storage).collect();
-    let events = events.with_context(|| format!("the formula ${formula}$"))?;
+    let events = pulldown_latex::Parser::new(formula, &storage)
+        .collect::<Result<Vec<_>, ParserError>>()
+        .with_context(|| format!("the formula ${formula}$"))?;
     let config = RenderConfig {
         display_mode,
         ..RenderConfig::default()
@@ -140,10 +140,11 @@ fn mathml(formula: &str, display_mode: DisplayMode) -> Result<String> {
         config,
     )?;
     // Repair what pulldown-latex 0.8 writes for `\Big(` and `<`, which is neither XML nor a tag of Markdown.
-    let mathml = mathml.replace("\"minsize=", "\" minsize=");
-    let mathml = mathml.replace("<mo><</mo>", "<mo>&lt;</mo>");
+    let repaired = mathml
+        .replace("\"minsize=", "\" minsize=")
+        .replace("<mo><</mo>", "<mo>&lt;</mo>");
     let mut escaped = String::new();
-    for letter in mathml.chars() {
+    for letter in repaired.chars() {
         match letter {
             '$' | '*' | '[' | '\\' | ']' | '_' | '`' | '|' | '~' => {
                 escaped += &format!("&#{};", u32::from(letter));

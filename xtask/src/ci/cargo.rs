@@ -54,9 +54,9 @@ impl Cargo {
         let mut child = command.spawn().context("calling cargo")?;
         // Drop the command, and with it our ends of the pipe, which then closes when the child ends.
         drop(command);
-        for line in BufReader::new(output).split(b'\n') {
-            let line = line?;
-            let line = String::from_utf8_lossy(&line);
+        for bytes in BufReader::new(output).split(b'\n') {
+            let bytes = bytes?;
+            let line = String::from_utf8_lossy(&bytes);
             println!("{line}");
             self.count(&line);
         }

@@ -94,14 +94,14 @@ pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
 /// its number. A mean that does not reach the standard error requested of it states the one that it has, and is judged by it.
 fn compared(scene: usize, given: &Scene) -> Result<Vec<Row>> {
     let mean = |at: usize| -> Result<Answer> {
-        let mut given = given.clone();
-        given.solve.relative_error = Some(RELATIVE_ERROR);
-        given.solve.max_memory = None;
-        if let Indenter::SelfAffine(surface) = &mut given.indenter {
+        let mut seeded = given.clone();
+        seeded.solve.relative_error = Some(RELATIVE_ERROR);
+        seeded.solve.max_memory = None;
+        if let Indenter::SelfAffine(surface) = &mut seeded.indenter {
             surface.seed = FIRST_SEEDS[at] + SEEDS_PER_SCENE * scene as u64;
             surface.standard_error = Some(STANDARD_ERRORS[at]);
         }
-        let problem = Problem::try_from(&given)?;
+        let problem = Problem::try_from(&seeded)?;
         match plan(&problem)?.solve(&MaxElements(MAX_ELEMENTS)) {
             Err(SolveError::NotReached { answer, .. }) => Ok(*answer),
             found => Ok(found?),

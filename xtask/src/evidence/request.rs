@@ -161,7 +161,7 @@ pub(super) fn first_reached(scene: &Scene, model: Model, errors: &[f64]) -> Resu
     };
     let mut result = Err(anyhow!("no error was asked for"));
     for &error in errors {
-        result = Request::to_error(model, method, error).reference(scene, ROUNDING);
+        result = Request::to_error(model, method, error).reference(scene, CLOSED_FORM_ROUNDING);
         if result.is_ok() {
             break;
         }
@@ -171,4 +171,4 @@ pub(super) fn first_reached(scene: &Scene, model: Model, errors: &[f64]) -> Resu
 
 /// Relative error that is assumed of closed forms, some hundred roundings of f64. Chosen: larger than any seen in tests, and far
 /// below every error of a numerical method.
-pub(super) const ROUNDING: f64 = 1e-13;
+pub(super) const CLOSED_FORM_ROUNDING: f64 = 1e-13;

@@ -96,7 +96,7 @@ struct Grid {
     contact_sets: usize,
     seconds: f64,
     processor_seconds: f64,
-    /// Largest memory resident in this process so far, in units of 2²⁰ bytes; none where the system does not tell.
+    /// Largest memory resident in this process so far, in units of 2²⁰ bytes; `None` where the system does not report it.
     peak_memory_mib: Option<f64>,
     /// Ratio of the friction coefficient on this one grid to the extrapolated one, minus 1.
     relative_deviation: f64,
@@ -106,8 +106,8 @@ struct Grid {
 /// one before; the table, and a summary with the exponent of growth.
 fn growth(largest: f64) -> Result<(Table, String)> {
     let scene = Scene::unit(2.0)?;
-    let limit = scene.friction(&refined_to(REFERENCE_ERROR, ASPECT))?;
-    let limit = limit.friction_coefficient.value;
+    let refined = scene.friction(&refined_to(REFERENCE_ERROR, ASPECT))?;
+    let limit = refined.friction_coefficient.value;
     let solve = |spacing: f64| -> Result<SteadySliding> {
         scene.on_one_grid([spacing, ASPECT * spacing], [0.0; 2], TOLERANCE)
     };
@@ -213,8 +213,9 @@ impl Case {
         let problem = Problem::try_from(&scene)?;
         let body = problem.body().surface().context("a body that ends")?;
         let asked = self.requested_error.unwrap_or(all.requested_error);
-        let ratio = self.reference_error_over_requested;
-        let ratio = ratio.unwrap_or(all.reference_error_over_requested);
+        let ratio = self
+            .reference_error_over_requested
+            .unwrap_or(all.reference_error_over_requested);
         let aspect = self.reference_aspect.unwrap_or(all.reference_aspect);
         let reference = self.solve(body, ratio * asked, aspect)?;
         let bar = |aspect| {

@@ -11,7 +11,7 @@ use crate::picture::{chart, guide};
 use crate::scene::Scene;
 
 /// Sliding distance that the figure shows, in contact lengths of the one-dimensional model. Chosen.
-const LENGTHS: f64 = 16.0;
+const SHOWN_CONTACT_LENGTHS: f64 = 16.0;
 /// Number of elements along the contact length of the one-dimensional model. Chosen.
 const ELEMENTS: f64 = 24.0;
 
@@ -22,7 +22,7 @@ struct Row {
     sliding_distance_over_contact_length: f64,
     chain: f64,
     half_space: f64,
-    /// In units of F_N/(4ηv), likewise the next.
+    /// Depth of the one-dimensional model in units of F_N/(4ηv).
     chain_depth: f64,
     half_space_depth: f64,
 }
@@ -53,7 +53,7 @@ fn approach(factor: &factors::Row) -> Result<Approach> {
     let contact_length = theory.contact_length();
     let spacing = contact_length / ELEMENTS;
     let chain = chain::slide(&scene, spacing)?;
-    let transient = scene.half_space(spacing, LENGTHS)?;
+    let transient = scene.half_space(spacing, SHOWN_CONTACT_LENGTHS)?;
     let steps = chain.iter().zip(&transient.rows);
     let rows = steps.map(|(chain, row)| Row {
         exponent: factor.exponent,
@@ -63,9 +63,8 @@ fn approach(factor: &factors::Row) -> Result<Approach> {
         chain_depth: chain.indentation_depth / theory.indentation_depth,
         half_space_depth: row.indentation_depth / theory.indentation_depth,
     });
-    let rows = rows.collect();
     Ok(Approach {
-        rows,
+        rows: rows.collect(),
         pressure: transient.pressure,
         contact_length,
         scaling_factor: factor.converged,
@@ -87,7 +86,7 @@ fn approach_chart(approaches: &[Approach]) -> Chart {
         };
         let chain = curve(|row| row.chain, Colour::Blue);
         let half_space = curve(|row| row.half_space, Colour::Red);
-        let limit = [0.0, LENGTHS].map(|length| [length, approach.scaling_factor]);
+        let limit = [0.0, SHOWN_CONTACT_LENGTHS].map(|length| [length, approach.scaling_factor]);
         let limit = guide(limit, Dash::Dotted);
         series.extend([
             chain.labelled(format!("{name}, chain")),
@@ -95,16 +94,18 @@ fn approach_chart(approaches: &[Approach]) -> Chart {
             limit,
         ]);
     }
-    let x = Axis::linear(along, [0.0, LENGTHS]);
+    let x = Axis::linear(along, [0.0, SHOWN_CONTACT_LENGTHS]);
     let y = Axis::linear("μ / stationary μ of the line model", [0.0, 1.1]);
     chart(x, y, series)
 }
 
 /// A map of the last pressure of each profile.
 fn pressure_maps(approaches: &[Approach]) -> Figure {
-    let maps = approaches.iter().zip(INDENTERS);
-    let maps = maps.map(|(approach, (name, _))| pressure_map(approach, name));
-    Figure::new(maps, 2)
+    let named = approaches.iter().zip(INDENTERS);
+    Figure::new(
+        named.map(|(approach, (name, _))| pressure_map(approach, name)),
+        2,
+    )
 }
 
 /// Logarithm of the ratio of the pressure to its mean in contact; lengths in contact lengths of the one-dimensional model.

@@ -13,7 +13,7 @@ use crate::scene::Scene;
 
 /// Ratio of the sliding distance to the contact length. Chosen: the approach to the stationary state is exponential, and e^(−24)
 /// = 4e-11 is left.
-const LENGTHS: f64 = 24.0;
+const SLID_CONTACT_LENGTHS: f64 = 24.0;
 
 /// The chain after one step.
 pub(super) struct ChainStep {
@@ -60,7 +60,7 @@ pub(super) fn slide(scene: &Scene, spacing: f64) -> Result<Vec<ChainStep>> {
             indentation_depth: depth,
         }
     };
-    let n_steps = whole_part(LENGTHS * length / spacing);
+    let n_steps = whole_part(SLID_CONTACT_LENGTHS * length / spacing);
     Ok((0..n_steps).map(step).collect())
 }
 

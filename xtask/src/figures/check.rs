@@ -117,8 +117,9 @@ fn committed_factors() -> Result<Vec<Row>> {
 
 /// The row of an exponent, if the table has it.
 fn of_exponent(factors: &[Row], exponent: f64) -> Option<&Row> {
-    let mut factors = factors.iter();
-    factors.find(|row| row.exponent.total_cmp(&exponent).is_eq())
+    factors
+        .iter()
+        .find(|row| row.exponent.total_cmp(&exponent).is_eq())
 }
 
 /// Recomputes the whole table of scaling factors. Biases are differences of numbers of the order of 1, so that their tolerance
@@ -148,6 +149,7 @@ fn check_factors() -> Result<usize> {
 
 /// Recomputes the coarser resolutions of both profiles.
 fn check_resolutions() -> Result<usize> {
+    /// Number of the coarsest resolutions of a profile that are recomputed. Chosen: finer ones take much longer.
     const RESOLUTIONS: usize = 3;
     let rows = resolution::compute(RESOLUTIONS)?;
     let of_paraboloid = resolution::COUNT..resolution::COUNT + RESOLUTIONS;

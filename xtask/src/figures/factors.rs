@@ -1,4 +1,4 @@
-//! The scaling factors beside the paper's: the plain simulation, the biases of its sources, and the converged value.
+//! The scaling factors compared with the paper's: the plain simulation, the biases of its sources, and the converged value.
 
 use anyhow::Result;
 use bem_halfspace::slide::Transient;
@@ -86,11 +86,11 @@ impl Plain {
         let scene = Scene::unit(exponent)?;
         let theory = scene.theory()?;
         let transient = scene.half_space(theory.contact_length() / elements, PLAIN_LENGTHS)?;
-        let theory = theory.friction_coefficient;
+        let friction = theory.friction_coefficient;
         Ok(Self {
-            ratio: transient.last().friction_coefficient_end_of_step / theory,
+            ratio: transient.last().friction_coefficient_end_of_step / friction,
             transient,
-            theory,
+            theory: friction,
         })
     }
 }

@@ -145,10 +145,11 @@ fn chart(rows: &[Row], paper: f64, y: Axis) -> Chart {
     let theory = Series::line(points(|row| row.theory), line, Colour::Blue);
     let chain = Series::markers(points(|row| row.chain), squares, Colour::Blue);
     let scaled = Series::markers(points(|row| row.scaled_theory), circles, Colour::Black);
-    let of_paper = points(|row| row.theory).into_iter();
-    let of_paper = of_paper.map(|[speed, theory]| [speed, paper * theory]);
+    let theory_times_paper = points(|row| row.theory)
+        .into_iter()
+        .map(|[speed, theory]| [speed, paper * theory]);
     let dashed = Line::thin(Dash::Dashed);
-    let of_paper = Series::line(of_paper.collect(), dashed, Colour::Black);
+    let of_paper = Series::line(theory_times_paper.collect(), dashed, Colour::Black);
     let errors = rows.iter().map(|row| row.half_space_distance_error);
     let half_space = Series {
         errors: errors.collect(),

@@ -68,8 +68,8 @@ pub(super) struct Contact {
 impl Contact {
     /// Ratio of the pressure of the element at a position to the mean of the contact.
     pub(super) fn pressure(&self, position: [f64; 2]) -> f64 {
-        let position = position.map(|coordinate| coordinate * self.contact_length);
-        self.solution.pressure.pressure_at(position) / self.mean_pressure
+        let in_metres = position.map(|coordinate| coordinate * self.contact_length);
+        self.solution.pressure.pressure_at(in_metres) / self.mean_pressure
     }
 }
 

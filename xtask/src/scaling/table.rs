@@ -9,11 +9,11 @@ use serde::{Deserialize, Serialize};
 use crate::scaling::scaling_factor;
 use crate::table::GrowingTable;
 
-/// Value of 2p − 1 at the first node, with the exponent p. Node k has 2p − 1 = `LAST_ORDER` · e^(−k `STEP`), from p = 64 down to
+/// Value of 2p − 1 at the first node, with the exponent p. Node k has 2p − 1 = `LAST_ORDER` · e^(−k `NODE_DISTANCE`), from p = 64 down to
 /// 0.501: nodes are dense next to p = 1/2, where the factor s(p) bends.
 const LAST_ORDER: f64 = 127.0;
 /// Distance of neighbouring nodes in ln(2p − 1).
-const STEP: f64 = 0.153_594_4;
+const NODE_DISTANCE: f64 = 0.153_594_4;
 /// Number of nodes of the table.
 const N_NODES: usize = 73;
 /// Relative difference up to which two exponents belong to the same node. Chosen far below the distance of nodes and far above
@@ -69,7 +69,7 @@ pub(crate) fn generate(out: &Path) -> Result<()> {
 
 /// Exponent p of the node k = `index`.
 fn exponent(index: usize) -> f64 {
-    0.5 + 0.5 * LAST_ORDER * (-STEP * index as f64).exp()
+    0.5 + 0.5 * LAST_ORDER * (-NODE_DISTANCE * index as f64).exp()
 }
 
 /// Computes a node.

@@ -14,7 +14,7 @@ use crate::evidence::request::{derivatives, number_at};
 
 /// Ratio of the error from rounding that is allowed of a sum to the sum of the absolute values of its terms. Chosen far above the
 /// unit of rounding, since large terms of stiff scenes cancel.
-const ROUNDING: f64 = 1e-6;
+const SUM_ROUNDING_TOLERANCE: f64 = 1e-6;
 
 /// For each quantity q and each of the units of length, stress and time: the sum of ∂ln q/∂ln x · ln(x'/x) over all numbers x
 /// of the scene, compared with ln(q'/q), where the prime means the value in a unit half as large (Euler's theorem on
@@ -67,9 +67,11 @@ fn sums_in(
                 continue;
             };
             // Compute ln(x'/x) of each number x, which changes to x' in the other unit, and multiply it by the derivative.
-            let numbers = scenes.each_mut();
-            let numbers = numbers.map(|scene| number_at(scene, &one.parameter).copied());
-            let [from, to] = numbers.map(|number| number.context("no number"));
+            let [from, to] = scenes.each_mut().map(|scene| {
+                number_at(scene, &one.parameter)
+                    .copied()
+                    .context("no number")
+            });
             let change = (to? / from?).ln();
             sum = Estimate::new(
                 sum.value + derivative.value * change,
@@ -87,7 +89,7 @@ fn sums_in(
                 quantity: name,
                 values: [sum.value, expected],
                 deviation: (sum.value - expected).abs(),
-                allowed: sum.error + ROUNDING * moduli,
+                allowed: sum.error + SUM_ROUNDING_TOLERANCE * moduli,
             });
         }
     }

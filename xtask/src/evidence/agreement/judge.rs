@@ -24,7 +24,7 @@ use crate::random::Random;
 /// The outcome of one relation for one scene; a row of `agreement.csv`.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Row {
-    /// Of the whole search.
+    /// Seed of the whole search.
     pub(super) seed: u64,
     /// Number within the search.
     pub(super) scene: usize,
@@ -117,9 +117,8 @@ fn motion(case: &Case) -> String {
         _ if solve.duration.or(solve.sliding_distance).is_some() => "from first touch",
         _ => "stationary",
     };
-    let depths = load.history.as_ref();
-    let depths = depths.map(|points| points[0].indentation_depth);
-    let depth = depths.unwrap_or(load.indentation_depth);
+    let history = load.history.as_ref();
+    let depth = history.map_or(load.indentation_depth, |points| points[0].indentation_depth);
     let control = if depth.is_some() { "depth" } else { "force" };
     let layer = case.scene.layer.map_or("", |_| ", layer");
     let model = solve.model.map_or("", |_| ", line");
@@ -165,9 +164,8 @@ fn judged(case: &Case, folder: &Path, random: &mut Random) -> Result<Vec<Row>> {
 impl Row {
     /// The row of a relation, everything else empty.
     fn of(relation: &str) -> Self {
-        let relation = relation.to_owned();
         Self {
-            relation,
+            relation: relation.to_owned(),
             ..Self::default()
         }
     }
@@ -215,7 +213,7 @@ impl Row {
 pub(super) struct Comparison {
     /// Name of the quantity.
     pub(super) quantity: String,
-    /// Of the first and of the other answer, in the unit of the first.
+    /// Values of the first and of the other answer, in the unit of the first.
     pub(super) values: [f64; 2],
     /// Difference that counts as a deviation; not negative, in the same unit.
     pub(super) deviation: f64,
@@ -339,12 +337,14 @@ fn answer(
     };
     // Solve in a pool of its own, so that scenes that are solved at the same time take no threads from each other. Start it from
     // a new thread: a worker of the search that waited for a pool would begin further scenes meanwhile.
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    let pool = pool.map_err(|error| Failure::new(Verdict::Refused, error.to_string()))?;
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .map_err(|error| Failure::new(Verdict::Refused, error.to_string()))?;
     let solved = std::thread::scope(|scope| scope.spawn(|| pool.install(solved)).join());
     solved.unwrap_or_else(|panic| {
-        let text = panic.downcast_ref::<String>().map(String::as_str);
-        let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
+        let owned = panic.downcast_ref::<String>().map(String::as_str);
+        let text = owned.or_else(|| panic.downcast_ref::<&str>().copied());
         let message = format!("panicked: {}", text.unwrap_or_default());
         Err(Failure::new(Verdict::Wrong, message))
     })
@@ -384,14 +384,15 @@ pub(super) fn quantities(answer: &Answer) -> Vec<(String, Estimate)> {
     let numbers = answer.numbers();
     let find = |name: &str| numbers.iter().find(|(other, _)| other == name)?.1;
     let is_error = |name: &str| name.ends_with("_error") || name.starts_with("error_");
-    let known = numbers.iter().filter(|(name, _)| !is_error(name));
-    let known = known.filter_map(|(name, value)| {
-        let corner = name.ends_with("_min") || name.ends_with("_max");
-        let error = if corner { "contact_box" } else { name };
-        let error = find(&format!("{error}_error")).unwrap_or(0.0);
-        Some((name.clone(), Estimate::new((*value)?, error)))
-    });
-    known.collect()
+    let values = numbers.iter().filter(|(name, _)| !is_error(name));
+    values
+        .filter_map(|(name, value)| {
+            let is_extreme = name.ends_with("_min") || name.ends_with("_max");
+            let owner_of_error = if is_extreme { "contact_box" } else { name };
+            let error = find(&format!("{owner_of_error}_error")).unwrap_or(0.0);
+            Some((name.clone(), Estimate::new((*value)?, error)))
+        })
+        .collect()
 }
 
 /// The row of [`Relation::Derivatives`], with the sum that is farthest from what it must be; `None` where it does not apply.
@@ -568,8 +569,8 @@ impl Pair<'_> {
             Relation::OtherControl => {
                 // A quantity that was computed and is given in the other scene has an error, which the other quantities inherit.
                 let given = [Some(self.one.normal_force), self.one.indentation_depth];
-                let given = given.iter().flatten().map(Estimate::relative_error);
-                let inherited = given.fold(0.0, f64::max);
+                let errors = given.iter().flatten().map(Estimate::relative_error);
+                let inherited = errors.fold(0.0, f64::max);
                 let is_given = ["normal_force", "indentation_depth"].contains(&name);
                 let orders = if is_given { 1.0 } else { 2.0 };
                 bars + (orders * MAX_LOG_SLOPE * inherited + ROUNDING_TOLERANCE) * size

@@ -122,8 +122,8 @@ fn calibration(rows: &[Row]) -> comfy_table::Table {
     let name: &str = Relation::QuarterOfTheError.into();
     let of = |row: &&Row| row.relation == name && row.method.starts_with("bem");
     let lines = KINDS.map(|(kind, belongs)| {
-        let rows = rows.iter().filter(of).filter(|row| belongs(row));
-        let parts: Vec<f64> = rows.filter_map(|row| row.part).collect();
+        let of_kind = rows.iter().filter(of).filter(|row| belongs(row));
+        let parts: Vec<f64> = of_kind.filter_map(|row| row.part).collect();
         let held = parts.iter().filter(|part| **part <= 1.0).count();
         let worst = parts.iter().copied().fold(0.0, f64::max);
         let [compared, held] = [parts.len(), held].map(|count| count.to_string());

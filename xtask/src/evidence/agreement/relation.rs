@@ -194,9 +194,12 @@ impl Relation {
             Self::OtherSeries => other_series(&mut scene.material)?,
             Self::MoreLoad => {
                 let load = &mut scene.load;
-                let given = [&mut load.normal_force, &mut load.indentation_depth];
-                let given = given.into_iter().chain([&mut load.mean_pressure]);
-                *given.into_iter().flatten().next()? *= LOAD_FACTOR;
+                let controls = [
+                    &mut load.normal_force,
+                    &mut load.indentation_depth,
+                    &mut load.mean_pressure,
+                ];
+                *controls.into_iter().flatten().next()? *= LOAD_FACTOR;
             }
             Self::SplitBranches => {
                 let MaterialTable::Prony { branches, .. } = &mut scene.material else {
@@ -383,11 +386,11 @@ fn renamed(case: &mut Case) -> Result<Option<()>> {
 fn other_name<T: Serialize + DeserializeOwned>(of: &T, names: &Table) -> Result<Option<T>> {
     let table = Value::try_from(of)?;
     let kinds = table.as_table().into_iter().flatten();
-    let mut kinds = kinds.filter_map(|(kind, numbers)| names.get(kind).zip(numbers.as_table()));
-    let Some((name, numbers)) = kinds.next() else {
+    let mut with_rule = kinds.filter_map(|(kind, numbers)| names.get(kind).zip(numbers.as_table()));
+    let Some((name, given)) = with_rule.next() else {
         return Ok(None);
     };
-    let mut numbers = numbers.clone();
+    let mut numbers = given.clone();
     let number = |name: &str| numbers.get(name).and_then(Value::as_float);
     let modulus = number("maxwell_modulus").or(number("shear_modulus"));
     if let Some((modulus, viscosity)) = modulus.zip(number("viscosity")) {
@@ -469,8 +472,8 @@ fn split(branches: &[Branch]) -> Option<Vec<Branch>> {
         modulus: part * branch.modulus,
         relaxation_time: branch.relaxation_time,
     };
-    let parts = branches.iter().rev();
-    let parts = parts.flat_map(|branch| [part(branch, 0.25), part(branch, 0.75)]);
+    let reversed = branches.iter().rev();
+    let parts = reversed.flat_map(|branch| [part(branch, 0.25), part(branch, 0.75)]);
     (!branches.is_empty()).then(|| parts.collect())
 }
 

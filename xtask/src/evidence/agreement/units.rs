@@ -42,7 +42,7 @@ impl Powers {
     pub(super) fn factors(self, is_per_length: bool) -> Result<Factors> {
         let extent = if is_per_length { 1 } else { 2 };
         let mut units = BTreeMap::new();
-        // Collect the units of all keys but coefficients, whose unit depends on the exponent beside them.
+        // Collect the units of all keys but coefficients, whose unit depends on the exponent in the same table.
         for (key, unit) in viscofriction::scene::units() {
             if let Some(unit) = unit {
                 units.insert(key.to_owned(), Unit::parse(unit)?);
@@ -90,8 +90,9 @@ impl Powers {
                 *number *= factor.with_context(|| format!("{key} has no unit"))?;
             }
             Value::Array(items) => {
-                let mut items = items.iter_mut();
-                items.try_for_each(|item| self.scale(item, key, factors))?;
+                for item in items {
+                    self.scale(item, key, factors)?;
+                }
             }
             Value::Table(table) => {
                 let mut factors = factors.clone();

@@ -173,13 +173,14 @@ fn table(rows: &[Row], refusals: &[Refusal]) -> comfy_table::Table {
     let bars = rows.iter().map(|(_, bar)| bar);
     let methods = group_by(bars.clone(), |bar| &*bar.method);
     let header = "method|results|bars that hold|with a sharp reference|of these within the bar alone|median of bar/deviation|worst deviation/bar|refused";
-    let lines = methods.into_iter().map(|(method, bars)| {
-        let refused = refusals.iter();
-        let refused = refused.filter(|(_, reason)| reason.method == method);
+    let of_methods = methods.into_iter().map(|(method, bars)| {
+        let refused = refusals
+            .iter()
+            .filter(|(_, reason)| reason.method == method);
         line(method, &bars, refused.count())
     });
-    let lines = lines.chain([line("all", &bars.collect::<Vec<_>>(), refusals.len())]);
-    markdown_table(header.split('|'), lines)
+    let of_all = line("all", &bars.collect::<Vec<_>>(), refusals.len());
+    markdown_table(header.split('|'), of_methods.chain([of_all]))
 }
 
 /// Cells of a line: number of results, how many bars hold, how many have a sharp reference and hold by themselves, the
@@ -240,13 +241,14 @@ fn figure(rows: &[Row]) -> Figure {
     let axis = |label| Axis::decades(label, points.iter().flat_map(|(_, point)| *point));
     let [x, y] = ["error bar / value", "deviation / value"].map(axis);
     let methods = STYLES.into_iter().filter_map(|(method, shape, colour)| {
-        let points = points.iter().filter(|(of, _)| *of == method);
-        let points = points.map(|(_, point)| *point).collect();
-        markers(points, shape, colour, method.name())
+        let of_method = points.iter().filter(|(of, _)| *of == method);
+        let positions = of_method.map(|(_, position)| *position).collect();
+        markers(positions, shape, colour, method.name())
     });
     let diagonal = guide(x.range.map(|end| [end; 2]), Dash::Solid);
-    let series = methods.chain([diagonal.labelled("deviation = bar")]);
-    let series = series.collect();
+    let series = methods
+        .chain([diagonal.labelled("deviation = bar")])
+        .collect();
     Figure::single(Chart {
         title: Some(format!("{} error bars", points.len())),
         ..chart(x, y, series)

@@ -10,7 +10,7 @@ use viscofriction::scene::{self, Control, Method, Model};
 use viscofriction::solve::{Body, Motion, Problem, Revolution, SolveError};
 
 use super::scene::{FLAT, Scene};
-use crate::evidence::request::{ROUNDING, Reference, Request, first_reached, presses};
+use crate::evidence::request::{CLOSED_FORM_ROUNDING, Reference, Request, first_reached, presses};
 
 /// Range in which the ratio of half the contact length to the radius of a cylinder is sought. Above 1 the contact would be wider
 /// than the cylinder; the lower end is chosen.
@@ -39,7 +39,7 @@ pub(super) fn closed_form(scene: &Scene, request: &Request, bar: f64) -> Result<
     }
     let closed_form = Request::to_error(request.model, Method::Analytic, sharp_for(bar));
     let is_offered = closed_form.is_offered(file)?;
-    let reference = is_offered.then(|| closed_form.reference(file, ROUNDING));
+    let reference = is_offered.then(|| closed_form.reference(file, CLOSED_FORM_ROUNDING));
     reference.transpose()
 }
 
@@ -97,9 +97,9 @@ fn cylinder(scene: &scene::Scene) -> Result<Reference> {
         cylinder_sliding(cylinder, problem.material(), contact)
     };
     let missing = |logarithm| Ok::<_, FrictionError>(slide(logarithm)?.line_load.ln() - force.ln());
-    let half_length = try_bracketed_root(missing, HALF_LENGTHS.map(f64::ln))?;
-    let half_length = half_length.context("no contact carries the force")?;
-    let friction = slide(half_length)?.friction_coefficient;
+    let log_half_length = try_bracketed_root(missing, HALF_LENGTHS.map(f64::ln))?
+        .context("no contact carries the force")?;
+    let friction = slide(log_half_length)?.friction_coefficient;
     let error = CYLINDER_ERROR * friction;
     Ok(Reference::new(friction, error, "Hunter's cylinder"))
 }
@@ -119,5 +119,9 @@ fn power_pressed(scene: &scene::Scene) -> Result<Option<Reference>> {
     let contact = power_indentation_after_impulse(profile, &Viscous::new(1.0)?, impulse)?;
     let value = contact.indentation_depth;
     let source = "closed form of powers";
-    Ok(Some(Reference::new(value, ROUNDING * value, source)))
+    Ok(Some(Reference::new(
+        value,
+        CLOSED_FORM_ROUNDING * value,
+        source,
+    )))
 }

@@ -133,7 +133,7 @@ struct Asked {
 const CLOSED_FORM_ERROR: f64 = 1e-2;
 
 impl Extent {
-    /// That of a quick run or of a full one.
+    /// Extent of a quick run or of a full one.
     pub(super) fn new(quick: bool) -> Result<Self> {
         extent(include_str!("requests.toml"), quick)
     }
@@ -142,8 +142,8 @@ impl Extent {
     /// converges too slowly are left out.
     pub(super) fn requests(&self, random: &mut Random, scene: &Scene) -> Vec<Request> {
         let mut draw = |model, asked: &[Asked]| -> Vec<Request> {
-            let asked = asked.iter().map(|asked| asked.draw(model, random, scene));
-            asked.collect()
+            let requests = asked.iter().map(|asked| asked.draw(model, random, scene));
+            requests.collect()
         };
         // Request answers of the half space only where nothing slides, because both models are the same there.
         if presses(&scene.file) {
@@ -178,8 +178,10 @@ impl Asked {
     /// A request with a random accuracy: errors are uniformly distributed in their logarithm.
     fn draw(&self, model: Model, random: &mut Random, scene: &Scene) -> Request {
         let of_flat_end = self.errors_of_flat_ends.filter(|_| scene.is(FLAT));
-        let on_dashpot = self.elements_on_dashpot.as_ref();
-        let on_dashpot = on_dashpot.filter(|_| scene.is("viscous"));
+        let on_dashpot = self
+            .elements_on_dashpot
+            .as_ref()
+            .filter(|_| scene.is("viscous"));
         let accuracy = match (
             of_flat_end.or(self.errors),
             on_dashpot.or(self.elements.as_ref()),

@@ -155,8 +155,11 @@ fn chosen<'a>(
 
 /// The largest modulus of the derivatives of a quantity; 0 if there is none.
 fn largest(known: &[Sensitivity], quantity: &str) -> f64 {
-    let known = known.iter().filter_map(|one| one.derivatives.of(quantity));
-    known.map(|known| known.value.abs()).fold(0.0, f64::max)
+    known
+        .iter()
+        .filter_map(|one| one.derivatives.of(quantity))
+        .map(|derivative| derivative.value.abs())
+        .fold(0.0, f64::max)
 }
 
 /// The derivative of the logarithm of the quantity `name` from `answers` at the positions of [`STENCIL`]. Its error has two
@@ -221,8 +224,8 @@ impl Asked {
 
     /// Method and, for the stationary half space, kind of body in words; a line of the table.
     fn group(&self, scene: &Scene) -> String {
-        let kind = scene.indenter.key();
-        let kind = kind.split('.').nth(1).unwrap_or_default();
+        let key = scene.indenter.key();
+        let kind = key.split('.').nth(1).unwrap_or_default();
         let body = match kind {
             _ if self.method != Method::BemSteady => "",
             "self-affine" => ", rough",

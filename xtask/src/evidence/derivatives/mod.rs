@@ -53,8 +53,8 @@ pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
 
 /// Why the command fails: a method whose bars hold too seldom. Each is judged for itself, so that none is outvoted by others.
 fn failure(rows: &[Derivative]) -> Option<String> {
-    let missed = group_by(rows, |row| row.method).into_iter();
-    let missed = missed.filter_map(|(method, rows)| {
+    let by_method = group_by(rows, |row| row.method).into_iter();
+    let missed = by_method.filter_map(|(method, rows)| {
         let share = held(&rows);
         let Share { held, all } = share;
         (!share.may_be(MIN_COVERAGE, ALLOWED_SCATTER))

@@ -51,7 +51,7 @@ struct Case {
     points: usize,
     /// Ratio of the standard error of a point to its friction.
     noise: f64,
-    /// Whether the fit is told the standard errors; otherwise it estimates them from the residuals.
+    /// Whether the fit is given the standard errors; otherwise it estimates them from the residuals.
     is_known: bool,
     /// The scene with the true material; its speed is replaced.
     scene: Scene,
@@ -83,8 +83,8 @@ pub(super) fn report(quick: bool) -> Result<Report> {
         case.iter_mut()
             .for_each(|case| case.experiments = case.quick);
     }
-    let rows = case.iter().map(Case::rows).collect::<Result<Vec<_>>>()?;
-    let rows = rows.concat();
+    let by_case = case.iter().map(Case::rows).collect::<Result<Vec<_>>>()?;
+    let rows = by_case.concat();
     let Share { held, all } = rows.iter().map(Row::is_as_asked).collect();
     let table = Table::new("friction_fit", &rows)?;
     let columns =
@@ -120,13 +120,17 @@ impl Case {
         let found = in_parallel(self.name.clone(), &numbers, |number| {
             Ok(self.findings(&truth, *number).ok())
         })?;
-        let first = found.iter().flatten().next();
-        let first = first.with_context(|| format!("{}: no experiment has a fit", self.name))?;
+        let first = found
+            .iter()
+            .flatten()
+            .next()
+            .with_context(|| format!("{}: no experiment has a fit", self.name))?;
         let quantities = first.iter().enumerate();
         let row = |(k, finding): (usize, &Finding)| -> Result<Row> {
             let path = format!("material.{}", finding.name);
-            let value = number_at(&mut scene, &path).copied();
-            let value = value.with_context(|| format!("{path} is not in the scene"))?;
+            let value = number_at(&mut scene, &path)
+                .copied()
+                .with_context(|| format!("{path} is not in the scene"))?;
             let share = |is: &dyn Fn([Option<f64>; 2]) -> bool| -> Share {
                 let is = |found: &Option<Vec<Finding>>| {
                     found.as_ref().is_some_and(|all| is(all[k].interval))

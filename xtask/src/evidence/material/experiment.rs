@@ -99,7 +99,7 @@ pub(super) struct Found {
     noise_loss: f64,
     temperature_scatter_k: f64,
     factor_scatter: f64,
-    /// Of the fitted series.
+    /// Number of branches of the fitted series.
     branches: usize,
     /// Speed within the window.
     velocity_m_per_s: f64,
@@ -137,8 +137,7 @@ impl TrueMaterial {
                 let distance = (decade - peak.time.log10()) / peak.decades;
                 peak.modulus * (-distance * distance).exp()
             });
-            let power = self.power.as_ref();
-            let power = power.map_or(0.0, |power| {
+            let power = self.power.as_ref().map_or(0.0, |power| {
                 power.modulus * 10_f64.powf(-power.exponent * decade)
             });
             RelaxationBranch::new(peaks.sum::<f64>() + power, 10_f64.powf(decade))
@@ -157,7 +156,7 @@ struct Drawn {
     isotherms: usize,
     /// Whether moduli are proportional to the absolute temperature, b_T = T/T_r.
     is_entropic: bool,
-    /// Of G' and of G''.
+    /// Relative noise of G' and of G''.
     noise: [f64; 2],
     /// Standard deviation of the temperature of an isotherm.
     temperature: f64,
@@ -212,8 +211,11 @@ impl Experiments {
         let beyond = answer(&self.slid(&fitted_table, self.velocity(&truth, omega)?))?;
         let [friction, true_friction] =
             [&found, &known].map(|answer| answer.requested_quantity().value);
-        let material_error = found.budget.material().of("friction_coefficient");
-        let material_error = material_error.context("a covariance")?;
+        let material_error = found
+            .budget
+            .material()
+            .of("friction_coefficient")
+            .context("a covariance")?;
         Ok(Found {
             material: material.name.clone(),
             isotherms: drawn.isotherms,
@@ -248,7 +250,7 @@ impl Experiments {
                 let kelvin = |celsius: f64| celsius + KELVIN_AT_ZERO_CELSIUS;
                 factor *= kelvin(own) / kelvin(REFERENCE_TEMPERATURE);
             }
-            let points = (0..whole_part(n_points)).map(|k| {
+            let point = |k: usize| {
                 let omega = TAU * self.frequency[0] * (ratio * k as f64).exp();
                 let modulus = truth.complex_modulus(omega * log_factor.exp())?;
                 let [storage, loss] = drawn
@@ -259,11 +261,11 @@ impl Experiments {
                     storage: modulus.storage * storage,
                     loss: modulus.loss * loss,
                 })
-            });
-            let points = points.collect::<Result<_>>()?;
+            };
+            let points = (0..whole_part(n_points)).map(point);
             Ok(Isotherm {
                 temperature,
-                points,
+                points: points.collect::<Result<_>>()?,
             })
         };
         (0..drawn.isotherms).map(isotherm).collect()
@@ -273,9 +275,9 @@ impl Experiments {
     /// by Hertz for an incompressible half space.
     fn velocity(&self, truth: &RelaxationSpectrum, omega: f64) -> Result<f64> {
         let modulus = truth.complex_modulus(omega)?;
-        let modulus = modulus.storage.hypot(modulus.loss);
+        let magnitude = modulus.storage.hypot(modulus.loss);
         let force = self.scene.load.normal_force.context("a force")?;
-        Ok(omega * (3.0 * force * BALL_RADIUS / (16.0 * modulus)).cbrt())
+        Ok(omega * (3.0 * force * BALL_RADIUS / (16.0 * magnitude)).cbrt())
     }
 
     /// The scene on a material at a speed \[m/s].

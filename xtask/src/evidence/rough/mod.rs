@@ -64,7 +64,7 @@ const THEORIES: [Theory; 7] = [
     area("area / Persson (2001)", "persson_area_fraction"),
     area("area / Xu (2024)", theories::COLUMNS[3]),
 ];
-/// Indices in [`THEORIES`] of those of which there is a panel in the picture.
+/// Indices in [`THEORIES`] of those that have a panel in the picture.
 const DRAWN_THEORIES: [usize; 6] = [0, 1, 3, 4, 5, 6];
 
 /// A solid under the rough surfaces.
@@ -149,19 +149,18 @@ pub(super) fn report(out: &Path, quick: bool) -> Result<Report> {
         for (solid, plan) in &plans {
             let each = plan.n_points() / surfaces;
             let points = surface * each..(surface + 1) * each;
-            let points = points.map(|point| (*solid, plan, point));
-            missing.extend(points.filter(|(_, plan, point)| {
+            let absent = points.filter(|point| {
                 let identity = plan.identity(*point);
                 !table.rows.iter().any(|row| row[1..].starts_with(&identity))
-            }));
+            });
+            missing.extend(absent.map(|point| (*solid, plan, point)));
         }
     }
     table.extend(&missing, ROWS_AT_ONCE, |(solid, plan, point)| {
         let mut row = vec![(*solid).to_owned()];
         row.extend(plan.solve(*point)?.fields);
         let theories = theories::solve(&plan.problem(*point)?)?;
-        let theories = theories.map(|value| value.map(|value| value.to_string()));
-        row.extend(theories.map(Option::unwrap_or_default));
+        row.extend(theories.map(|value| value.map_or_else(String::new, |value| value.to_string())));
         Ok(vec![row])
     })?;
     let rows = &table.rows;
@@ -195,8 +194,11 @@ fn plan(
         format!("load.mean_pressure={}", loads.join(",")),
         format!("load.velocity={}:{count}:log", solid.speeds),
     ];
-    let vary = vary.map(|vary| vary.parse()).into_iter();
-    let vary: Vec<Vary> = vary.collect::<Result<_, _>>().map_err(WrongInput)?;
+    let vary: Vec<Vary> = vary
+        .iter()
+        .map(|vary| vary.parse())
+        .collect::<Result<_, _>>()
+        .map_err(WrongInput)?;
     Ok(Plan::new(source, &vary, |_, _| Ok(Vec::new()))?)
 }
 
@@ -211,8 +213,10 @@ fn read(file: &Path, plan: &Plan) -> Result<Rows> {
         return Ok(vec![header]);
     }
     let reader = csv::ReaderBuilder::new().has_headers(false).from_path(file);
-    let rows: Result<Rows, _> = reader?.deserialize().collect();
-    let rows = rows.with_context(|| format!("reading {}", file.display()))?;
+    let rows = reader?
+        .deserialize()
+        .collect::<Result<Rows, _>>()
+        .with_context(|| format!("reading {}", file.display()))?;
     let other = format!("{} is of another run; take another --out", file.display());
     ensure!(rows.first() == Some(&header), WrongInput(other));
     Ok(rows)

@@ -70,8 +70,10 @@ fn table(labels: &[&str], points: &[&Point], label: Label, theories: Range<usize
     let classes = group_by(points.iter().copied(), class);
     let lines = classes.into_iter().map(|((label, class), points)| {
         let from = if class == 0 { 0.0 } else { AREAS[class - 1] };
-        let errors = points.iter().filter_map(|point| point.ratios[0]);
-        let errors = errors.map(|ratio| ratio.standard_error / ratio.ratio);
+        let errors = points
+            .iter()
+            .filter_map(|point| point.ratios[0])
+            .map(|ratio| ratio.standard_error / ratio.ratio);
         let bars = points
             .iter()
             .map(|point| point.area_fraction_error / point.area_fraction);

@@ -140,11 +140,10 @@ impl Lengths {
             return to_npy(&self.values, &[rows.len(), self.columns]);
         }
         let header = match self.file {
-            PROFILE => Some("radius_m,height_m"),
-            SPECTRUM => Some("wave_number,density"),
+            PROFILE => Some("radius_m,height_m".to_owned()),
+            SPECTRUM => Some("wave_number,density".to_owned()),
             _ => None,
         };
-        let header = header.map(str::to_owned);
         let line = |row: &[f64]| {
             let cells: Vec<String> = row.iter().map(|value| format!("{value:?}")).collect();
             cells.join(",")
@@ -196,7 +195,7 @@ enum Motion {
     SlidingOverDistance,
     Pressed,
     History,
-    /// To and fro.
+    /// Reciprocating motion.
     Stroke,
     /// Through points.
     Path,
@@ -246,7 +245,7 @@ impl Source {
         (1..=count).map(scene).collect()
     }
 
-    /// Those kinds among `all` that the range allows.
+    /// The kinds among `all` that the range allows.
     fn kinds<K: Into<&'static str>>(&self, all: impl Iterator<Item = K>) -> Vec<&'static str> {
         let Range { only, without, .. } = &self.range;
         let is_in = |list: &[String], kind: &str| list.iter().any(|one| one == kind);
@@ -290,8 +289,8 @@ pub(super) fn filled(value: &Value, drawn: &Table) -> Option<Value> {
             None => Some(value.clone()),
         },
         Value::Array(items) => {
-            let items = items.iter().map(|item| filled(item, drawn));
-            items.collect::<Option<Vec<_>>>().map(Value::from)
+            let filled: Option<Vec<_>> = items.iter().map(|item| filled(item, drawn)).collect();
+            filled.map(Value::from)
         }
         Value::Table(items) => {
             let filled = |(key, item): (&String, _)| Some((key.clone(), filled(item, drawn)?));

@@ -60,11 +60,14 @@ fn row(model: Model, speeds: &[Prediction], error: f64) -> Result<Row> {
     let right = |deviation: f64| deviation <= RIGHT_WITHIN;
     let crossing = |low, high| crossing(model, speeds, [low, high], error);
     // Find the first and the last point where the law is right; the border is between each and its neighbour where it is not.
-    let lowest = deviations().position(right);
-    let lowest = lowest.map(|at| crossing(at.checked_sub(1), Some(at)));
-    let highest = deviations().rposition(right);
-    let highest = highest.map(|at| crossing(Some(at), Some(at + 1)));
-    let (lowest, highest) = (lowest.transpose()?, highest.transpose()?);
+    let lowest = deviations()
+        .position(right)
+        .map(|at| crossing(at.checked_sub(1), Some(at)))
+        .transpose()?;
+    let highest = deviations()
+        .rposition(right)
+        .map(|at| crossing(Some(at), Some(at + 1)))
+        .transpose()?;
     let loss_tangent = |speed: Estimate| -> Result<Estimate> {
         let at = |speed: f64| first.at_speed(speed).loss_tangent();
         let value = at(speed.value)?;
@@ -105,13 +108,13 @@ fn crossing(
     [low, high]: [Option<usize>; 2],
     error: f64,
 ) -> Result<Estimate> {
-    let ends = low.zip(high);
-    let ends = ends.and_then(|(low, high)| Some([speeds.get(low)?, speeds.get(high)?]));
-    let ends = ends.with_context(|| {
-        let (first, _) = &speeds[0];
-        format!("the viscous law is right up to the edge of the map: {first:?}")
-    })?;
-    let ends = ends.map(Clone::clone);
+    let ends = low
+        .zip(high)
+        .and_then(|(low, high)| Some([speeds.get(low)?.clone(), speeds.get(high)?.clone()]))
+        .with_context(|| {
+            let (first, _) = &speeds[0];
+            format!("the viscous law is right up to the edge of the map: {first:?}")
+        })?;
     let border = Border { model, ends };
     match model {
         Model::Line => Ok(border.between()?.with_error(LINE_ERROR)),
@@ -181,8 +184,8 @@ impl Border {
                 (quotient * plateau / ratio - 1.0).abs() - RIGHT_WITHIN
             })
         };
-        let root = bracketed_root(excess, [first.ln(), last.ln()]);
-        let root = root.context("a border between two speeds of the map")?;
+        let root = bracketed_root(excess, [first.ln(), last.ln()])
+            .context("a border between two speeds of the map")?;
         Ok(Crossing {
             speed: root.exp(),
             slope: 0.5 * (excess(root + SLOPE_STEP) - excess(root - SLOPE_STEP)) / SLOPE_STEP,

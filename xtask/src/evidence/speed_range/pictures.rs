@@ -135,14 +135,15 @@ pub(super) fn validity(
             let colours = Axis::linear("friction / prediction", [0.0, highest]);
             let value = |speed: usize, ratio: usize| Some(quotients[ratio * shape[0] + speed]);
             let field = Field::new(shape, colours, value);
-            let borders = borders.iter();
-            let borders = borders.filter(|at| same(at.exponent, exponent) && at.model == model);
+            let of_panel = borders
+                .iter()
+                .filter(|at| same(at.exponent, exponent) && at.model == model);
             let x = map_axis("log₁₀ (vτ/a)", extent.map_speeds);
             let y = map_axis("log₁₀ γ", extent.map_ratios);
-            let model = model.name().replace('-', " ");
-            let series = std::iter::once(window.clone()).chain(outline(borders));
+            let model_in_words = model.name().replace('-', " ");
+            let series = std::iter::once(window.clone()).chain(outline(of_panel));
             Chart {
-                title: Some(format!("{}, {model}", name(exponent))),
+                title: Some(format!("{}, {model_in_words}", name(exponent))),
                 series: series.collect(),
                 ..Chart::map(x, y, field)
             }

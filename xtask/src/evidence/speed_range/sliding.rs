@@ -28,7 +28,7 @@ use crate::scene::{as_far_as_reached, refined_to, solid};
 pub(super) const LINE_ERROR: f64 = 1e-6;
 /// Range in which the contact length b of the viscous law is sought. Chosen: it is about 1 where the law holds, and may be far
 /// from it elsewhere.
-const LENGTHS: [f64; 2] = [1e-8, 1e12];
+const CONTACT_LENGTH_RANGE: [f64; 2] = [1e-8, 1e12];
 
 /// A contact, identified by three numbers without a unit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -83,7 +83,7 @@ impl Sliding {
         Ok(power_sliding(&body, &material, &load)?.friction_coefficient)
     }
 
-    /// η = G''(ω)/ω at ω = v/b, with the contact length b that solves F_N = 4 G''(v/b) b h̃(b). Fails where no b in [`LENGTHS`]
+    /// η = G''(ω)/ω at ω = v/b, with the contact length b that solves F_N = 4 G''(v/b) b h̃(b). Fails where no b in [`CONTACT_LENGTH_RANGE`]
     /// does.
     fn viscosity(&self, normal_force: f64) -> Result<f64> {
         let solid = solid(self.stiffness_ratio)?;
@@ -96,7 +96,7 @@ impl Sliding {
                 (4.0 * loss / normal_force).ln() + (1.0 + self.exponent) * logarithm
             })
         };
-        let length = bracketed_root(excess, LENGTHS.map(f64::ln))
+        let length = bracketed_root(excess, CONTACT_LENGTH_RANGE.map(f64::ln))
             .with_context(|| format!("the viscous law of {self:?} has no contact length"))?
             .exp();
         Ok(loss(length)? * length / self.speed)

@@ -25,9 +25,11 @@ pub(super) struct Family {
 impl Family {
     /// Values of the parameter. Powers of ten are parsed, which gives the nearest f64, because `powi` rounds more than once.
     pub(super) fn values(&self) -> impl Iterator<Item = f64> {
-        let powers = self.decades.iter();
-        let powers = powers.flat_map(|&(first, last, step)| (first..=last).step_by(step));
-        let powers = powers.map(|power| format!("1e{power}").parse().unwrap_or(f64::NAN));
+        let powers = self
+            .decades
+            .iter()
+            .flat_map(|&(first, last, step)| (first..=last).step_by(step))
+            .map(|power| format!("1e{power}").parse().unwrap_or(f64::NAN));
         powers.chain(self.values.iter().copied())
     }
 
@@ -95,12 +97,13 @@ impl Row {
         Self::number(quantity, pair, pair[1].abs(), tolerance)
     }
 
-    /// Of several compared numbers the one with the largest deviation over tolerance.
+    /// The one of several compared numbers with the largest deviation over tolerance.
     pub(super) fn worst(numbers: impl IntoIterator<Item = Self>) -> Self {
         let part = |row: &Self| row.part_of_tolerance().unwrap_or(f64::INFINITY);
-        let numbers = numbers.into_iter();
-        let worst = numbers.max_by(|one, other| part(one).total_cmp(&part(other)));
-        worst.unwrap_or_else(|| Self::wrong("a number", "nothing was compared"))
+        numbers
+            .into_iter()
+            .max_by(|one, other| part(one).total_cmp(&part(other)))
+            .unwrap_or_else(|| Self::wrong("a number", "nothing was compared"))
     }
 
     /// Judges a problem that must end in an error, of the pattern `expected`; see [`refused!`](super::refused).

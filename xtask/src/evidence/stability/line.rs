@@ -216,9 +216,9 @@ pub(super) fn theorem_under(force: f64) -> Result<Row> {
     if force < 1e-320 {
         return refused!(got => FrictionError::OutOfRange { .. });
     }
-    let got = got?;
+    let sliding = got?;
     beside_paper(
-        [got.indentation_depth, got.friction_coefficient],
+        [sliding.indentation_depth, sliding.friction_coefficient],
         force,
         1e-12,
     )
@@ -232,7 +232,7 @@ pub(super) fn line_under(force: f64) -> Result<Row> {
     if force < 1e-300 {
         return refused!(got => MdrError::InvalidParameter(_) | MdrError::NonFinite { .. });
     }
-    let got = got?;
-    let [depth, friction] = [got.indentation_depth, got.friction_coefficient];
+    let state = got?;
+    let [depth, friction] = [state.indentation_depth, state.friction_coefficient];
     beside_paper([depth.value, friction.value], force, REQUESTED_ERROR)
 }

@@ -96,9 +96,11 @@ fn columns<'a>() -> [Column<&'a [Row]>; 8] {
 fn picture(rows: &[Row]) -> Figure {
     let is_usual = |row: &&Row| row.value.log10().abs() < 13.0;
     let (usual, ends): (Vec<&Row>, Vec<&Row>) = rows.iter().partition(is_usual);
-    let panels = [(usual, 13.0), (ends, 330.0)].into_iter();
-    let panels = panels.filter(|(rows, _)| !rows.is_empty());
-    Figure::new(panels.map(|(rows, end)| panel(&rows, end)), 2)
+    let panels = [(usual, 13.0), (ends, 330.0)]
+        .into_iter()
+        .filter(|(rows, _)| !rows.is_empty())
+        .map(|(rows, end)| panel(&rows, end));
+    Figure::new(panels, 2)
 }
 
 /// Ratio of deviation to tolerance as a function of the decimal logarithm of the parameter, from −`end` to `end`.

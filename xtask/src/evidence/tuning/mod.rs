@@ -1,4 +1,4 @@
-//! In which range the constants that steer the solvers and their error bars may change: in a copy of the
+//! Ranges in which the constants that steer the solvers and their error bars may change: in a copy of the
 //! checkout each is read from an environment variable, and the program solves a few scenes with other values.
 //!
 //! The copy and all that is built from it are in `target/tuning`; the checkout itself is only read.
@@ -104,12 +104,12 @@ pub(super) fn report(options: &Options, out: &Path, quick: bool) -> Result<Repor
 fn measure(cases: &Cases, chosen: &[&Case], file: PathBuf) -> Result<(Vec<Row>, Vec<String>)> {
     let mut table = GrowingTable::<Row>::open(file)?;
     let missing = |scene: &BenchmarkScene, rows: &[Row]| {
-        let tried = chosen.iter().flat_map(|case| case.tried());
-        let tried = tried.filter(|tried| {
+        let all = chosen.iter().flat_map(|case| case.tried());
+        let missing = all.filter(|tried| {
             let is_there = |row: &Row| row.is_of(tried) && row.scene == scene.name;
             tried.case.scenes.contains(&scene.name) && !rows.iter().any(is_there)
         });
-        tried.collect::<Vec<_>>()
+        missing.collect::<Vec<_>>()
     };
     let scenes = cases
         .scenes

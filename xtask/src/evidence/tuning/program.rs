@@ -121,8 +121,8 @@ impl Answer {
         let number = |name: &str| answer.pointer(&format!("/{name}")).and_then(Value::as_f64);
         let known = |name: &String| {
             let value = number(name).with_context(|| format!("the answer has no {name}"))?;
-            let error = number(&format!("{name}_error"));
-            let error = error.with_context(|| format!("the answer has no error of {name}"))?;
+            let error = number(&format!("{name}_error"))
+                .with_context(|| format!("the answer has no error of {name}"))?;
             Ok((name.clone(), Estimate::new(value, error)))
         };
         Ok(Self {
@@ -144,8 +144,8 @@ const TICKS_PER_SECOND: f64 = 100.0;
 
 /// Processor time of a process, or of its children that have ended, \[s], which Linux counts in steps of 10 ms.
 fn processor_seconds(process: &str, fields_before: usize) -> Result<f64> {
-    let text = fs::read_to_string(format!("/proc/{process}/stat"));
-    let text = text.context("processor times need Linux")?;
+    let text = fs::read_to_string(format!("/proc/{process}/stat"))
+        .context("processor times need Linux")?;
     let fields = text.rsplit_once(')').map_or("", |(_, fields)| fields);
     let times = fields.split_whitespace().skip(fields_before).take(2);
     let ticks = times

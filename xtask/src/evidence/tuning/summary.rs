@@ -19,8 +19,8 @@ pub(super) fn summary(cases: &[&Case], rows: &[Row]) -> String {
     let header = "constant|present|nothing changes|what changes|scenes";
     let lines = cases.iter().map(|case| {
         let of_value = case.tried().map(|tried| {
-            let rows = rows.iter().filter(|row| row.is_of(&tried));
-            (tried.value, changes(&rows.collect::<Vec<_>>()))
+            let measured: Vec<_> = rows.iter().filter(|row| row.is_of(&tried)).collect();
+            (tried.value, changes(&measured))
         });
         let of_value: Vec<_> = of_value.collect();
         // Find on either side the last value before the first that changes something.
@@ -38,8 +38,8 @@ pub(super) fn summary(cases: &[&Case], rows: &[Row]) -> String {
         let found: Vec<String> = found
             .map(|(value, changes)| format!("{value}: {}", changes.join(", ")))
             .collect();
-        let mut rows = rows.iter().filter(|row| row.constant == case.constant);
-        let changed = if rows.all(|row| row.outcome == Outcome::Same) && found.is_empty() {
+        let mut of_case = rows.iter().filter(|row| row.constant == case.constant);
+        let changed = if of_case.all(|row| row.outcome == Outcome::Same) && found.is_empty() {
             "no digit of any answer".to_owned()
         } else {
             found.join("; ")

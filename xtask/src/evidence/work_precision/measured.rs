@@ -21,7 +21,7 @@ const HALF_SPACE_REFERENCE: [f64; 3] = [2e-5, 5e-5, 1e-4];
 const CLOSED_ROUNDING: f64 = 1e-15;
 /// Relative error up to which no order of convergence is fitted, because smaller ones come from rounding in long sums and follow
 /// no power law. Chosen.
-const ROUNDING: f64 = 1e-12;
+const MIN_FITTED_ERROR: f64 = 1e-12;
 
 /// The result of a run; errors are relative.
 pub(super) struct Found {
@@ -47,11 +47,11 @@ pub(super) struct Row {
     pub(super) error: f64,
     pub(super) error_bar: Option<f64>,
     pub(super) reference: String,
-    /// Relative; a smaller error cannot be told from it.
+    /// Relative error of the reference; smaller errors are not resolved.
     pub(super) reference_error: f64,
     pub(super) seconds: f64,
     pub(super) processor_seconds: f64,
-    /// None for the half space at one instant, on a given grid.
+    /// `None` for the half space at one instant, on a given grid.
     #[serde(skip)]
     pub(super) solver: Option<Method>,
 }
@@ -90,10 +90,10 @@ impl Row {
 
     /// Whether the error comes from the resolution, and not from rounding or from the reference.
     pub(super) fn is_resolved(&self) -> bool {
-        self.error > self.reference_error.max(ROUNDING)
+        self.error > self.reference_error.max(MIN_FITTED_ERROR)
     }
 
-    /// The error, or that of the reference where it cannot be told from it.
+    /// The error, or that of the reference if that is larger.
     pub(super) fn visible_error(&self) -> f64 {
         self.error.max(self.reference_error)
     }

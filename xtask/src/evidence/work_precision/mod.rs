@@ -23,9 +23,9 @@ use measured::{DEPTH, Found, Measured, Row};
 /// What `scenes.toml` holds.
 #[derive(Deserialize)]
 struct Cases {
-    /// By which methods a scene that slides is solved.
+    /// Series of the methods that solve a scene that slides.
     sliding: Vec<Series>,
-    /// By which methods a scene that is only pressed is solved.
+    /// Series of the methods that solve a scene that is only pressed.
     pressed: Vec<Series>,
     /// The scenes.
     case: Vec<Case>,
@@ -232,8 +232,8 @@ impl Fit {
 
 /// Order, exponent of cost, and the time to an error: one row per series, one column per error.
 fn table<'a>(series: impl Iterator<Item = (&'a Fit, &'a [Row])>) -> comfy_table::Table {
-    let header = ["scene", "model", "method", "over", "order", "cost exponent"];
-    let header = header.into_iter().chain(PRINTED.map(|(_, name)| name));
+    let of_fit = ["scene", "model", "method", "over", "order", "cost exponent"];
+    let header = of_fit.into_iter().chain(PRINTED.map(|(_, name)| name));
     let rows = series.map(|(fit, rows)| {
         let mut cells = vec![
             fit.scene.clone(),
