@@ -29,12 +29,13 @@ impl<'a> RecordLines<'a> {
     /// Line of a record, counted from 1; the record must not precede the one queried before. `position` is where the reader
     /// began, which may be at empty lines before the record; they are skipped.
     pub(crate) fn of(&mut self, position: Option<&csv::Position>) -> usize {
-        let start = position.map_or(0, csv::Position::byte);
-        let start = usize::try_from(start).unwrap_or(usize::MAX);
-        let start = start.clamp(self.counted, self.contents.len());
+        let given = position.map_or(0, csv::Position::byte);
+        let began = usize::try_from(given)
+            .unwrap_or(usize::MAX)
+            .clamp(self.counted, self.contents.len());
         let is_break = |byte: &&u8| b"\r\n".contains(byte);
-        let breaks = self.contents[start..].iter().take_while(is_break);
-        let start = start + breaks.count();
+        let breaks = self.contents[began..].iter().take_while(is_break);
+        let start = began + breaks.count();
         self.line += line_of(&self.contents[self.counted..], start - self.counted) - 1;
         self.counted = start;
         self.line

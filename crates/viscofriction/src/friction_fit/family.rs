@@ -134,8 +134,8 @@ impl<'a> Family<'a> {
             };
             (parameter, number.value.ln())
         });
-        let of_law = self.law(self.furthest_below(points)).into_iter();
-        let of_law = of_law.map(|constant| {
+        let constants = self.law(self.furthest_below(points)).into_iter();
+        let of_law = constants.map(|constant| {
             let parameter = FreeParameter {
                 name: constant.name.to_owned(),
                 unit: constant.unit,
@@ -171,8 +171,8 @@ impl<'a> Family<'a> {
     /// `deviation` squared on the diagonal, 0 elsewhere.
     fn independent_moduli(&self, deviation: f64) -> (Vec<usize>, Vec<f64>) {
         let moduli = self.moduli.iter().enumerate();
-        let moduli = moduli.filter(|(_, number)| is_stress(number) && self.is_measured(number));
-        let places: Vec<usize> = moduli.map(|(place, _)| place).collect();
+        let measured = moduli.filter(|(_, number)| is_stress(number) && self.is_measured(number));
+        let places: Vec<usize> = measured.map(|(place, _)| place).collect();
         let rank = places.len();
         let entries = (0..rank * rank).map(|at| {
             if at / rank == at % rank {
@@ -181,22 +181,25 @@ impl<'a> Family<'a> {
                 0.0
             }
         });
-        let entries = entries.collect();
-        (places, entries)
+        (places, entries.collect())
     }
 
     /// Indices of the free moduli, and their relative covariance matrix in the material, row by row, with the square of
     /// [`MIN_RELATIVE_DEVIATION`] added on the diagonal. `None` if the material has no covariance.
     fn covariance(&self) -> Option<(Vec<usize>, Vec<f64>)> {
         let known = self.covariance.as_ref()?;
-        let moduli = self.moduli.iter().enumerate();
-        let moduli = moduli.filter_map(|(place, number)| match number.ends() {
+        let place_and_row = |(place, number): (usize, &Number)| match number.ends() {
             // In the covariance matrix the equilibrium modulus has the first row, and the moduli of the branches follow.
             [_, "equilibrium_modulus"] => Some((place, 0)),
             [_, "modulus"] => Some((place, branch_of(number)? + 1)),
             _ => None,
-        });
-        let moduli: Vec<(usize, usize)> = moduli.collect();
+        };
+        let moduli: Vec<(usize, usize)> = self
+            .moduli
+            .iter()
+            .enumerate()
+            .filter_map(place_and_row)
+            .collect();
         let entries = moduli.iter().flat_map(|&(row, from)| {
             moduli.iter().map(move |&(column, to)| {
                 let least = if row == column {
@@ -207,8 +210,8 @@ impl<'a> Family<'a> {
                 known.relative[from][to] + least * least
             })
         });
-        let entries = entries.collect();
-        Some((moduli.iter().map(|(place, _)| *place).collect(), entries))
+        let places = moduli.iter().map(|(place, _)| *place);
+        Some((places.collect(), entries.collect()))
     }
 
     /// The prior that can be applied: that asked for, or [`FrictionPrior::None`] if it needs a covariance that the material
@@ -314,8 +317,11 @@ impl<'a> Family<'a> {
 
     /// The material table for given logarithms of the parameters.
     fn table(&self, logs: &[f64]) -> Result<MaterialTable, SceneError> {
-        let values = self.moduli.iter().zip(logs);
-        let values = values.map(|(number, log)| (number, log.exp()));
+        let values = self
+            .moduli
+            .iter()
+            .zip(logs)
+            .map(|(number, log)| (number, log.exp()));
         Ok(self.numbers.scene_with_all(values)?.material)
     }
 
@@ -499,8 +505,8 @@ fn with_material(scene: &Scene, files: &Files<'_>) -> Result<(Scene, Option<f64>
     else {
         return Ok((scene.clone(), None));
     };
-    let material = read_material_file(path, files, Ok)?;
-    let material = material.with_given(*poisson_ratio, *valid_frequencies)?;
+    let material =
+        read_material_file(path, files, Ok)?.with_given(*poisson_ratio, *valid_frequencies)?;
     if let (Some(_), None) = (temperature, material.shift()) {
         let problem = "the file has no shift law, as fit-material writes it for isotherms of several temperatures";
         return Err(SceneError::at("material.file.temperature", problem));

@@ -117,11 +117,14 @@ pub fn fit_friction(
     // Evaluate the minimum: the velocities reduced to the reference temperature by the shift law, the statistics and the
     // intervals.
     let logs = &found.minimum.parameters;
-    let shifted = points.iter().map(|point| {
+    let reduced_velocity = |point: &FrictionPoint| {
         let (log, _) = family.shift_of(point, logs)?;
         Ok(point.velocity * log.exp())
-    });
-    let shifted = shifted.collect::<Result<_, rheology::RheologyError>>();
+    };
+    let shifted = points
+        .iter()
+        .map(reduced_velocity)
+        .collect::<Result<_, rheology::RheologyError>>();
     let residual = fitting.mean_residual(&found);
     let of = parameters.len();
     let intervals = |done: usize| {
@@ -256,12 +259,16 @@ fn corrected(
         // Compute the ratio of fine to coarse solutions at the current parameters, then minimise with these ratios held constant.
         let solver_error = model.correct(&start)?;
         corrected += 1;
-        let found = fitting.minimum(model, &start);
-        let found = found.ok_or_else(|| not_converged(model))?;
+        let found = fitting
+            .minimum(model, &start)
+            .ok_or_else(|| not_converged(model))?;
         residual = fitting.mean_residual(&found);
         // Stop if the minimum is so close to the parameters of the correction that the ratios still hold there.
-        let moved = found.minimum.parameters.iter().zip(&start);
-        let moved = moved
+        let moved = found
+            .minimum
+            .parameters
+            .iter()
+            .zip(&start)
             .map(|(new, old)| (new - old).abs())
             .fold(0.0, f64::max);
         if moved < CORRECTION_REACH || corrected == MAX_CORRECTIONS {

@@ -150,8 +150,7 @@ impl<'a> Model<'a> {
             Ok((fine.value / coarse, fine.error / fine.value))
         };
         let found = self.at_all_points(of_point)?;
-        let worst = found.iter().map(|(_, error)| *error);
-        let worst = worst.fold(0.0, f64::max);
+        let worst = found.iter().map(|(_, error)| *error).fold(0.0, f64::max);
         self.corrections = found.into_iter().map(|(ratio, _)| ratio).collect();
         Ok(worst)
     }
@@ -299,10 +298,10 @@ impl<'a> Model<'a> {
                 Ok::<f64, SolveError>(self.line_friction(body, material, load)?.ln())
             };
             let log = of(&*materials.own, load)?;
-            let slopes = materials.beside.iter().map(|[below, above]| {
+            let slope = |[below, above]: &[Box<dyn Material>; 2]| {
                 Ok((of(&**above, load)? - of(&**below, load)?) / (2.0 * step))
-            });
-            let slopes = slopes.collect::<Result<_>>()?;
+            };
+            let slopes = materials.beside.iter().map(slope).collect::<Result<_>>()?;
             let at = |velocity: f64| of(&*materials.own, &self.at_speed(load.control(), velocity)?);
             let by_speed = if self.family.shift_is_free() {
                 (at(faster[1])? - at(faster[0])?) / (2.0 * step)
@@ -320,8 +319,8 @@ impl<'a> Model<'a> {
         let slopes = materials
             .beside
             .iter()
-            .map(|[below, above]| relative([&**below, &**above], [velocity; 2]));
-        let slopes = slopes.collect::<Result<_>>()?;
+            .map(|[below, above]| relative([&**below, &**above], [velocity; 2]))
+            .collect::<Result<_>>()?;
         let by_speed = if self.family.shift_is_free() {
             relative([&*materials.own; 2], faster)?
         } else {

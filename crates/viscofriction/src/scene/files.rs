@@ -270,8 +270,7 @@ fn rows<R: DeserializeOwned>(contents: &[u8]) -> Result<Vec<(usize, R)>, (usize,
         .trim(Trim::All)
         .from_reader(text.as_bytes());
     let mut lines = RecordLines::new(text.as_bytes());
-    let names = reader.headers().cloned();
-    let names = names.map_err(|error| {
+    let names = reader.headers().cloned().map_err(|error| {
         let line = lines.of(error.position());
         (line, csv_problem(&error, [&StringRecord::new(); 2]))
     })?;
@@ -289,8 +288,9 @@ fn rows<R: DeserializeOwned>(contents: &[u8]) -> Result<Vec<(usize, R)>, (usize,
             (line, csv_problem(&error, [&names, record]))
         };
         let record = record.map_err(|error| wrong(error, &StringRecord::new(), &mut lines))?;
-        let row = record.deserialize(Some(&names));
-        let row = row.map_err(|error| wrong(error, &record, &mut lines))?;
+        let row = record
+            .deserialize(Some(&names))
+            .map_err(|error| wrong(error, &record, &mut lines))?;
         rows.push((lines.of(record.position()), row));
     }
     Ok(rows)
@@ -301,10 +301,10 @@ fn rows<R: DeserializeOwned>(contents: &[u8]) -> Result<Vec<(usize, R)>, (usize,
 fn decoded(contents: &[u8]) -> Result<(String, u8), (usize, String)> {
     let (text, encoding, is_garbled) = UTF_8.decode(contents);
     if is_garbled {
-        let valid = contents.utf8_chunks().next();
-        let valid = valid.map_or(0, |chunk| chunk.valid().len());
+        let first = contents.utf8_chunks().next();
+        let n_valid_bytes = first.map_or(0, |chunk| chunk.valid().len());
         let problem = format!("the text is no {}", encoding.name());
-        return Err((line_of(contents, valid), problem));
+        return Err((line_of(contents, n_valid_bytes), problem));
     }
     let text = text.replace("\r\n", "\n").replace('\r', "\n");
     let is_read = |line: &str| !line.trim().is_empty() && !line.trim_start().starts_with('#');

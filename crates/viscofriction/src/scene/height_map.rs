@@ -182,9 +182,9 @@ impl HeightMapTable {
             HeightsAre::Gap => -unit.map_or(1.0, LengthUnit::metres),
         };
         let metres = lateral.map_or(1.0, LengthUnit::metres);
-        let mut surface = surface.scaled(factor);
-        surface.spacing = surface.spacing.map(|spacing| spacing * metres);
-        Ok(surface)
+        let mut scaled = surface.scaled(factor);
+        scaled.spacing = scaled.spacing.map(|spacing| spacing * metres);
+        Ok(scaled)
     }
 
     /// Rejects heights beyond [`MAX_HEIGHT`], which are probably markers of missing heights.

@@ -89,8 +89,11 @@ pub fn json_schema() -> Result<String, serde_json::Error> {
 /// Adds the keywords of the range and unit that its description states to the schema of a number, or of the numbers of a list.
 /// Other schemas stay unchanged.
 fn add_range_and_unit(schema: &mut Schema, ranges: &[(&str, Json)]) {
-    let description = schema.get("description").and_then(Json::as_str);
-    let description = description.unwrap_or_default().to_owned();
+    let description = schema
+        .get("description")
+        .and_then(Json::as_str)
+        .unwrap_or_default()
+        .to_owned();
     let words = match schema.get_mut("items") {
         Some(items) => items.as_object_mut(),
         None => schema.as_object_mut(),
@@ -188,21 +191,23 @@ pub fn kinds(definition: &str) -> Vec<Kind> {
 
 /// The keys of a table, or of each table of a list: those that it needs, in their order, and after them the others.
 pub fn keys(words: &'static Json) -> impl Iterator<Item = Key> {
-    let words = resolved(words);
-    let words = words.get("items").map_or(words, resolved);
-    let all = words["properties"].as_object();
-    let required = words["required"].as_array().into_iter().flatten();
+    let list_or_table = resolved(words);
+    let table = list_or_table.get("items").map_or(list_or_table, resolved);
+    let all = table["properties"].as_object();
+    let required = table["required"].as_array().into_iter().flatten();
     let required: Vec<&str> = required.filter_map(Json::as_str).collect();
     let others = all.into_iter().flatten().map(|(key, _)| &**key);
     let others: Vec<&str> = others.filter(|key| !required.contains(key)).collect();
     let key = move |(name, is_required)| Key {
         name,
-        words: &words["properties"][name],
+        words: &table["properties"][name],
         is_required,
     };
-    let required = required.into_iter().map(|name| (name, true));
-    let others = others.into_iter().map(|name| (name, false));
-    required.chain(others).map(key)
+    required
+        .into_iter()
+        .map(|name| (name, true))
+        .chain(others.into_iter().map(|name| (name, false)))
+        .map(key)
 }
 
 /// The schema of a type in place of a reference (`$ref`) to it, also if the value may be left out (`anyOf`).
@@ -219,8 +224,7 @@ pub(super) fn check_ranges<T: JsonSchema + Serialize>(
     value: &T,
 ) -> Result<(), SceneError> {
     let words = &schema()["$defs"][&*T::schema_name()];
-    let value = Value::try_from(value);
-    let value = value.map_err(|error| SceneError::at(table, error.to_string()))?;
+    let value = Value::try_from(value).map_err(|error| SceneError::at(table, error.to_string()))?;
     check_value(words, &value, table)
 }
 

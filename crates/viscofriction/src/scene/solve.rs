@@ -153,8 +153,10 @@ impl Solve {
         let unit = &text[number.len()..];
         let unit = MEMORY_UNITS.iter().find(|(name, _)| *name == unit);
         let number: Option<f64> = number.trim().parse().ok();
-        let bytes = number.zip(unit).map(|(number, (_, size))| number * size);
-        let bytes = bytes.filter(|bytes| (1.0..=MAX_BYTES).contains(bytes));
+        let bytes = number
+            .zip(unit)
+            .map(|(number, (_, size))| number * size)
+            .filter(|bytes| (1.0..=MAX_BYTES).contains(bytes));
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,

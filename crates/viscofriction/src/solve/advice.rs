@@ -11,7 +11,7 @@ const FEWER: &str = "; give solve.elements, fewer where they are given, or a sho
 /// Advice for too many elements of the one-dimensional model.
 const OTHER_DISTANCE: &str = "; give fewer solve.elements, or a longer solve.sliding_distance";
 /// Advice for grids that are too coarse.
-const FINER: &str = "; give more solve.elements, or a smaller solve.relative_error";
+const MORE_ELEMENTS: &str = "; give more solve.elements, or a smaller solve.relative_error";
 /// Advice if the relative error was not reached.
 const LARGER_ERROR: &str = "; give a larger solve.relative_error, or another solve.method";
 /// Advice if the contact did not converge on one grid.
@@ -44,7 +44,7 @@ pub(super) const fn of_half_space(error: &BemError) -> &'static str {
         BemError::GridTooCoarse { .. }
         | BemError::ElementsTooFew { .. }
         | BemError::PeriodTooCoarse { .. }
-        | BemError::SlopeNotResolved { .. } => FINER,
+        | BemError::SlopeNotResolved { .. } => MORE_ELEMENTS,
         BemError::ContactNotConverged { .. } | BemError::SingularContact { .. } => OTHER_ELEMENTS,
         BemError::NotReached { .. }
         | BemError::TimeNotResolved { .. }
@@ -66,7 +66,7 @@ pub(super) const fn of_half_space(error: &BemError) -> &'static str {
 pub(super) const fn of_line(error: &MdrError) -> &'static str {
     match error {
         MdrError::TooManyElements { .. } => OTHER_DISTANCE,
-        MdrError::TooCoarse { .. } => FINER,
+        MdrError::TooCoarse { .. } => MORE_ELEMENTS,
         MdrError::NotConverged { .. }
         | MdrError::WorkNotReached(_)
         | MdrError::HistoryNotReached { .. }

@@ -265,11 +265,11 @@ impl Answer {
     /// The quantity that the requested relative error refers to: the friction coefficient. Without sliding it is the area fraction
     /// of a periodic surface, else the depth, or the force at a given depth.
     pub fn requested_quantity(&self) -> Estimate {
-        let (force, depth) = (self.normal_force, self.indentation_depth);
-        let depth = depth.filter(|_| force.error == 0.0);
+        let force = self.normal_force;
+        let depth_under_force = self.indentation_depth.filter(|_| force.error == 0.0);
         self.friction_coefficient
             .or(self.area_fraction)
-            .or(depth)
+            .or(depth_under_force)
             .unwrap_or(force)
     }
 
@@ -285,10 +285,9 @@ impl Answer {
         numbers.extend(parts.map(|(name, part)| (format!("error_{name}"), part)));
         let contact = self.contact_box.as_ref();
         let edges = contact.map_or([None; 4], ContactBox::edges);
-        let edges = EDGES.into_iter().zip(edges);
         let error = ("contact_box_error", contact.map(|contact| contact.error));
-        let edges = edges.chain([error]);
-        numbers.extend(edges.map(|(name, edge)| (name.to_owned(), edge)));
+        let named = EDGES.into_iter().zip(edges).chain([error]);
+        numbers.extend(named.map(|(name, number)| (name.to_owned(), number)));
         let theory = Persson::named(self.persson.as_ref()).into_iter();
         numbers.extend(theory.map(|(name, number)| (format!("persson_{name}"), number)));
         let scatter = self.ensemble.as_ref().map(|ensemble| &ensemble.scatter);
@@ -346,9 +345,9 @@ impl Answer {
             is_lost(known, may_vanish).then_some((quantity.key, known.value))
         });
         let width = self.contact_box.as_ref().map(|one| one.x[1] - one.x[0]);
-        let width = width.filter(|width| is_lost(Estimate::exact(*width), false));
-        if let Some((quantity, value)) = lost.or(width.map(|width| ("contact_box", width))) {
-            let quantity = quantity.to_owned();
+        let lost_width = width.filter(|width| is_lost(Estimate::exact(*width), false));
+        if let Some((key, value)) = lost.or(lost_width.map(|width| ("contact_box", width))) {
+            let quantity = key.to_owned();
             return Err(SolveError::OutOfRange { quantity, value });
         }
         Ok(self)

@@ -198,8 +198,9 @@ fn drawn_from_spectrum(
     let [_, shortest] = spectrum.wavelengths();
     let kept = surface.shortest_wavelength.unwrap_or(shortest);
     check_waves_to_draw(surface.period, kept, files.memory)?;
-    let drawn = spectrum.surface(surface.period, kept, surface.seed);
-    let drawn = drawn.map_err(|error| refused("indenter.spectrum", error))?;
+    let drawn = spectrum
+        .surface(surface.period, kept, surface.seed)
+        .map_err(|error| refused("indenter.spectrum", error))?;
     // Warn of an rms slope that linear theory does not allow, which suggests another unit. Warn of one that differs from that of
     // the spectrum, which suggests a period that is too short.
     let slope = drawn.rms_slope();
@@ -215,7 +216,6 @@ fn drawn_from_spectrum(
             "give a larger period, of which more waves are parts, or another seed",
         ),
     ];
-    let strange = strange.into_iter().filter(|(holds, _)| *holds);
     let warning = |(_, question): (bool, &str)| {
         format!(
             "the surface that was drawn has a root mean square slope of {slope:.3}, and the spectrum one of {whole:.3}: {question}"
@@ -223,7 +223,11 @@ fn drawn_from_spectrum(
     };
     Ok(BodyOfScene {
         body: Body::Periodic(drawn),
-        warnings: strange.map(warning).collect(),
+        warnings: strange
+            .into_iter()
+            .filter(|(holds, _)| *holds)
+            .map(warning)
+            .collect(),
     })
 }
 

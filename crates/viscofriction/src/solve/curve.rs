@@ -23,7 +23,7 @@ pub struct CurveColumn {
     pub values: Vec<Estimate>,
 }
 
-/// Name and unit of the column of the normal force. The constants below are likewise name and unit of a column.
+/// Name and unit of the column of the normal force.
 pub(crate) const FORCE: [&str; 2] = ["normal_force", "n"];
 /// Column of the indentation depth.
 pub(crate) const DEPTH: [&str; 2] = ["indentation_depth", "m"];
@@ -32,7 +32,7 @@ pub(crate) const RADIUS: [&str; 2] = ["contact_radius", "m"];
 /// Column of the contact area.
 pub(crate) const AREA: [&str; 2] = ["contact_area", "m2"];
 /// Column of the work done since the first point.
-pub(crate) const WORK: [&str; 2] = ["work", "j"];
+pub(crate) const WORK_DONE: [&str; 2] = ["work", "j"];
 /// Column of the position along the surface.
 pub(crate) const POSITION: [&str; 2] = ["position", "m"];
 /// Column of the tangential force.

@@ -138,7 +138,7 @@ fn answer_from_pressed(
     answer.friction_coefficient = None;
     answer.error_parts = ErrorParts::discretisation_only(answer.requested_quantity().error);
     answer.friction_from_dissipation = None;
-    let mut answer = answer.under(estimate.finest.pressure);
+    answer = answer.under(estimate.finest.pressure);
     if !matches!(problem.simple(), Some(Simple::Elastic)) {
         // The pressure of a viscoelastic contact depends on how it has grown, which a single state does not represent.
         answer.fields.pressure = None;

@@ -42,8 +42,9 @@ pub fn half_space(table: &MaterialTable, files: &Files<'_>) -> Result<HalfSpace,
         covariance.check(&table.key(), branches.len())?;
     }
     let mut found = shear_material(table, files)?;
-    let ratio = table.poisson_ratio();
-    let ratio = ratio.unwrap_or_else(|| found.material.poisson_ratio());
+    let ratio = table
+        .poisson_ratio()
+        .unwrap_or_else(|| found.material.poisson_ratio());
     let material = Compressible::new(&*found.material, ratio);
     found.material = Box::new(material.map_err(|error| refused(&table.key(), error))?);
     if let Some([lowest, highest]) = table.valid_frequencies() {
@@ -133,8 +134,11 @@ fn shear_material(table: &MaterialTable, files: &Files<'_>) -> Result<HalfSpace,
             ..
         } => {
             let branch = |one: &Branch| RelaxationBranch::new(one.modulus, one.relaxation_time);
-            let branches = branches.iter().map(branch).collect();
-            let spectrum = RelaxationSpectrum::new(*equilibrium_modulus, *viscosity, branches);
+            let spectrum = RelaxationSpectrum::new(
+                *equilibrium_modulus,
+                *viscosity,
+                branches.iter().map(branch).collect(),
+            );
             let found = series(&table.key(), spectrum, *approximation)?;
             return Ok(HalfSpace {
                 temperature: shift.as_ref().map(|shift| shift.temperature),
@@ -199,10 +203,12 @@ fn series(
     spectrum: Result<RelaxationSpectrum, RheologyError>,
     approximation: Option<Approximation>,
 ) -> Result<HalfSpace, SceneError> {
-    let spectrum = spectrum.map_err(|error| refused(key, error))?;
-    let expansion = approximation.map(|given| given.of(&spectrum)).transpose();
-    let expansion = expansion.map_err(|error| refused(&format!("{key}.approximation"), error))?;
-    let material = Prony::new(spectrum).map_err(|error| refused(key, error))?;
+    let series = spectrum.map_err(|error| refused(key, error))?;
+    let expansion = approximation
+        .map(|given| given.of(&series))
+        .transpose()
+        .map_err(|error| refused(&format!("{key}.approximation"), error))?;
+    let material = Prony::new(series).map_err(|error| refused(key, error))?;
     Ok(HalfSpace {
         expansion,
         ..exact(material)

@@ -129,10 +129,13 @@ fn units_without_effect(table: &HeightMapTable, surface: &Topography) -> Vec<Str
             "x and y: lateral_unit",
         ),
     ];
-    let units = units.into_iter().filter(|(holds, _)| *holds);
     let sentence =
         |(_, of): (bool, &str)| format!("the file states the unit of {of} has no effect");
-    units.map(sentence).collect()
+    units
+        .into_iter()
+        .filter(|(holds, _)| *holds)
+        .map(sentence)
+        .collect()
 }
 
 /// Warnings about an rms slope outside [`MIN_RMS_SLOPE`] to [`MAX_RMS_SLOPE`], and a length above [`MAX_PERIOD`], which suggest

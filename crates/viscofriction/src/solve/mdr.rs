@@ -89,9 +89,11 @@ pub(crate) fn answer_from_motion(method: Method, model: Model, found: Moved) -> 
         (DEPTH, |point| point.indentation_depth),
     ];
     answer.fields.curve = Curve::of(&found.points, |point| point.time, columns);
-    let steps = found.steps.iter();
-    let steps = steps.map(|step| [step.time, step.position, step.tangential_force]);
-    answer.fields.motion_steps = steps.collect();
+    answer.fields.motion_steps = found
+        .steps
+        .iter()
+        .map(|step| [step.time, step.position, step.tangential_force])
+        .collect();
     answer
 }
 

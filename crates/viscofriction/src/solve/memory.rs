@@ -66,8 +66,9 @@ fn check_waves(problem: &Problem, surface: &PeriodicSurface) -> Result<(), Scene
     let shapes = (1..usize::BITS).map(|power| largest.map(|number| ((2 * number) >> power).max(1)));
     let resolved_on = |shape| surface.resolved_on(shape);
     let mut resolved = shapes.filter_map(resolved_on);
-    let kept = resolved.find(|kept| periodic::elements_for_bars(kept) <= most);
-    let kept = kept.map(|kept| kept.largest_numbers());
+    let kept = resolved
+        .find(|kept| periodic::elements_for_bars(kept) <= most)
+        .map(|kept| kept.largest_numbers());
     Err(too_large([elements, most], surface.period(), kept))
 }
 
@@ -90,9 +91,10 @@ pub(super) fn check_waves_to_draw(
     if elements <= most {
         return Ok(());
     }
-    let halves = (1..usize::BITS).map(|power| numbers.map(|number| number >> power));
-    let mut halves = halves.take_while(|kept| *kept != [0; 2]);
-    let kept = halves.find(|kept| periodic::fewest_elements(*kept) <= most);
+    let kept = (1..usize::BITS)
+        .map(|power| numbers.map(|number| number >> power))
+        .take_while(|kept| *kept != [0; 2])
+        .find(|kept| periodic::fewest_elements(*kept) <= most);
     Err(too_large([elements, most], period, kept))
 }
 
@@ -106,8 +108,10 @@ fn too_large([elements, most]: [f64; 2], period: [f64; 2], kept: Option<[usize; 
         return SceneError::at("solve.max_memory", problem);
     };
     let wavelengths = [0, 1].map(|axis| period[axis] / numbers[axis] as f64);
-    let wavelengths = wavelengths.into_iter().filter(|length| length.is_finite());
-    let shortest = wavelengths.fold(0.0, f64::max);
+    let shortest = wavelengths
+        .into_iter()
+        .filter(|length| length.is_finite())
+        .fold(0.0, f64::max);
     let [x, y] = numbers.map(|number| 2 * number + 1);
     let problem = format!(
         "the shortest waves need a grid of {elements:.3e} elements for an error bar, and the memory allowed is for {most:.3e}: leave \
@@ -183,8 +187,8 @@ impl<'a> Limited<'a> {
 
 impl Progress for Limited<'_> {
     fn may_refine(&self, elements: usize) -> bool {
-        let fits = check_grid(self.problem, self.method, elements, CHOSEN_BY_METHOD);
-        let fits = fits.map_err(|refused| drop(self.refused.set(refused)));
+        let fits = check_grid(self.problem, self.method, elements, CHOSEN_BY_METHOD)
+            .map_err(|refused| drop(self.refused.set(refused)));
         fits.is_ok() && self.watch.may_refine(elements)
     }
 

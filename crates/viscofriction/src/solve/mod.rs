@@ -144,7 +144,7 @@ impl Found {
             ..answer
         };
         // Reject numbers that are not finite or not physical, and add the shear of the contact area to the friction.
-        let answer = answer
+        let checked = answer
             .finite()
             .and_then(|answer| answer.physical(problem))
             .and_then(|answer| problem.with_shear(answer))
@@ -154,7 +154,7 @@ impl Found {
                 ..answer
             });
         // If the requested error was missed, say so in the answer.
-        match (answer, missed) {
+        match (checked, missed) {
             (answer, None) => answer,
             (Err(_), Some(why)) => Err(why),
             (Ok(mut answer), Some(why)) => {

@@ -64,12 +64,12 @@ impl Problem {
             });
         }
         let slope = mean_slope(self.body(), &answer).unwrap_or(0.0);
-        let mut answer = answer.widened(relative, slope);
-        if answer.model == Model::HalfSpace && matches!(self.motion(), Motion::Sliding(_)) {
+        let mut widened = answer.widened(relative, slope);
+        if widened.model == Model::HalfSpace && matches!(self.motion(), Motion::Sliding(_)) {
             // State no depth, because far from a sliding contact the surface subsides by creep at times beyond every range.
-            answer.indentation_depth = None;
+            widened.indentation_depth = None;
         }
-        self.with_long_waves(answer, &expansion)
+        self.with_long_waves(widened, &expansion)
     }
 
     /// Widens the error of the friction of a line contact by the fraction from waves slower than the creep of the series
@@ -78,8 +78,8 @@ impl Problem {
         let (Body::Cylinder(_), Motion::Sliding(load)) = (self.body(), self.motion()) else {
             return Ok(answer);
         };
-        let length = answer.contact_box.as_ref();
-        let length = length.map_or(0.0, |contact| contact.x[1] - contact.x[0]);
+        let contact = answer.contact_box.as_ref();
+        let length = contact.map_or(0.0, |contact| contact.x[1] - contact.x[0]);
         // If only waves longer than the thickness of a layer are slower than the series, leave the error: they cause negligible
         // displacement.
         if self.thickness() < expansion.creeps_until * load.velocity() {
@@ -150,9 +150,11 @@ impl Answer {
     /// relative to the mean `slope` in contact, of which friction is a small fraction on a nearly elastic material; that of a
     /// dissipated energy grows in the same ratio.
     fn widened(mut self, relative: f64, slope: f64) -> Self {
-        let friction = self.friction_coefficient.map(|known| known.value.abs());
-        let friction = friction.filter(|friction| *friction > 0.0);
-        let slope_over_friction = friction.map_or(1.0, |friction| (slope / friction).max(1.0));
+        let slope_over_friction = self
+            .friction_coefficient
+            .map(|known| known.value.abs())
+            .filter(|friction| *friction > 0.0)
+            .map_or(1.0, |friction| (slope / friction).max(1.0));
         let scale = |quantity: &Quantity, value: f64| match (quantity.is_dissipative, quantity.unit)
         {
             (false, _) => value,

@@ -324,10 +324,9 @@ impl Problem {
                 each.chain([load.duration()]).collect()
             }
             Motion::History { points, .. } => {
-                let between = points.windows(2);
-                let between = between.map(|pair| pair[1].time - pair[0].time);
-                let all = points.last().zip(points.first());
-                let all = all.map(|(last, first)| last.time - first.time);
+                let between = points.windows(2).map(|pair| pair[1].time - pair[0].time);
+                let ends = points.last().zip(points.first());
+                let all = ends.map(|(last, first)| last.time - first.time);
                 between.filter(|time| *time > 0.0).chain(all).collect()
             }
         }

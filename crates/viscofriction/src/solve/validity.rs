@@ -104,8 +104,11 @@ pub(super) fn not_modelled(problem: &Problem) -> Vec<&'static str> {
         ("heating", slides && dissipates),
         ("interfacial shear", slides && problem.shear().is_none()),
     ];
-    let words = words.into_iter().filter(|(_, applies)| *applies);
-    words.map(|(word, _)| word).collect()
+    words
+        .into_iter()
+        .filter(|(_, applies)| *applies)
+        .map(|(word, _)| word)
+        .collect()
 }
 
 /// Mean slope h(r)/r from the lowest point to the farthest edge r of the contact; for a periodic surface the rms slope. If no
@@ -130,9 +133,10 @@ pub(super) fn mean_slope(body: &Body, answer: &Answer) -> Option<f64> {
         Body::Revolution(body) => body.profile_height(radius),
         Body::Cylinder(cylinder) => cylinder.height([radius, 0.0]),
         Body::HeightMap(map) => {
-            let heights = ends.into_iter().map(|x| map.height([x, 0.0]));
-            let heights = heights.filter(|height| height.is_finite());
-            heights.fold(0.0, f64::max)
+            let heights = ends.map(|x| map.height([x, 0.0])).into_iter();
+            heights
+                .filter(|height| height.is_finite())
+                .fold(0.0, f64::max)
         }
     };
     (height.is_finite() && radius > 0.0).then(|| height / radius)

@@ -19,7 +19,7 @@ use crate::scene::{Control, Method};
 /// Number of sampled pressures on each side of the middle of the contact. Chosen; it changes only the resolution of the output.
 const N_PLACES: usize = 100;
 /// Error requested of the work along a history, relative to the largest absolute work. Chosen.
-const WORK: f64 = 1e-4;
+const WORK_ERROR: f64 = 1e-4;
 /// Smallest number of steps along an indentation history. Chosen; it changes only the resolution of the output.
 const N_STEPS: u32 = 160;
 /// Number of intervals in time at whose ends the contact since first touch is evaluated. Chosen; output only.
@@ -54,7 +54,7 @@ pub fn with_fields(problem: &Problem, mut answer: Answer) -> Answer {
         (problem.motion(), problem.body())
         && answer.method != Method::BemTransient
     {
-        let options = mdr::history_options(problem, WORK);
+        let options = mdr::history_options(problem, WORK_ERROR);
         let profile = layer::equivalent_profile(problem, body, points).ok();
         if let Some(profile) = &profile {
             let steps = subdivided(points);
@@ -66,7 +66,7 @@ pub fn with_fields(problem: &Problem, mut answer: Answer) -> Answer {
         let work = profile
             .and_then(|profile| work_along(&*profile, problem.material(), points, &options).ok());
         let column = work.map(|values| CurveColumn {
-            name: curve::WORK,
+            name: curve::WORK_DONE,
             values,
         });
         answer.fields.curve.columns.extend(column);
@@ -114,10 +114,10 @@ fn whole_parts(ratio: f64) -> u32 {
 /// an expanded series, and times at which a quantity underflows, are left out.
 fn since_touch(problem: &Problem, body: &Revolution, duration: f64) -> Vec<CurvePoint> {
     let point = |time: f64| {
-        let answer = pressed(body, problem.material(), problem.motion().control(), time);
-        let answer = answer.and_then(Answer::finite);
-        let answer = answer.and_then(|answer| problem.with_modulus_error(answer));
-        let answer = answer.ok()?;
+        let answer = pressed(body, problem.material(), problem.motion().control(), time)
+            .and_then(Answer::finite)
+            .and_then(|answer| problem.with_modulus_error(answer))
+            .ok()?;
         let contact = answer.contact_box?;
         Some(CurvePoint {
             time,

@@ -178,8 +178,10 @@ fn followed<'a>(
                 return Err(NO_ELEMENTS);
             };
             if problem.thickness().is_finite() {
-                let answer = layer::followed(problem, body, points, asked);
-                let answer = answer.ok().flatten().ok_or(ONCE)?;
+                let answer = layer::followed(problem, body, points, asked)
+                    .ok()
+                    .flatten()
+                    .ok_or(ONCE)?;
                 return ready(move |_| Ok(answer));
             }
             ready(move |_| mdr::followed(problem, &&**body, points, method, asked))
@@ -293,9 +295,8 @@ pub(super) fn rough<'a>(
     )?;
     let area: f64 = surface.period().iter().product();
     let mean_pressure = force / area;
-    let load = PeriodicLoad::new(mean_pressure, velocity);
     let wrong = |_| "the mean pressure must be finite and greater than 0";
-    let mut load = load.map_err(wrong)?;
+    let mut load = PeriodicLoad::new(mean_pressure, velocity).map_err(wrong)?;
     if let Some(distance) = problem.motion().sliding_distance() {
         load = load.after(distance).map_err(wrong)?;
     }
@@ -490,8 +491,7 @@ fn closed_half_space<'a>(
     let (Revolution::Power(profile), Some(Simple::Viscous(material))) = (body, problem.simple())
     else {
         require(load.sliding_distance().is_none(), STATIONARY)?;
-        let slow = analytic::slow_half_space(body, problem.material(), load, asked);
-        let slow = slow.ok_or(
+        let slow = analytic::slow_half_space(body, problem.material(), load, asked).ok_or(
             "on the half space it knows the friction of powers on a viscous material, and that of smooth bodies that slide slowly over a solid; this scene is neither, or slides faster",
         )?;
         return ready(move |_| Ok(slow));

@@ -254,12 +254,13 @@ impl Plan {
             return vec![String::new(); self.columns().len() + 4];
         };
         let names = [answer.method.name(), answer.model.name()].map(str::to_owned);
-        let numbers = answer.numbers().into_iter().map(|(_, value)| value);
+        let values = answer.numbers().into_iter().map(|(_, value)| value);
         let [material, total] = [answer.budget.material(), answer.budget.total()];
         let uncertainties =
             differentiated().flat_map(|quantity| [&material, &total].map(|of| of.of(quantity.key)));
-        let numbers = numbers.chain(uncertainties.filter(|_| self.sensitivity));
-        let numbers = numbers.map(|value| value.map_or(String::new(), decimal));
+        let numbers = values
+            .chain(uncertainties.filter(|_| self.sensitivity))
+            .map(|value| value.map_or(String::new(), decimal));
         let warnings = answer.warnings.iter().map(Warning::to_string);
         let warnings = one_line(&warnings.collect::<Vec<_>>().join(BETWEEN_WARNINGS));
         let after = [answer.unknowns.to_string(), warnings];
@@ -299,10 +300,12 @@ impl Plan {
         };
         build().map_err(|error| {
             let WrongInput(message) = self.source.locate(&error);
-            let settings = self.keys().zip(&values);
-            let settings = settings.map(|(key, value)| format!("{key} = {value}"));
-            let settings = settings.collect::<Vec<_>>().join(", ");
-            WrongInput(format!("{message} (point {}: {settings})", point + 1))
+            let pairs = self.keys().zip(&values);
+            let settings: Vec<String> = pairs
+                .map(|(key, value)| format!("{key} = {value}"))
+                .collect();
+            let point_in_words = format!("point {}: {}", point + 1, settings.join(", "));
+            WrongInput(format!("{message} ({point_in_words})"))
         })
     }
 }

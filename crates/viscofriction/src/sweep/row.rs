@@ -112,8 +112,8 @@ impl SweepRow {
     /// Warnings of the answer.
     pub fn warnings(&self) -> Vec<&str> {
         let before = self.fields.len().checked_sub(2);
-        let sentences = before.map_or("", |place| &self.fields[place]);
-        let sentences = sentences.split(BETWEEN_WARNINGS);
+        let cell = before.map_or("", |place| &self.fields[place]);
+        let sentences = cell.split(BETWEEN_WARNINGS);
         sentences.filter(|sentence| !sentence.is_empty()).collect()
     }
 }

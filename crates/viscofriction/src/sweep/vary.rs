@@ -97,8 +97,8 @@ impl FromStr for Vary {
 }
 
 /// Values separated by commas: all numbers, or all texts.
-fn listed_values(values: &str) -> Result<Vec<Varied>, String> {
-    let values = values.split(',').map(str::trim);
+fn listed_values(list: &str) -> Result<Vec<Varied>, String> {
+    let values = list.split(',').map(str::trim);
     let is_number = |value: &str| value.parse::<f64>().is_ok();
     if values.clone().any(is_number) {
         let numbers = values.map(|value| finite_number("a value", value).map(Varied::Number));

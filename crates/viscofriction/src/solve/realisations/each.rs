@@ -71,8 +71,9 @@ fn solve_one(
         Err(_) if parts > 1 => return None,
         Err(why) => return Some(Err(why.into())),
     };
-    let answer = plan(&one).map_err(Into::into);
-    let answer = answer.and_then(|plan| plan.solve_one(watch));
+    let answer = plan(&one)
+        .map_err(Into::into)
+        .and_then(|plan| plan.solve_one(watch));
     (parts == 1 || !one.is_short_of_memory()).then_some(answer)
 }
 
@@ -82,8 +83,11 @@ pub(super) fn on_threads<T: Send>(
     surfaces: &[u64],
     one: impl Fn(u64) -> T + Sync + Send,
 ) -> Vec<T> {
-    let surfaces = surfaces.par_iter().with_max_len(1);
-    surfaces.map(|surface| one(*surface)).collect()
+    surfaces
+        .par_iter()
+        .with_max_len(1)
+        .map(|surface| one(*surface))
+        .collect()
 }
 
 /// Applies a function to each surface, on the calling thread.

@@ -171,9 +171,7 @@ fn mean_of(answers: &[Answer], seeds: &[u64]) -> Answer {
         let shares = answers.iter().map(|one| one.dissipation.shares()[index].1);
         mean_estimate(shares.map(|share| share.map(Estimate::exact))).map(|mean| mean.value)
     };
-    let warnings = answers.iter();
-    let warnings = warnings.map(|one| one.warnings.clone());
-    let warnings = each_once(warnings)
+    let warnings = each_once(answers.iter().map(|one| one.warnings.clone()))
         .into_iter()
         .map(|shared| Warning::OfSurfaces {
             warning: Box::new(shared.warning),

@@ -123,8 +123,8 @@ impl Sample<'_> {
         let [difference, rest] = self.variances();
         let difference = difference * student_factor(self.fine.len());
         let rest = rest * student_factor(self.coarse.len());
-        let fine = (difference + (difference * rest * part).sqrt()) / allowed;
-        let fine = fine.max(FEWEST as f64).ceil();
+        let optimal = (difference + (difference * rest * part).sqrt()) / allowed;
+        let fine = optimal.max(FEWEST as f64).ceil();
         let coarse = rest / (allowed - difference / fine);
         let most = most as f64;
         let [fine, coarse] = if coarse.max(fine) <= most {

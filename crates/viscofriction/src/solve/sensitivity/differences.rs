@@ -78,9 +78,9 @@ fn sensitivity(
     let at = |points: &[Point], side: f64| -> Result<Vec<(Answer, [f64; 2])>> {
         let solved = |&(steps, weights): &Point| {
             let value = number.value * (side * LOG_STEP * f64::from(steps)).exp();
-            let weights = weights.map(|weight| side * weight);
+            let signed = weights.map(|weight| side * weight);
             let near = numbers.problem(problem, number, value)?;
-            Ok((solved(&near, answer.method, number)?, weights))
+            Ok((solved(&near, answer.method, number)?, signed))
         };
         points.iter().rev().map(solved).collect()
     };
@@ -128,8 +128,8 @@ fn log_derivative(
 
 /// The answer of a method to a problem in which `number` has another value; the error names the path of that number.
 fn solved(problem: &Problem, method: Method, number: &Number) -> Result<Answer> {
-    let work = work(problem, method);
-    let work = work.map_err(|why| SceneError::at(number.path(), why.to_owned()))?;
+    let work =
+        work(problem, method).map_err(|why| SceneError::at(number.path(), why.to_owned()))?;
     Plan {
         problem,
         method,

@@ -139,10 +139,11 @@ impl<'a> Numbers<'a> {
                         .to_owned()
                 }
                 _ if !known.contains(path) => {
-                    let known: Vec<String> = known.iter().map(|path| format!("{path:?}")).collect();
-                    let known = known.join(", ");
+                    let quoted: Vec<String> =
+                        known.iter().map(|path| format!("{path:?}")).collect();
+                    let list = quoted.join(", ");
                     format!(
-                        "this is no number of the scene that may be uncertain; these are: {known}"
+                        "this is no number of the scene that may be uncertain; these are: {list}"
                     )
                 }
                 _ if has_covariance
