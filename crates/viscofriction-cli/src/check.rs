@@ -54,8 +54,8 @@ pub fn check_input(kind: InputKind, file: &Path, contents: &[u8]) -> Result<(), 
             let surface = match read(None) {
                 Err(TopographyError::Spacing { .. }) => read(Some([1.0; 2])),
                 other => other,
-            };
-            let surface = surface.map_err(|error| WrongInput(in_file(file, &error)))?;
+            }
+            .map_err(|error| WrongInput(in_file(file, &error)))?;
             // The error concerns the whole surface, so it names line 1.
             let wrong = |error| WrongInput(format!("{}:1: {error}", file.display()));
             surface.body().map(drop).map_err(wrong)

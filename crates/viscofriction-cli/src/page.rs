@@ -78,9 +78,9 @@ impl Page {
 
     /// Appends a picture as inline SVG.
     pub(crate) fn picture(&mut self, figure: &Figure, caption: &str) -> anyhow::Result<()> {
-        let svg = draw(figure)?.svg;
+        let file = draw(figure)?.svg;
         // Inline SVG starts at its element, without the XML declaration.
-        let svg = svg.find("<svg").map_or("", |start| &svg[start..]);
+        let svg = file.find("<svg").map_or("", |start| &file[start..]);
         let caption = escaped(caption);
         writeln!(
             self.body,
@@ -116,13 +116,17 @@ fn command_line_text() -> String {
             format!("'{}'", word.replace('\'', "'\\''"))
         }
     };
-    let words = std::env::args_os().skip(1);
-    let words = words.map(|word| quoted(word.to_string_lossy().into_owned()));
-    format!("viscofriction {}", words.collect::<Vec<_>>().join(" "))
+    let words: Vec<String> = std::env::args_os()
+        .skip(1)
+        .map(|word| quoted(word.to_string_lossy().into_owned()))
+        .collect();
+    format!("viscofriction {}", words.join(" "))
 }
 
 /// Text with escaped HTML characters.
 fn escaped(text: &str) -> String {
-    let text = text.replace('&', "&amp;").replace('<', "&lt;");
-    text.replace('>', "&gt;").replace('"', "&quot;")
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
 }

@@ -81,13 +81,14 @@ pub(crate) fn fit(options: &FitFriction) -> Result<()> {
     };
     let files = (source.folder(), read_input as _);
     let task = format!("fitting {}: ", options.table.display());
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(scene.solve.threads.unwrap_or(0));
-    let pool = pool.build()?;
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(scene.solve.threads.unwrap_or(0))
+        .build()?;
     let found = progress::with_message(|say| {
         let watch = |reached: &FitProgress| say(format!("{task}{reached}"), reached.part());
         pool.install(|| fit_friction(&scene, files, &points, &sought, &watch))
-    });
-    let found = found.map_err(|error| options.refused(&source, error))?;
+    })
+    .map_err(|error| options.refused(&source, error))?;
     // Write the files before printing, because a closed pipe ends the program.
     if let Some(out) = &out {
         let curve = pool.install(|| found.curve(&scene, files));
@@ -137,9 +138,9 @@ impl FitFriction {
     ) -> Result<()> {
         let out = folder.begin()?;
         let findings = found.fit.findings.iter();
-        let findings = findings.map(|one| (&one.name, one.unit, crate::indentation::numbers(one)));
+        let rows = findings.map(|one| (&one.name, one.unit, crate::indentation::numbers(one)));
         let header = "quantity unit value standard_error lower upper";
-        out.write("findings.csv", &to_csv(header, findings)?)?;
+        out.write("findings.csv", &to_csv(header, rows)?)?;
         let points = found.points.iter().zip(&found.shifted_velocities);
         let rows = points
             .zip(&found.fit.fitted)

@@ -167,9 +167,9 @@ pub(crate) fn fit(options: &FitIndentation) -> Result<()> {
     };
     let out = folder.begin()?;
     let findings = fit.findings.iter();
-    let findings = findings.map(|one| (&one.name, one.unit, numbers(one)));
+    let rows = findings.map(|one| (&one.name, one.unit, numbers(one)));
     let header = "quantity unit value standard_error lower upper";
-    out.write("findings.csv", &to_csv(header, findings)?)?;
+    out.write("findings.csv", &to_csv(header, rows)?)?;
     let header = names(&fit).join(" ");
     out.write("correlation.csv", &to_csv(&header, &fit.correlation)?)?;
     let header = "time_s depth_m force_n force_fit_n";
@@ -244,14 +244,15 @@ fn fit_map(
     }
     let names = all_names(&fits);
     let ends = ["", "_error", "_lower", "_upper"];
-    let columns = names.iter();
-    let columns = columns.flat_map(|name| ends.map(|end| format!("{name}{end}")));
-    let columns: Vec<String> = columns.collect();
-    let rows = options.curves.iter().zip(&fits);
-    let rows = rows.map(|(file, fit)| {
-        let file = file.display().to_string();
+    let columns: Vec<String> = names
+        .iter()
+        .flat_map(|name| ends.map(|end| format!("{name}{end}")))
+        .collect();
+    let row = |(path, fit): (&PathBuf, _)| {
+        let file = path.display().to_string();
         (file, flags(fit), cells(fit, &names), notes(fit))
-    });
+    };
+    let rows = options.curves.iter().zip(&fits).map(row);
     let csv = to_csv(&format!("file flags {} notes", columns.join(" ")), rows)?;
     let Some(out) = out else {
         return print_text(&String::from_utf8(csv)?);
@@ -272,8 +273,9 @@ fn names(fit: &IndentationFit) -> Vec<&str> {
 /// Names of all findings: those of the fit with the most findings, preceded by those that only other fits have.
 fn all_names(fits: &[Result<IndentationFit, WrongInput>]) -> Vec<&str> {
     let fits = || fits.iter().flatten();
-    let longest = fits().max_by_key(|fit| fit.findings.len());
-    let longest = longest.map_or(Vec::new(), names);
+    let longest = fits()
+        .max_by_key(|fit| fit.findings.len())
+        .map_or(Vec::new(), names);
     let mut others: Vec<&str> = fits().flat_map(names).collect();
     others.retain(|name| !longest.contains(name));
     others.sort_unstable();
@@ -305,9 +307,11 @@ fn flags(fit: &Result<IndentationFit, WrongInput>) -> String {
 fn cells(fit: &Result<IndentationFit, WrongInput>, names: &[&str]) -> Vec<Option<f64>> {
     let findings = fit.as_ref().map_or(&[][..], |fit| &fit.findings);
     let find = |name: &&str| findings.iter().find(|one| one.name == **name);
-    let cells = names.iter().map(find);
-    let cells = cells.map(|one| one.map_or([None; 4], numbers));
-    cells.flatten().collect()
+    names
+        .iter()
+        .map(find)
+        .flat_map(|one| one.map_or([None; 4], numbers))
+        .collect()
 }
 
 /// Value, standard error, and lower and upper end of the 95 % interval of a finding, in its unit; `None` if not determined.
@@ -332,9 +336,9 @@ impl FitIndentation {
                 ));
             }
         }
-        let noise = fit.noise;
-        let noise = noise.map(|noise| format!(", noise before the contact {noise:.3e} N"));
-        let noise = noise.unwrap_or_default();
+        let noise = fit.noise.map_or_else(String::new, |noise| {
+            format!(", noise before the contact {noise:.3e} N")
+        });
         let [residual, correlated] = [fit.residual, fit.correlated_points];
         let flags = fit.flags.iter().map(|flag| format!("flag: {flag}\n"));
         let notes = fit.notes.iter().map(|note| format!("note: {note}\n"));

@@ -115,8 +115,8 @@ pub(crate) fn fit(options: &FitMaterial) -> Result<()> {
     let out = options.out.as_ref().map(open).transpose()?;
     let found = progress::during(format!("fitting {}", options.data.display()), |_| {
         identify(&curve, &options.identification())
-    });
-    let found = found.map_err(|error| match error {
+    })
+    .map_err(|error| match error {
         RheologyError::FitNotConverged { .. } => {
             anyhow::Error::from(error).context(options.data.display().to_string())
         }

@@ -78,19 +78,26 @@ fn compare(fitted: &Fitted<'_>) -> Result<Comparison> {
         let fit = spectrum.relaxation_modulus(time)?;
         Ok(vec![time, modulus, fit, fit / modulus - 1.0])
     };
-    let (names, rows): (_, Result<Vec<_>>) = match &fitted.points {
-        Points::Oscillation(points) => (OSCILLATION, points.iter().map(oscillation).collect()),
-        Points::Relaxation(points) => (RELAXATION, points.iter().map(relaxation).collect()),
+    let (names, rows): (_, Vec<_>) = match &fitted.points {
+        Points::Oscillation(points) => {
+            let rows: Result<_> = points.iter().map(oscillation).collect();
+            (OSCILLATION, rows?)
+        }
+        Points::Relaxation(points) => {
+            let rows: Result<_> = points.iter().map(relaxation).collect();
+            (RELAXATION, rows?)
+        }
     };
-    let rows = rows?;
-    let series = log_spaced(rows.iter().map(|row| row[0])).map(|x| match &fitted.points {
+    let fit_at = |x: f64| match &fitted.points {
         Points::Oscillation(_) => {
             let fit = spectrum.complex_modulus(x)?;
             Ok(vec![x, fit.storage, fit.loss])
         }
         Points::Relaxation(_) => Ok(vec![x, spectrum.relaxation_modulus(x)?]),
-    });
-    let series = series.collect::<Result<_>>()?;
+    };
+    let series = log_spaced(rows.iter().map(|row| row[0]))
+        .map(fit_at)
+        .collect::<Result<_>>()?;
     let isotherms = fitted.isotherms().map(|shifted| Isotherms {
         of_rows: shifted.master.isotherms.clone(),
         temperatures: shifted
@@ -196,8 +203,9 @@ pub(crate) fn prony(
             let error = error(place + 1);
             format!("    {{ modulus = {modulus:?}, relaxation_time = {time:?} }},{error}\n")
         });
-    let viscosity = Some(spectrum.viscosity()).filter(|viscosity| *viscosity > 0.0);
-    let viscosity = viscosity.map(|viscosity| format!("viscosity = {viscosity:?}\n"));
+    let viscosity = Some(spectrum.viscosity())
+        .filter(|viscosity| *viscosity > 0.0)
+        .map(|viscosity| format!("viscosity = {viscosity:?}\n"));
     format!(
         "[material.prony]\nequilibrium_modulus = {:?}{}\n{}poisson_ratio = {poisson_ratio:?}\n{measured}branches = [\n{}]\n",
         spectrum.equilibrium_modulus(),

@@ -98,8 +98,9 @@ impl OutputFolder {
 
     /// Creates a temporary folder for the files; it replaces the result only when all are written.
     pub(crate) fn begin(&self) -> Result<NewFiles<'_>> {
-        let part = self.new_part();
-        let part = part.map_err(|error| not_written(self.path.display(), error))?;
+        let part = self
+            .new_part()
+            .map_err(|error| not_written(self.path.display(), error))?;
         Ok(NewFiles {
             folder: self,
             part,
@@ -107,7 +108,7 @@ impl OutputFolder {
         })
     }
 
-    /// Creates the temporary folder beside the result, or inside it, as [`Place`] says.
+    /// Creates the temporary folder next to the result, or inside it, according to its [`Place`].
     fn new_part(&self) -> io::Result<TempDir> {
         let within = match self.place {
             Place::Beside => self.real.parent().unwrap_or(&self.real),
@@ -185,8 +186,9 @@ impl NewFiles<'_> {
 
 /// Applies the checks of [`OutputFile::new`] to each name in a folder.
 fn check_names(folder: &Path, names: &[&str], overwrite: bool) -> Result<(), WrongInput> {
-    let mut names = names.iter();
-    names.try_for_each(|name| OutputFile::new(&folder.join(name), overwrite).map(drop))
+    names
+        .iter()
+        .try_for_each(|name| OutputFile::new(&folder.join(name), overwrite).map(drop))
 }
 
 /// Creates a temporary folder with the permissions of `folder`.

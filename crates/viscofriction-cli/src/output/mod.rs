@@ -171,8 +171,9 @@ impl OutputFile {
         } else {
             part.persist_noclobber(&self.path)
         };
-        let persisted = persisted.map(drop).map_err(io::Error::from);
-        persisted.map_err(|error| not_written(self.path.display(), error))
+        persisted
+            .map(drop)
+            .map_err(|error| not_written(self.path.display(), io::Error::from(error)))
     }
 
     /// Removes an existing file if it may be replaced.

@@ -90,8 +90,8 @@ pub(crate) fn road(options: &Road) -> Result<()> {
     let files = options
         .out
         .as_deref()
-        .map(|out| Files::new(out, options.overwrite));
-    let files = files.transpose()?;
+        .map(|out| Files::new(out, options.overwrite))
+        .transpose()?;
     let problem = options.problem(&source)?;
     plan_of(&source, &problem)?;
     let pool = rayon::ThreadPoolBuilder::new()
@@ -101,24 +101,25 @@ pub(crate) fn road(options: &Road) -> Result<()> {
     let count = options.cut_offs as usize;
     let found = progress::during(task, |watch| {
         pool.install(|| cut_offs(problem, count, watch, |_| ()))
-    });
-    let found = found.map_err(|error| source.locate(&error))?;
+    })
+    .map_err(|error| source.locate(&error))?;
     let rows: Vec<Row> = found.iter().map(|one| row(one, &found[0])).collect();
     if let Some(files) = &files {
         files.write(&rows, spacing_of_map(&source)?)?;
     }
     print_line(&table(&rows))?;
-    let warnings = found.iter().filter_map(CutOff::known);
-    let warnings = warnings.map(|one| one.warnings.iter().collect());
-    let warnings = each_once(warnings);
+    let answers = found.iter().filter_map(CutOff::known);
+    let warnings = each_once(answers.map(|one| one.warnings.iter().collect()));
     for warning in &warnings {
         eprint_line(&format!("warning: {warning}"));
     }
     if !warnings.is_empty() {
         eprint_line(ABOUT_WARNINGS);
     }
-    let failures = rows.iter().map(|row| &row.failure);
-    let mut failures = failures.filter(|failure| !failure.is_empty());
+    let mut failures = rows
+        .iter()
+        .map(|row| &row.failure)
+        .filter(|failure| !failure.is_empty());
     if let Some(first) = failures.next() {
         let n_failed = 1 + failures.count();
         bail!(
@@ -138,8 +139,9 @@ fn spacing_of_map(source: &Source) -> Result<Option<f64>> {
     let file = source.folder().join(&table.file);
     let contents = read_input(&file, memory)?;
     let rest = memory.saturating_sub(contents.len() as u64);
-    let map = table.read(&file, &contents, rest);
-    let map = map.map_err(|error| source.locate(&error))?;
+    let map = table
+        .read(&file, &contents, rest)
+        .map_err(|error| source.locate(&error))?;
     Ok(Some(map.spacing[0].max(map.spacing[1])))
 }
 
@@ -176,8 +178,8 @@ impl Road {
                 other => source.locate(&other),
             })?;
         }
-        let problem = Problem::new(&scene, source.folder(), read_input);
-        let problem = problem.map_err(|error| source.locate(&error))?;
+        let problem = Problem::new(&scene, source.folder(), read_input)
+            .map_err(|error| source.locate(&error))?;
         Ok(problem.or_max_memory(half_of_free_memory()))
     }
 }
@@ -246,7 +248,7 @@ impl Files {
         })
     }
 
-    /// Replaces the files in an order that never leaves a picture beside the rows of another run.
+    /// Replaces the files in an order that never combines a picture with the rows of another run.
     fn write(&self, rows: &[Row], spacing: Option<f64>) -> Result<()> {
         let (svg, png) = drawn(&picture::figure(rows, spacing))?;
         let names = format!(

@@ -13,7 +13,7 @@ const STEEPEST: f64 = 0.5;
 /// docs/road.md.
 const POINTS_PER_WAVE: f64 = 4.0;
 /// Factor by which the axis extends beyond the shortest and the longest wavelength. Chosen.
-const ROOM: f64 = 1.25;
+const AXIS_MARGIN_FACTOR: f64 = 1.25;
 
 /// The figure of a cut-off series; `spacing` is that of the points of a measured map, \[m].
 pub(super) fn figure(rows: &[Row], spacing: Option<f64>) -> Figure {
@@ -24,8 +24,8 @@ pub(super) fn figure(rows: &[Row], spacing: Option<f64>) -> Figure {
             "4 points of the map",
         ),
         (steep_below(rows), Dash::DashDot, "rms slope 0.5"),
-    ];
-    let limits = limits.map(|(length, dash, label)| Limit {
+    ]
+    .map(|(length, dash, label)| Limit {
         length,
         dash,
         label,
@@ -62,16 +62,16 @@ fn chart(key: &str, (theory, name): (&str, &str), rows: &[Row], limits: &[Limit]
     let label = Quantity::named(key)
         .map(Quantity::label)
         .unwrap_or_default();
-    let known = rows.iter();
-    let known = known.filter_map(|row| Some((row.shortest_wavelength, row.quantity(key)?)));
-    let (points, errors): (Vec<[f64; 2]>, Vec<f64>) = known
+    let (points, errors): (Vec<[f64; 2]>, Vec<f64>) = rows
+        .iter()
+        .filter_map(|row| Some((row.shortest_wavelength, row.quantity(key)?)))
         .map(|(length, known)| ([length, known.value], known.error))
         .unzip();
     let theory = rows
         .iter()
         .filter_map(|row| Some([row.shortest_wavelength, row.number(theory)?]));
-    let ends = points.iter().zip(&errors);
-    let ends = ends.flat_map(|([_, value], error)| [value - error, value + error]);
+    let bars = points.iter().zip(&errors);
+    let ends = bars.flat_map(|([_, value], error)| [value - error, value + error]);
     let range = range_with_zero(ends);
     let lengths = rows.iter().map(|row| row.shortest_wavelength);
     let [shortest, longest] = lengths.fold([f64::INFINITY, 0.0_f64], |[low, high], length| {
@@ -80,8 +80,8 @@ fn chart(key: &str, (theory, name): (&str, &str), rows: &[Row], limits: &[Limit]
     let x = Axis::log10(
         "shortest wavelength λ [m]",
         [
-            shortest / ROOM,
-            longest * ROOM.max(2.0 * shortest / longest),
+            shortest / AXIS_MARGIN_FACTOR,
+            longest * AXIS_MARGIN_FACTOR.max(2.0 * shortest / longest),
         ],
     );
     // Draw the computed values as dots, which leave bars visible that are smaller than other markers.

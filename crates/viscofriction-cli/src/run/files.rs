@@ -48,8 +48,8 @@ pub(super) fn write(
         let keys = first.flat_map(|one| one.quantities.iter());
         let names = keys.map(|(key, _)| format!(" {key} {key}_error"));
         let rows = ensemble.realisations.iter().map(|one| {
-            let numbers = one.quantities.iter();
-            let numbers = numbers.flat_map(|(_, known)| [known.value, known.error]);
+            let quantities = one.quantities.iter();
+            let numbers = quantities.flat_map(|(_, known)| [known.value, known.error]);
             (one.seed, numbers.collect::<Vec<f64>>())
         });
         let names = format!("seed{}", names.collect::<String>());
@@ -142,10 +142,13 @@ fn write_columns(curve: &Curve, out: &NewFiles<'_>) -> Result<()> {
         let numbers = known.flat_map(|known| [known.value, known.error]);
         iter::once(*time).chain(numbers).collect::<Vec<f64>>()
     });
-    let names = columns.iter().map(|column| column.name);
-    let names = names.map(|[name, unit]| format!(" {name}_{unit} {name}_error_{unit}"));
-    let names = format!("time_s{}", names.collect::<String>());
-    out.write(&format!("{}.csv", curve.name()), &to_csv(&names, rows)?)
+    let names: String = columns
+        .iter()
+        .map(|column| column.name)
+        .map(|[name, unit]| format!(" {name}_{unit} {name}_error_{unit}"))
+        .collect();
+    let header = format!("time_s{names}");
+    out.write(&format!("{}.csv", curve.name()), &to_csv(&header, rows)?)
 }
 
 /// Writes a motion: its points with their errors, and the tangential force of all steps over position and over time.
@@ -200,8 +203,12 @@ fn write_curve(answer: &Answer, (out, pictures): (&NewFiles<'_>, &mut Pictures))
     } else {
         (force, of_force, 2)
     };
-    let given = curve.times.iter().zip(found);
-    let given = given.map(|(time, found)| [*time, found.value]).collect();
+    let given = curve
+        .times
+        .iter()
+        .zip(found)
+        .map(|(time, found)| [*time, found.value])
+        .collect();
     let along = steps.iter().map(|step| [step[0], step[column]]).collect();
     let figure = if steps.is_empty() {
         pictures::points("time t [s]", label, given)

@@ -63,8 +63,10 @@ pub(super) fn table(spectral: &SpectralSensitivity) -> (Table, String) {
     let mut table = markdown(&format!("ω [rad/s]{}", heads.collect::<String>()));
     for band in significant_bands(spectral, MIN_FRACTION_IN_TABLE) {
         let [from, to] = band.frequencies;
-        let cells = keys.iter().flat_map(|key| derivatives(band, key));
-        let cells = cells.map(|known| known.map_or_else(String::new, |known| known.to_string()));
+        let cells = keys
+            .iter()
+            .flat_map(|key| derivatives(band, key))
+            .map(|known| known.map_or_else(String::new, |known| known.to_string()));
         table.add_row(iter::once(format!("{from:.3e} to {to:.3e}")).chain(cells));
     }
     let all: f64 = spectral.bands.iter().map(derivative_size).sum();
@@ -140,13 +142,16 @@ pub(super) fn master_curve(problem: &Problem, x: Axis) -> Chart {
     };
     let moduli: Vec<[f64; 3]> = points.filter_map(at).collect();
     let curves = [0, 1].map(|part| {
-        let points = moduli.iter().map(|row| [row[0], row[1 + part]]);
-        let points = points.filter(|point| point[1] > 0.0).collect();
+        let points = moduli
+            .iter()
+            .map(|row| [row[0], row[1 + part]])
+            .filter(|point| point[1] > 0.0)
+            .collect();
         let line = Line::thick(Dash::Solid);
         Series::line(points, line, COLOURS[part]).labelled(["G′", "G″"][part])
     });
     let values = curves.iter().flat_map(|curve| &curve.points);
     let y = Axis::decades("modulus [Pa]", values.map(|point| point[1]));
-    let curves = curves.into_iter().filter(|curve| curve.points.len() > 1);
-    Chart::new(x, y, curves.collect())
+    let drawn = curves.into_iter().filter(|curve| curve.points.len() > 1);
+    Chart::new(x, y, drawn.collect())
 }

@@ -36,11 +36,11 @@ fn lines(answer: &Answer) -> Vec<Line> {
             ("friction, Persson (2006)", theory.friction_coefficient_2006),
             ("area fraction, Xu (2024)", theory.area_fraction_xu),
         ]
-    });
-    let theories = theories.map(|(name, number)| Line {
-        name: name.to_owned(),
-        value: Estimate::exact(number).to_string(),
-        material_error: None,
+        .map(|(name, number)| Line {
+            name: name.to_owned(),
+            value: Estimate::exact(number).to_string(),
+            material_error: None,
+        })
     });
     QUANTITIES.iter().filter_map(line).chain(theories).collect()
 }
@@ -124,12 +124,14 @@ pub(super) fn budget(answer: &Answer) -> Table {
 
 /// Parts of the error estimate; `None` if the method has none.
 pub(super) fn parts(parts: &ErrorParts) -> Option<String> {
-    let known = parts.named().into_iter();
-    let known = known.filter_map(|(name, part)| Some((name.replace('_', " "), part?)));
-    let known = known.filter(|(_, part)| *part > 0.0);
-    let parts = known.map(|(name, part)| format!("{name} {part:.1e}"));
-    let parts: Vec<String> = parts.collect();
-    (!parts.is_empty()).then(|| parts.join(", "))
+    let shown: Vec<String> = parts
+        .named()
+        .into_iter()
+        .filter_map(|(name, part)| Some((name.replace('_', " "), part?)))
+        .filter(|(_, part)| *part > 0.0)
+        .map(|(name, part)| format!("{name} {part:.1e}"))
+        .collect();
+    (!shown.is_empty()).then(|| shown.join(", "))
 }
 
 /// Sentence about the ensemble; `None` for a single surface.

@@ -115,10 +115,9 @@ impl Surface {
         let contents = read_input(&self.file, memory)?;
         let rest = memory.saturating_sub(contents.len() as u64);
         let wrong = |error| self.wrong_option(&error);
-        let surface = table.read(&self.file, &contents, rest);
-        let surface = surface.map_err(wrong)?;
-        let (points, missing) = (surface.heights.len(), surface.missing());
-        let mut surface = table.prepared(surface).map_err(wrong)?;
+        let read = table.read(&self.file, &contents, rest).map_err(wrong)?;
+        let (points, missing) = (read.heights.len(), read.missing());
+        let mut surface = table.prepared(read).map_err(wrong)?;
         let [rows, columns] = surface.shape;
         let [dx, dy] = surface.spacing;
         let first = match self.heights_are {
@@ -175,8 +174,8 @@ impl Surface {
 
     /// Converts the keys in an error of the table to options.
     fn wrong_option(&self, error: &SceneError) -> WrongInput {
-        let text = error.to_string();
-        let text = text.trim_start_matches("indenter.height-map.");
+        let message = error.to_string();
+        let text = message.trim_start_matches("indenter.height-map.");
         match (text.strip_prefix("file: "), text.find([' ', ':', '['])) {
             (None, Some(end)) => {
                 let option = text[..end].replace('_', "-");

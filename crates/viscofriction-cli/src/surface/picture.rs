@@ -21,8 +21,8 @@ const FLAT: f64 = -1.0;
 
 /// The figure of a map.
 pub(super) fn figure(map: &HeightMap, spectrum: &PowerSpectrum) -> Figure {
-    let isotropic = spectrum.radial.iter();
-    let isotropic = isotropic.map(|ring| [ring.wave_number, ring.density]);
+    let rings = spectrum.radial.iter();
+    let isotropic = rings.map(|ring| [ring.wave_number, ring.density]);
     let radial = curve(isotropic.collect(), Colour::Blue).labelled("map");
     let references = references(map, spectrum);
     let [along_x, along_y] = &spectrum.profiles;

@@ -44,9 +44,12 @@ impl SweepFile {
     pub(super) fn open(path: PathBuf, plan: &Plan, existing: Existing) -> Result<Self> {
         let wrong = |error| WrongInput(format!("--out {}: {error}", path.display()));
         fs::create_dir_all(folder_of(&path)).map_err(wrong)?;
-        let mut options = OpenOptions::new();
-        let options = options.write(true).create(true).truncate(false);
-        let file = options.open(&path).map_err(wrong)?;
+        let file = OpenOptions::new()
+            .write(true)
+            .create(true)
+            .truncate(false)
+            .open(&path)
+            .map_err(wrong)?;
         lock(&file, &path)?;
         remove_parts(folder_of(&path), &[&name_of(&path)]);
         let contents = match existing {
@@ -137,14 +140,15 @@ pub(super) fn insert(rows: &mut BTreeMap<usize, SweepRow>, row: SweepRow) {
 
 /// Validates the path like [`OutputFile::new`]; an existing file may also be resumed.
 pub(super) fn checked(path: &Path, existing: Existing) -> Result<PathBuf, WrongInput> {
-    let file = OutputFile::new(path, existing != Existing::Refuse);
-    let file = file.map_err(|WrongInput(mut problem)| {
-        if problem.ends_with("--overwrite replaces it") {
-            problem += ", and --resume goes on with it";
-        }
-        WrongInput(problem)
-    });
-    Ok(file?.path().to_owned())
+    let file = OutputFile::new(path, existing != Existing::Refuse).map_err(
+        |WrongInput(mut problem)| {
+            if problem.ends_with("--overwrite replaces it") {
+                problem += ", and --resume goes on with it";
+            }
+            WrongInput(problem)
+        },
+    )?;
+    Ok(file.path().to_owned())
 }
 
 /// Contents up to the last complete line.
@@ -217,9 +221,11 @@ impl TableFile {
             };
             let record = record.map_err(|error| wrong(line(error.position()), &error))?;
             let line = line(record.position());
-            let number = record.get(1).and_then(|number| number.parse().ok());
-            let point = number.and_then(|number: usize| number.checked_sub(1));
-            let point = point.ok_or_else(|| wrong(line, &"the number of its point is missing"))?;
+            let point = record
+                .get(1)
+                .and_then(|number| number.parse::<usize>().ok())
+                .and_then(|number| number.checked_sub(1))
+                .ok_or_else(|| wrong(line, &"the number of its point is missing"))?;
             let fields = texts(&record);
             rows.push((line, SweepRow { point, fields }));
         }

@@ -1,4 +1,4 @@
-//! Measured friction beside the computed friction of a sweep: points for the picture, and residuals.
+//! Comparison of measured friction with the computed friction of a sweep: points for the picture, and residuals.
 
 use std::path::{Path, PathBuf};
 
@@ -24,7 +24,7 @@ const SAME_TEMPERATURE: f64 = 1.0;
 /// interpolation is the error estimate.
 const MIN_NODES: usize = 3;
 
-/// A quantity of the table on which friction depends beside the speed.
+/// A quantity of the table, other than the speed, on which friction depends.
 struct Condition {
     name: &'static str,
     unit: &'static str,
@@ -201,9 +201,11 @@ impl Measured {
                 residual,
             ];
             let cell = |number: Option<f64>| number.map_or(String::new(), |one| format!("{one:?}"));
-            let fields = std::iter::once(cell(Some(point.velocity)));
-            let fields = fields.chain(cells.iter().map(|&cell| cell.to_owned()));
-            csv += &line(&fields.chain(numbers.map(cell)).collect::<Vec<_>>())?;
+            let fields: Vec<String> = std::iter::once(cell(Some(point.velocity)))
+                .chain(cells.iter().map(|&cell| cell.to_owned()))
+                .chain(numbers.map(cell))
+                .collect();
+            csv += &line(&fields)?;
         }
         let n = squares.len();
         let rms = (squares.iter().sum::<f64>() / n as f64).sqrt();
@@ -308,9 +310,10 @@ fn interpolated(nodes: &[Node], at: f64) -> Option<Estimate> {
 /// Lagrange's polynomial in ln v through the nodes, at the logarithm `at` of a speed, with the errors of the nodes propagated.
 fn lagrange_polynomial(nodes: &[Node], at: f64) -> Estimate {
     let weight = |one: &Node| -> f64 {
-        let others = nodes.iter().map(|node| node.log_speed);
-        let others = others.filter(|other| other.total_cmp(&one.log_speed).is_ne());
-        others
+        nodes
+            .iter()
+            .map(|node| node.log_speed)
+            .filter(|other| other.total_cmp(&one.log_speed).is_ne())
             .map(|other| (at - other) / (one.log_speed - other))
             .product()
     };

@@ -23,12 +23,11 @@ pub(super) fn merge(
 ) -> Result<()> {
     let table = merged_rows(paths)?;
     measured.map_or(Ok(()), |measured| measured.check(&table))?;
-    let files = out.map(|out| {
+    let new_files = |out| {
         let pictures = PictureFiles::new(out, measured, overwrite)?;
         Ok::<_, WrongInput>((OutputFile::new(out, overwrite)?, pictures))
-    });
-    let files = files.transpose()?;
-    if let Some((out, pictures)) = files {
+    };
+    if let Some((out, pictures)) = out.map(new_files).transpose()? {
         out.write(table.text()?.as_bytes())?;
         pictures.draw(&table, measured, None)?;
         let n_rows = table.rows.len();
@@ -38,10 +37,10 @@ pub(super) fn merge(
     }
     eprint_warnings(&table.rows);
     eprint_samples(&table.header, &table.rows);
-    let points = table.rows.first();
-    let points = points.and_then(|row| row.fields.get(2)?.parse::<usize>().ok());
+    let first = table.rows.first();
+    let n_points = first.and_then(|row| row.fields.get(2)?.parse::<usize>().ok());
     let has = |point: usize| table.rows.binary_search_by_key(&point, |row| row.point);
-    let missing = (0..points.unwrap_or(0)).filter(|point| has(*point).is_err());
+    let missing = (0..n_points.unwrap_or(0)).filter(|point| has(*point).is_err());
     let missing: Vec<String> = missing.map(|point| (point + 1).to_string()).collect();
     if !missing.is_empty() {
         bail!("no file has the points {}", missing.join(", "));
@@ -82,6 +81,8 @@ fn merged_rows(paths: &[PathBuf]) -> Result<RowTable, WrongInput> {
             insert(&mut rows, row);
         }
     }
-    let rows = rows.into_values().collect();
-    Ok(RowTable { header, rows })
+    Ok(RowTable {
+        header,
+        rows: rows.into_values().collect(),
+    })
 }

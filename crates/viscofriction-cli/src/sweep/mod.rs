@@ -97,11 +97,12 @@ pub(crate) fn sweep(options: &Sweep) -> Result<()> {
         track_radius: options.track_radius,
         run_in: options.run_in,
     };
-    let measured = options.measured.as_deref();
-    let measured = measured
+    let table = options
+        .measured
+        .as_deref()
         .map(|path| Measured::new(path, &read))
         .transpose()?;
-    let measured = measured.as_ref();
+    let measured = table.as_ref();
     let Some(scene) = &options.scene else {
         let out = options.out.as_deref();
         return merge::merge(&options.merge, out, options.overwrite, measured);

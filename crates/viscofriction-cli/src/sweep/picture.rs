@@ -1,4 +1,4 @@
-//! Pictures of a sweep: results over the varied keys, beside the CSV file.
+//! Pictures of a sweep, written next to its CSV file: results over the varied keys.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -32,7 +32,7 @@ const EQUAL_STEP_TOLERANCE: f64 = 1e-6;
 /// Ratio of the last to the first of irregularly spaced values above which the axis is logarithmic. Chosen.
 const MIN_LOGARITHMIC_RATIO: f64 = 100.0;
 
-/// The output files beside the rows: picture as SVG and PNG, and report.
+/// The output files other than the rows: picture as SVG and PNG, and report.
 pub(super) struct PictureFiles {
     svg: OutputFile,
     png: OutputFile,
@@ -205,13 +205,14 @@ fn figure(table: &RowTable, measured: Option<&Measured>, is_per_length: bool) ->
 
 /// The varied keys of the CSV file of a sweep with their cells, in the order of the columns. An error if it is no such file.
 pub(super) fn keys(table: &RowTable) -> Result<Vec<Key<'_>>> {
-    let keys = table.keys();
-    let keys = keys.context("the columns are not those of a sweep")?;
+    let columns = table
+        .keys()
+        .context("the columns are not those of a sweep")?;
     let key = |place: usize| Key {
         name: &table.header[place],
         cells: table.rows.iter().map(|row| &*row.fields[place]).collect(),
     };
-    Ok(keys.map(key).collect())
+    Ok(columns.map(key).collect())
 }
 
 /// Index of the key over which a sweep is drawn, the first of those with the most numbers; `None` if no key has numbers only.
@@ -288,8 +289,8 @@ impl Curves {
         let keys: Vec<(&str, Vec<String>)> =
             keys.iter().map(|key| (key.name, key.shown())).collect();
         for row in 0..rows {
-            let value = |(name, shown): &(&str, Vec<String>)| {
-                let name = name.rsplit('.').next().unwrap_or(name);
+            let value = |(path, shown): &(&str, Vec<String>)| {
+                let name = path.rsplit('.').next().unwrap_or(path);
                 entry(&labelled_in(name, is_per_length), name, &shown[row])
             };
             let label = keys.iter().map(value).collect::<Vec<_>>().join(", ");
@@ -343,9 +344,9 @@ impl Drawn {
     fn series(&self, rows: &[(f64, usize)]) -> [Series; 2] {
         let at = |values: &[Option<f64>], row: usize| values.get(row).copied().flatten();
         let known = |values: &[Option<f64>]| -> Vec<(usize, [f64; 2])> {
-            let points = rows.iter();
-            let points = points.filter_map(|&(x, row)| Some((row, [x, at(values, row)?])));
-            points.collect()
+            rows.iter()
+                .filter_map(|&(x, row)| Some((row, [x, at(values, row)?])))
+                .collect()
         };
         let line = |dash| Line::thin(dash);
         let (rows_of_points, points): (Vec<usize>, Vec<[f64; 2]>) =
@@ -412,9 +413,10 @@ fn chart(over: &Key, curves: &Curves, drawn: &Drawn, measured: Vec<Series>) -> F
     let is_labelled = !measured.is_empty() || drawn.theory.iter().any(Option::is_some);
     let mut series = Vec::new();
     for (curve, name) in curves.labels.iter().enumerate() {
-        let rows = (0..numbers.len()).filter(|row| curves.of[*row] == curve);
-        let rows = rows.filter_map(|row| Some((numbers[row]?, row)));
-        let mut rows: Vec<(f64, usize)> = rows.collect();
+        let mut rows: Vec<(f64, usize)> = (0..numbers.len())
+            .filter(|row| curves.of[*row] == curve)
+            .filter_map(|row| Some((numbers[row]?, row)))
+            .collect();
         // Rows of shards and of several threads may be in any order.
         rows.sort_by(|(one, _), (other, _)| one.total_cmp(other));
         let [mut computed, mut theory] = drawn.series(&rows);
@@ -442,13 +444,13 @@ fn chart(over: &Key, curves: &Curves, drawn: &Drawn, measured: Vec<Series>) -> F
     );
     series.extend(measured);
     let data = series.iter().filter(|one| !one.is_reference);
-    let ends = data.flat_map(|one| {
+    let bars = data.flat_map(|one| {
         let or_none = |lengths: &[f64], place: usize| lengths.get(place).copied().unwrap_or(0.0);
         let length = move |place| or_none(&one.errors, place).max(or_none(&one.band, place));
         let points = one.points.iter().enumerate();
         points.map(move |(place, point)| (point, length(place)))
     });
-    let ends = ends.flat_map(|(point, error)| [point[1] - error, point[1] + error]);
+    let ends = bars.flat_map(|(point, error)| [point[1] - error, point[1] + error]);
     let y = Axis::linear(&*drawn.label, range_with_zero(ends));
     let has_band = series.iter().any(|one| !one.band.is_empty());
     Figure::single(Chart {
@@ -540,8 +542,8 @@ pub(crate) fn labelled_in(key: &str, is_per_length: bool) -> String {
 
 /// True if the body of a sweep is a cylinder, by the scene if it is known, else by a key that varies.
 pub(super) fn is_cylinder(table: &RowTable, scene: Option<&str>) -> bool {
-    let scene = scene.and_then(|text| text.parse::<toml::Table>().ok());
-    let in_scene = scene
+    let parsed = scene.and_then(|text| text.parse::<toml::Table>().ok());
+    let in_scene = parsed
         .as_ref()
         .and_then(|scene| scene.get("indenter")?.get("cylinder"));
     let mut keys = table.keys().unwrap_or(0..0);

@@ -86,7 +86,7 @@ fn known_uncertainties(table: &RowTable) -> Vec<(usize, Option<usize>, String)> 
 fn rows(table: &RowTable, keys: std::ops::Range<usize>, is_per_length: bool) -> comfy_table::Table {
     let place = |name: &str| table.place(name);
     let is_known = |column: usize| table.rows.iter().any(|row| !row.fields[column].is_empty());
-    let columns = QUANTITIES.iter().filter_map(|quantity| {
+    let quantities = QUANTITIES.iter().filter_map(|quantity| {
         let column = place(quantity.key).filter(|&column| is_known(column))?;
         Some((
             column,
@@ -98,14 +98,18 @@ fn rows(table: &RowTable, keys: std::ops::Range<usize>, is_per_length: bool) -> 
         let column = place(name).filter(|&column| is_known(column))?;
         Some((column, None, (*label).to_owned()))
     });
-    let columns = columns.chain(known_uncertainties(table)).chain(theories);
-    let columns: Vec<(usize, Option<usize>, String)> = columns.collect();
+    let columns: Vec<(usize, Option<usize>, String)> = quantities
+        .chain(known_uncertainties(table))
+        .chain(theories)
+        .collect();
     let failure = place(FAILURE).filter(|&column| is_known(column));
-    let heads = keys.clone();
-    let heads = heads.map(|key| labelled_in(&table.header[key], is_per_length));
-    let heads = heads.chain(columns.iter().map(|(_, _, label)| label.clone()));
-    let heads = heads.chain(failure.map(|_| "no answer, because".to_owned()));
-    let mut shown = markdown(&heads.collect::<Vec<_>>().join(" | "));
+    let heads: Vec<String> = keys
+        .clone()
+        .map(|key| labelled_in(&table.header[key], is_per_length))
+        .chain(columns.iter().map(|(_, _, label)| label.clone()))
+        .chain(failure.map(|_| "no answer, because".to_owned()))
+        .collect();
+    let mut shown = markdown(&heads.join(" | "));
     for row in &table.rows {
         let number = |column: usize| row.fields[column].parse::<f64>().ok();
         let known = columns.iter().map(|(column, error, _)| {

@@ -75,8 +75,8 @@ impl Samples {
         ];
         let mut table = markdown("of the | mean | standard deviation | 2.5 % | 50 % | 97.5 %");
         for (name, numbers) in rows {
-            let numbers = numbers.map(|number| Rounded(number).to_string());
-            table.add_row(std::iter::once(name).chain(numbers));
+            let cells = numbers.map(|number| Rounded(number).to_string());
+            table.add_row(std::iter::once(name).chain(cells));
         }
         table
     }
