@@ -229,8 +229,9 @@ impl<'a> FrictionFitting<'a> {
         watch: &dyn Fn(usize),
     ) -> Result<FrictionFit, MeasurementError> {
         let best = &found.minimum;
-        let modelled = model.friction(&best.parameters);
-        let modelled = modelled.ok_or(MeasurementError::NotConverged)?;
+        let modelled = model
+            .friction(&best.parameters)
+            .ok_or(MeasurementError::NotConverged)?;
         let fitted: Vec<f64> = modelled
             .iter()
             .map(|one| one.friction_coefficient)
@@ -278,8 +279,8 @@ impl<'a> FrictionFitting<'a> {
         let deviations = match self.noise {
             None => Some(NORMAL_QUANTILE),
             Some(_) => student_quantile(COVERAGE, self.degrees_of_freedom()),
-        };
-        let deviations = deviations.unwrap_or(f64::INFINITY);
+        }
+        .unwrap_or(f64::INFINITY);
         // At the ends of the interval the smallest sum of squares with this parameter fixed is larger by `rise` than at the
         // minimum. For a linear model each is one standard `deviation` times the quantile away; the search starts there.
         let rise = deviations * deviations * variance;
@@ -373,9 +374,10 @@ impl<'a> FrictionFitting<'a> {
 impl Prior {
     /// Squared distance (ln θ − m)ᵀ P (ln θ − m) from the prior mean.
     fn squared_distance(&self, parameters: &[f64]) -> f64 {
-        let pairs = parameters.iter().zip(self.pull(parameters));
-        let pairs = pairs.zip(&self.mean);
-        pairs
+        parameters
+            .iter()
+            .zip(self.pull(parameters))
+            .zip(&self.mean)
             .map(|((parameter, pull), mean)| (mean - parameter) * pull)
             .sum()
     }

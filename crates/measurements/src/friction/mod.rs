@@ -57,11 +57,11 @@ impl FrictionPoint {
                 value.map_or(Ok(1.0), |value| positive(name, value))?;
             }
         }
-        let known = points.iter().filter(|point| point.standard_error.is_some());
-        let known = known.count();
-        let holds = known == 0 || known == points.len();
+        let with_error = points.iter().filter(|point| point.standard_error.is_some());
+        let n_errors = with_error.count();
+        let holds = n_errors == 0 || n_errors == points.len();
         let allowed = "0 or the number of points";
-        in_range("number of standard errors", known as f64, holds, allowed)?;
+        in_range("number of standard errors", n_errors as f64, holds, allowed)?;
         Self::check_spread(points)
     }
 

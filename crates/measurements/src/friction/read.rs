@@ -121,8 +121,9 @@ fn needed(columns: &[Quantity]) -> Vec<Quantity> {
     } else {
         vec![Friction]
     };
-    let others = [Force, FrictionError].into_iter().filter(has);
-    let others = others.filter(|other| !friction.contains(other));
+    let others = [Force, FrictionError]
+        .into_iter()
+        .filter(|other| has(other) && !friction.contains(other));
     [vec![Velocity], friction.clone(), others.collect()].concat()
 }
 
@@ -249,8 +250,8 @@ impl<'a> Rows<'a> {
         let n_negative = self
             .rows
             .iter_mut()
-            .filter_map(|row| is_negative(row).then_some(()));
-        let n_negative = n_negative.count();
+            .filter_map(|row| is_negative(row).then_some(()))
+            .count();
         if n_negative == 0 || (n_negative as f64) < NEGATIVE_SIGN_FRACTION * self.rows.len() as f64
         {
             return;
@@ -274,8 +275,10 @@ impl<'a> Rows<'a> {
         notes: &mut Vec<String>,
     ) -> Result<Vec<FrictionPoint>> {
         let runs = runs::split(&self.rows);
-        let longest = runs.iter().max_by_key(|run| run.len());
-        let longest = longest.filter(|run| run.len() >= runs::MIN_ROWS);
+        let longest = runs
+            .iter()
+            .max_by_key(|run| run.len())
+            .filter(|run| run.len() >= runs::MIN_ROWS);
         match (options.run_in, longest) {
             (Some(run_in), Some(_)) => self.means(&runs, run_in, notes),
             (None, Some(run)) => Err(self.table.wrong_row(run[0].line, &without_run_in(run))),

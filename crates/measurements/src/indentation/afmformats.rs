@@ -16,15 +16,18 @@ pub(super) fn table(text: &str) -> Option<String> {
     }
     let is_comment = |line: &&str| line.starts_with('#') || line.trim().is_empty();
     let above = text.lines().take_while(is_comment).enumerate();
-    let (head, names) = above.filter(|(_, line)| line.starts_with('#')).last()?;
+    let (head, line) = above.filter(|(_, line)| line.starts_with('#')).last()?;
     let with_unit = |name: &str| {
         let unit = UNITS.iter().find(|(known, _)| *known == name);
         unit.map_or_else(|| name.to_owned(), |(_, unit)| format!("{name} [{unit}]"))
     };
-    let names = names.trim_start_matches('#').trim().split('\t');
-    let names: Vec<String> = names.map(|name| with_unit(name.trim())).collect();
-    let names = format!("# {}", names.join("\t"));
-    let lines = text.lines().enumerate();
-    let lines = lines.map(|(at, line)| if at == head { &*names } else { line });
-    Some(lines.collect::<Vec<_>>().join("\n"))
+    let columns = line.trim_start_matches('#').trim().split('\t');
+    let names: Vec<String> = columns.map(|name| with_unit(name.trim())).collect();
+    let line_of_names = format!("# {}", names.join("\t"));
+    let lines: Vec<&str> = text
+        .lines()
+        .enumerate()
+        .map(|(at, line)| if at == head { &*line_of_names } else { line })
+        .collect();
+    Some(lines.join("\n"))
 }

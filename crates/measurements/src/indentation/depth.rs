@@ -34,8 +34,10 @@ impl SmoothedPath {
 
     /// Hat function of a knot: derivative of the depth at a time by the depth at the knot.
     pub(super) fn hat_function(&self, knot: usize, time: f64) -> f64 {
-        let k = self.knots.partition_point(|one| *one <= time);
-        let k = k.clamp(1, self.knots.len() - 1);
+        let k = self
+            .knots
+            .partition_point(|one| *one <= time)
+            .clamp(1, self.knots.len() - 1);
         let part = (time - self.knots[k - 1]) / (self.knots[k] - self.knots[k - 1]);
         match knot {
             _ if knot == k => part,

@@ -54,10 +54,12 @@ pub(super) fn table(text: &str) -> Option<String> {
             columns.push(wave.cells.iter().map(ToString::to_string).collect());
         }
         let n_rows = columns.iter().map(Vec::len).min().unwrap_or_default();
-        let rows = (0..n_rows).map(|i| columns.iter().map(|cells| &cells[i][..]).collect());
-        let rows = rows.map(|cells: Vec<&str>| cells.join("\t"));
-        let rows = rows.collect::<Vec<_>>().join("\n");
-        let _ = writeln!(table, "{}\n{rows}", heads.join("\t"));
+        let row = |i: usize| {
+            let cells: Vec<&str> = columns.iter().map(|cells| &cells[i][..]).collect();
+            cells.join("\t")
+        };
+        let rows: Vec<String> = (0..n_rows).map(row).collect();
+        let _ = writeln!(table, "{}\n{}", heads.join("\t"), rows.join("\n"));
     }
     Some(table)
 }
@@ -68,11 +70,12 @@ fn waves(text: &str) -> Vec<Wave<'_>> {
     let mut lines = text.lines().map(str::trim);
     while let Some(line) = lines.next() {
         if let Some(rest) = line.strip_prefix("WAVES") {
-            let names = rest
+            let names: Vec<&str> = rest
                 .split([' ', '\t'])
-                .filter(|name| !name.starts_with('/'));
-            let names = names.map(|name| name.trim_matches(['\'', ',']));
-            let names: Vec<&str> = names.filter(|name| !name.is_empty()).collect();
+                .filter(|name| !name.starts_with('/'))
+                .map(|name| name.trim_matches(['\'', ',']))
+                .filter(|name| !name.is_empty())
+                .collect();
             let rows = lines.by_ref().take_while(|line| *line != "END");
             let rows: Vec<Vec<&str>> = rows
                 .skip(1)

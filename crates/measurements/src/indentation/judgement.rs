@@ -71,8 +71,10 @@ impl<'a> Judgement<'a> {
         let before = 0..first.min(free.max(first / 2));
         let residuals = &statistics.forces.residuals[before.clone()];
         let middle = median(residuals.to_vec());
-        let off = residuals.iter().zip(&found.measured.counts);
-        let off = off.map(|(residual, count)| (residual - middle).abs() * count.sqrt());
+        let off = residuals
+            .iter()
+            .zip(&found.measured.counts)
+            .map(|(residual, count)| (residual - middle).abs() * count.sqrt());
         let is_known = before.len() >= MIN_BASELINE_POINTS && before.len() + MIN_POINTS <= n;
         let mut judgement = Self {
             found,
@@ -221,7 +223,9 @@ fn out_of_scale(found: &Found) -> Option<Flag> {
 fn dip_on_the_way_back(curve: &IndentationCurve, begin: &Start) -> f64 {
     let first = median(curve.force[..=curve.force.len() / 20].to_vec());
     let reference = begin.baseline.min(first);
-    let means = curve.force[begin.turn..].windows(3);
-    let means = means.map(|three| (three[0] + three[1] + three[2]) / 3.0);
-    reference - means.fold(f64::INFINITY, f64::min)
+    let lowest_mean = curve.force[begin.turn..]
+        .windows(3)
+        .map(|three| (three[0] + three[1] + three[2]) / 3.0)
+        .fold(f64::INFINITY, f64::min);
+    reference - lowest_mean
 }

@@ -165,8 +165,9 @@ impl<'a> Model<'a> {
         let residuals = measured.map(|(force, value)| force - value).collect();
         // Collect the derivatives of the forces, one row for each parameter: material, contact point, baseline, tilt and
         // thickness in this order.
-        let rows = self.material_rows(parameters, &spectrum, &found);
-        let mut rows = rows.map_err(MdrError::from)?;
+        let mut rows = self
+            .material_rows(parameters, &spectrum, &found)
+            .map_err(MdrError::from)?;
         rows.push(found.depth.iter().map(|slope| -slope).collect());
         rows.push(vec![1.0; relative_depths.len()]);
         if self.tilt {
@@ -214,8 +215,8 @@ impl<'a> Model<'a> {
             let rows = (0..n).flat_map(|k| {
                 let [modulus, time] = [1, 2].map(|place| parameters[place + 2 * k].exp());
                 let place = branches
-                    .partition_point(|one| one.relaxation_time < time * (1.0 - TIME_TOLERANCE));
-                let place = place.min(branches.len() - 1);
+                    .partition_point(|one| one.relaxation_time < time * (1.0 - TIME_TOLERANCE))
+                    .min(branches.len() - 1);
                 let part = modulus / branches[place].modulus * branches[place].relaxation_time;
                 let [moduli, times] = [&found.moduli, &found.relaxation_times];
                 [(modulus, &moduli[place]), (part, &times[place])]
@@ -225,9 +226,12 @@ impl<'a> Model<'a> {
         let modulus = |branch: &RelaxationBranch| branch.modulus;
         let moduli = branches.iter().map(modulus).zip(&found.moduli);
         let other = self.power_law(parameters[0].exp(), parameters[1] + BETA_STEP)?;
-        let others = other.branches().iter().map(modulus);
+        let others = other
+            .branches()
+            .iter()
+            .map(modulus)
+            .chain([other.equilibrium_modulus(), other.viscosity()]);
         let ends = [spring, (spectrum.viscosity(), &found.viscosity)];
-        let others = others.chain([other.equilibrium_modulus(), other.viscosity()]);
         let mut by_beta = vec![0.0; found.normal_force.len()];
         for ((modulus, row), other) in moduli.chain(ends).zip(others) {
             let slope = (other - modulus) / BETA_STEP;

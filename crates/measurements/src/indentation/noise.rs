@@ -86,8 +86,9 @@ impl Noise {
     pub(super) fn candidates(time: &[f64]) -> Vec<Self> {
         let length = time[time.len() - 1] - time[0];
         let shortest = 0.5 * length / time.len() as f64;
-        let times = (0..).map(|k| shortest * TIME_RATIO.powi(k));
-        let times = times.take_while(|time| *time <= length);
+        let times = (0..)
+            .map(|k| shortest * TIME_RATIO.powi(k))
+            .take_while(|time| *time <= length);
         let lasting = times.flat_map(|time| CORRELATED_FRACTIONS.map(|part| Self { time, part }));
         [Self::WHITE].into_iter().chain(lasting).collect()
     }
@@ -243,8 +244,10 @@ impl Linear<'_> {
             .columns
             .split_last()
             .map_or((&[][..], &[][..]), |(l, r)| (&l[..], r));
-        let concerned = rows.iter().map(|row| row[range.clone()].to_vec());
-        let concerned = concerned.filter(|row| row.iter().any(|slope| *slope != 0.0));
+        let concerned = rows
+            .iter()
+            .map(|row| row[range.clone()].to_vec())
+            .filter(|row| row.iter().any(|slope| *slope != 0.0));
         Linear {
             time: &self.time[range.clone()],
             counts: &self.counts[range.clone()],

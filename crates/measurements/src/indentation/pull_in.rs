@@ -149,8 +149,9 @@ impl<'a> Approach<'a> {
         };
         let n = self.depth.len();
         let line = Line::through(&self.sums[baseline]);
-        let widths = (0..).map(|k| MIN_FALL_POINTS << k);
-        let widths = widths.take_while(|width| 4 * width <= n);
+        let widths = (0..)
+            .map(|k| MIN_FALL_POINTS << k)
+            .take_while(|width| 4 * width <= n);
         // Select windows that are significant for white noise; the test for correlated noise follows.
         let windows = widths.filter_map(|width| {
             let firsts = (baseline..(n + 1).saturating_sub(width)).step_by(width / 3);
@@ -215,9 +216,9 @@ impl<'a> Approach<'a> {
         let is_after = [vec![0.0; baseline], vec![1.0; window.len()]].concat();
         let columns = [vec![1.0; time.len()], depth, is_after, force];
         let of_noise = likely.iter().map(|(noise, variance)| {
-            let mut columns = columns.clone();
-            noise.whiten(&time, &counts, &mut columns);
-            let [rise, error] = last_coefficient(&columns);
+            let mut whitened = columns.clone();
+            noise.whiten(&time, &counts, &mut whitened);
+            let [rise, error] = last_coefficient(&whitened);
             [-rise, variance * error]
         });
         let of_noise: Vec<[f64; 2]> = of_noise.collect();

@@ -164,8 +164,8 @@ pub fn indentation_curve(
 /// Note on the columns that are read if there are others of their kind.
 fn left_out(table: &Table) -> Option<String> {
     let quoted = |names: &[&str]| {
-        let names = names.iter().map(|name| format!("'{name}'"));
-        names.collect::<Vec<_>>().join(", ")
+        let quoted: Vec<String> = names.iter().map(|name| format!("'{name}'")).collect();
+        quoted.join(", ")
     };
     let read = table.needed.iter().filter_map(|one| table.find(*one));
     let read: Vec<&str> = read.map(|column| column.name).collect();
@@ -188,8 +188,9 @@ impl Stated {
         // Read the constants as JPK and Asylum, afmformats, Optics11 and AFM Workshop write them. A 1 of AFM Workshop is its
         // default and says nothing.
         let workshop = |name| number_after(text, name).filter(|number| differs(*number, 1.0));
-        let stiffness = ["pringConstant:", "\"spring constant\":", "k (N/m)"];
-        let stiffness = stiffness.iter().find_map(|name| number_after(text, name));
+        let stiffness = ["pringConstant:", "\"spring constant\":", "k (N/m)"]
+            .iter()
+            .find_map(|name| number_after(text, name));
         let gain = workshop("Light Lever Gain, mV/nm:");
         Self {
             spring_constant: stiffness.or_else(|| workshop("Force Constant, nN/nm:")),
@@ -246,9 +247,9 @@ fn differs(number: f64, other: f64) -> bool {
 /// The number after the first `name` in a text; `None` if there is none, or it is not greater than 0.
 fn number_after(text: &str, name: &str) -> Option<f64> {
     let (_, after) = text.split_once(name)?;
-    let after = after.trim_start_matches([' ', '\t', ':', '"']);
-    let end = after.find(|one: char| !one.is_ascii_alphanumeric() && !".+-".contains(one));
-    let number: f64 = after[..end.unwrap_or(after.len())].parse().ok()?;
+    let value = after.trim_start_matches([' ', '\t', ':', '"']);
+    let end = value.find(|one: char| !one.is_ascii_alphanumeric() && !".+-".contains(one));
+    let number: f64 = value[..end.unwrap_or(value.len())].parse().ok()?;
     (number > 0.0 && number.is_finite()).then_some(number)
 }
 

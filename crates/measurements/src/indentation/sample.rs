@@ -139,8 +139,8 @@ impl<'a> ProfileTable<'a> {
         let radius = match contact_radius(body, width) {
             Err(IndenterError::NotHighEnough { .. }) => Ok(body.max_radius()),
             other => other,
-        };
-        let radius = radius.map_err(FrictionError::from)?;
+        }
+        .map_err(FrictionError::from)?;
         let n_steps =
             ((MAX_THICKNESS_RATIO / MIN_THICKNESS_RATIO).ln() / LOG_THICKNESS_STEP).ceil();
         #[expect(

@@ -268,8 +268,8 @@ fn sort_branches(kind: Kind, parameters: Vec<f64>) -> Vec<f64> {
     };
     let mut branches: Vec<&[f64]> = parameters[1..=2 * n].chunks(2).collect();
     branches.sort_by(|one, other| one[1].total_cmp(&other[1]));
-    let branches = branches.concat();
-    [&parameters[..1], &branches, &parameters[2 * n + 1..]].concat()
+    let sorted = branches.concat();
+    [&parameters[..1], &sorted, &parameters[2 * n + 1..]].concat()
 }
 
 /// Smallest distance of the residual of an outlier from the median of its neighbours, in their standard deviations. Chosen.

@@ -57,8 +57,8 @@ pub(super) fn start(
     let (starts, refused): (Vec<_>, Vec<_>) = found.partition(Result::is_ok);
     let best = |one: &Start, other: &Start| one.residual.total_cmp(&other.residual);
     let found = starts.into_iter().flatten().min_by(best);
-    let refused = refused.into_iter().find_map(Result::err);
-    found.ok_or_else(|| refused.unwrap_or(MeasurementError::NotConverged))
+    let reason = refused.into_iter().find_map(Result::err);
+    found.ok_or_else(|| reason.unwrap_or(MeasurementError::NotConverged))
 }
 
 /// Index of the first point near the largest depth.

@@ -175,8 +175,9 @@ fn measurements(
         let problem = "relaxation at several temperatures is not shifted: give a master curve";
         return Err(source.wrong_line(second.line, &problem));
     }
-    let groups = groups.into_iter();
-    let rows = groups.flat_map(|group| group.rows.into_values());
+    let rows = groups
+        .into_iter()
+        .flat_map(|group| group.rows.into_values());
     if kind.is_creep {
         let point = |IsothermRow { at, moduli, .. }: IsothermRow| CreepPoint {
             time: at,

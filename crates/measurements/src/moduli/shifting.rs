@@ -57,11 +57,12 @@ pub fn master_curve(
         },
     };
     let temperatures = table.temperatures();
-    let middle = temperatures.get(temperatures.len() / 2);
-    let middle = middle.ok_or(RheologyError::TooFewPoints {
-        needed: 1,
-        given: 0,
-    })?;
+    let middle = temperatures
+        .get(temperatures.len() / 2)
+        .ok_or(RheologyError::TooFewPoints {
+            needed: 1,
+            given: 0,
+        })?;
     let reference = shifting.reference_temperature.unwrap_or(*middle);
     finite("reference_temperature", reference)?;
     let wanted = shifting.temperature.unwrap_or(reference);
@@ -163,9 +164,12 @@ impl Table<'_> {
         let mut shifts: Vec<[f64; 2]> = master.shifts.iter().map(pair).collect();
         shifts.sort_by(|one, other| one[0].total_cmp(&other[0]));
         // The law is needed to go on to another temperature, and kept with the master curve if there is one.
-        let shift = fit_law_around(&shifts, [nearest, wanted].map(celsius));
         let vertical = self.vertical_law(&master);
-        let shift = shift.map(|shift| Shift { vertical, ..shift });
+        let shift =
+            fit_law_around(&shifts, [nearest, wanted].map(celsius)).map(|horizontal| Shift {
+                vertical,
+                ..horizontal
+            });
         if wanted.total_cmp(&nearest).is_eq() {
             return Ok(Shifted { master, shift });
         }
@@ -249,8 +253,10 @@ fn fit_closest_law(shifts: &[[f64; 2]], reference: f64) -> Option<Shift> {
         vertical: None,
     };
     let misfit = |shift: &Shift| deviation(shift, shifts);
-    let laws = laws.into_iter().filter_map(Result::ok).map(shift);
-    laws.min_by(|one, other| misfit(one).total_cmp(&misfit(other)))
+    laws.into_iter()
+        .filter_map(Result::ok)
+        .map(shift)
+        .min_by(|one, other| misfit(one).total_cmp(&misfit(other)))
 }
 
 /// Largest deviation of shifts from a law, in decades.

@@ -91,8 +91,11 @@ impl Vocabulary {
             .replace([' ', '_', '-', '.'], "");
         let with_symbol =
             |&(symbol, quantity, deformation): &(&str, Quantity, Option<Deformation>)| {
-                let rest = name.strip_suffix(')').unwrap_or(&name).strip_suffix(symbol);
-                let rest = rest.or_else(|| name.strip_prefix(symbol))?;
+                let rest = name
+                    .strip_suffix(')')
+                    .unwrap_or(&name)
+                    .strip_suffix(symbol)
+                    .or_else(|| name.strip_prefix(symbol))?;
                 let found = self.find(rest.trim_matches(['(', ')', ',']))?;
                 (self.known[found].0 == quantity).then_some((found, deformation))
             };
@@ -112,10 +115,11 @@ impl Vocabulary {
 
     /// Whether a text has Chinese or Japanese names in it.
     pub(super) fn has_ideographs_in(&self, text: &str) -> bool {
-        let words = self.known.iter().flat_map(|(.., words)| words.split(' '));
         let is_ideograph = |letter| letter > '\u{3000}';
-        let mut words = words.filter(|word| word.contains(is_ideograph));
-        words.any(|word| text.contains(word))
+        self.known
+            .iter()
+            .flat_map(|(.., words)| words.split(' '))
+            .any(|word| word.contains(is_ideograph) && text.contains(word))
     }
 }
 
@@ -157,8 +161,9 @@ fn fold_accents(name: &str) -> String {
 pub(crate) fn split_unit(cell: &str) -> impl Iterator<Item = (&str, &str)> {
     let prefix = PREFIXES.iter().find(|(prefix, _)| cell.starts_with(prefix));
     let cell = prefix.map_or(cell, |(prefix, _)| &cell[prefix.len()..]);
-    let bracket = cell.strip_suffix([')', ']', '）']);
-    let bracket = bracket.and_then(|cell| cell.rsplit_once(['(', '[', '（']));
+    let bracket = cell
+        .strip_suffix([')', ']', '）'])
+        .and_then(|cell| cell.rsplit_once(['(', '[', '（']));
     // The name and the half of a ramp may have the unit between them or behind them.
     let half = |name| {
         SUFFIXES
@@ -166,11 +171,12 @@ pub(crate) fn split_unit(cell: &str) -> impl Iterator<Item = (&str, &str)> {
             .find_map(|(half, _)| str::strip_suffix(name, half))
     };
     let name = half(cell).unwrap_or(cell);
-    let ramp = name.rsplit_once('_');
-    let ramp = ramp.and_then(|(name, unit)| match half(name) {
-        None if name.len() + unit.len() + 1 == cell.len() => None,
-        before => Some((before.unwrap_or(name), unit)),
-    });
+    let ramp = name
+        .rsplit_once('_')
+        .and_then(|(name, unit)| match half(name) {
+            None if name.len() + unit.len() + 1 == cell.len() => None,
+            before => Some((before.unwrap_or(name), unit)),
+        });
     let comma = cell.split_once(", ");
     let parts = [Some((cell, "")), bracket, cell.split_once('/'), comma, ramp];
     parts.into_iter().flatten()
@@ -258,11 +264,14 @@ impl Quantity {
 
     /// Canonical unit with its factor to SI; `None` for an unknown unit. Temperatures are not converted.
     pub(crate) fn unit(self, unit: &str) -> Option<(&'static str, f64)> {
-        let unit = unit.trim().trim_matches(['[', ']', '(', ')']).trim();
-        let unit = unit.replace(['µ', 'μ'], "u");
-        let same = SAME_UNITS.iter().find(|(other, _)| *other == unit);
-        let unit = same.map_or(&*unit, |(_, usual)| usual);
-        let known = self.units().split(' ').find(|known| *known == unit)?;
+        let written = unit
+            .trim()
+            .trim_matches(['[', ']', '(', ')'])
+            .trim()
+            .replace(['µ', 'μ'], "u");
+        let same = SAME_UNITS.iter().find(|(other, _)| *other == written);
+        let usual = same.map_or(&*written, |(_, usual)| usual);
+        let known = self.units().split(' ').find(|known| *known == usual)?;
         Some((known, self.factor(known)))
     }
 

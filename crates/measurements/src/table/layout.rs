@@ -64,9 +64,11 @@ impl Layout {
                     *counts.entry((others, cells.len(), numbers)).or_insert(0) += 1;
                 }
             }
-            let counts = counts.into_iter();
-            let ranks = counts.map(|((others, ..), lines)| (Reverse(lines), others));
-            ranks.min().unwrap_or((Reverse(0), usize::MAX))
+            counts
+                .into_iter()
+                .map(|((others, ..), lines)| (Reverse(lines), others))
+                .min()
+                .unwrap_or((Reverse(0), usize::MAX))
         };
         // A text without numbers is refused later, with these separators in the message.
         layouts.min_by_key(rank).unwrap_or(Self {
@@ -107,13 +109,13 @@ impl Layout {
 
     /// Names in a line, which may be a comment; with blanks as separators, names that contain blanks are two blanks apart.
     pub(crate) fn names(self, line: &str) -> Vec<&str> {
-        let line = line.trim_start_matches(COMMENT_MARKS);
-        let line = tagged(line).map_or(line, |(_, names)| names);
-        if self.is_blank() && line.trim().contains("  ") {
-            let names = line.split("  ").map(str::trim);
+        let unmarked = line.trim_start_matches(COMMENT_MARKS);
+        let untagged = tagged(unmarked).map_or(unmarked, |(_, names)| names);
+        if self.is_blank() && untagged.trim().contains("  ") {
+            let names = untagged.split("  ").map(str::trim);
             return names.filter(|name| !name.is_empty()).collect();
         }
-        self.cells(line)
+        self.cells(untagged)
     }
 
     /// The number in a cell, with the decimal mark of the layout; `None` for a text and for a number that is not finite.

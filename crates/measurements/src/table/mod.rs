@@ -176,10 +176,11 @@ impl<'a> Source<'a> {
             } else {
                 unit
             };
-            let deformation = deformation.or(self.meaning.deformation);
             Some(Column {
                 quantity,
-                deformation: deformation.filter(|_| quantity.is_modulus()),
+                deformation: deformation
+                    .or(self.meaning.deformation)
+                    .filter(|_| quantity.is_modulus()),
                 name,
                 place,
                 order,
@@ -203,10 +204,10 @@ impl<'a> Source<'a> {
     /// List of the columns of a line, for messages.
     fn found(&self, line: &Line) -> String {
         let names = self.layout.names(line.text);
-        let names = names.iter().map(|name| format!("'{}'", shown(name, 40)));
-        let names = shown(&names.collect::<Vec<_>>().join(", "), 400);
+        let quoted = names.iter().map(|name| format!("'{}'", shown(name, 40)));
+        let list = shown(&quoted.collect::<Vec<_>>().join(", "), 400);
         let separators = self.layout.separators();
-        format!("separated by {separators}, the columns are {names}")
+        format!("separated by {separators}, the columns are {list}")
     }
 
     /// Error for a text without a line of names, at the line that is most similar to one.
@@ -342,8 +343,8 @@ impl<'a> Table<'a> {
             .iter()
             .map(|one| format!("'{}'", one.shown()))
             .collect();
-        let names = names.join(" and ");
-        let problem = format!("{option} has no effect, because there is {names}: leave it out");
+        let list = names.join(" and ");
+        let problem = format!("{option} has no effect, because there is {list}: leave it out");
         self.source.wrong_line(self.line, &problem)
     }
 
