@@ -44,15 +44,15 @@ impl Measured<'_> {
             };
             return friction_points(&file, &contents, &options).map_err(wrong);
         };
-        let columns = columns.each_ref();
-        let columns = columns.map(|one| one.as_ref().map(|one| one.as_array().to_vec()));
         let [
             velocity,
             friction,
             standard_error,
             temperature,
             normal_force,
-        ] = columns;
+        ] = columns
+            .each_ref()
+            .map(|one| one.as_ref().map(|one| one.as_array().to_vec()));
         let at = |column: &Option<Vec<f64>>, row: usize| column.as_ref().map(|all| all[row]);
         let pairs = velocity.iter().flatten().zip(friction.iter().flatten());
         let points = pairs
@@ -103,8 +103,10 @@ pub(crate) fn fit_points(py: Python<'_>, measured: Measured<'_>) -> PyResult<Str
     let scene = Scene::try_from(table(&measured.scene, "")?).map_err(wrong)?;
     let (FrictionTable { points, notes }, options) = (measured.table()?, measured.options()?);
     let folder = measured.folder.clone();
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(scene.solve.threads.unwrap_or(0));
-    let pool = pool.build().map_err(wrong)?;
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(scene.solve.threads.unwrap_or(0))
+        .build()
+        .map_err(wrong)?;
     let fit = || fit_friction(&scene, (&folder, read_file), &points, &options, &|_| ());
     let found = py.detach(|| pool.install(fit)).map_err(wrong)?;
     let mut found = serde_json::to_value(&found).map_err(wrong)?;

@@ -137,8 +137,9 @@ pub(crate) fn fit_curve<'py>(py: Python<'py>, curve: Curve<'py>) -> PyResult<Bou
         curve: measured,
         notes,
     } = curve.measured()?;
-    let fit = py.detach(|| fit_indentation(&*body, &measured, &options));
-    let mut fit = fit.map_err(|error| curve.refused(&error))?;
+    let mut fit = py
+        .detach(|| fit_indentation(&*body, &measured, &options))
+        .map_err(|error| curve.refused(&error))?;
     fit.notes.splice(0..0, notes);
     to_python(py, fit)
 }
@@ -151,9 +152,11 @@ fn to_python(py: Python<'_>, fit: IndentationFit) -> PyResult<Bound<'_, PyDict>>
     };
     let findings: Vec<_> = fit.findings.iter().map(finding).collect();
     let spectrum = rheology::Material::relaxation(&fit.material);
-    let branches = spectrum.branches().iter();
-    let branches = branches.map(|branch| (branch.modulus, branch.relaxation_time));
-    let branches: Vec<_> = branches.collect();
+    let branches: Vec<_> = spectrum
+        .branches()
+        .iter()
+        .map(|branch| (branch.modulus, branch.relaxation_time))
+        .collect();
     let points = [0, 1, 2, 3].map(|k| {
         let column: Vec<f64> = fit.points.iter().map(|point| point[k]).collect();
         column.into_pyarray(py)

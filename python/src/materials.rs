@@ -146,8 +146,8 @@ pub(crate) fn expand_relaxation<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let raised = OnceCell::new();
     let modulus = |time: f64| {
-        let value = relaxation_modulus.call1((time,));
-        let value = value.and_then(|value| value.extract::<f64>());
+        let returned = relaxation_modulus.call1((time,));
+        let value = returned.and_then(|value| value.extract::<f64>());
         // NaN makes the expansion fail; the exception is then raised.
         value.unwrap_or_else(|error| {
             raised.get_or_init(|| error);

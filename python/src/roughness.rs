@@ -86,9 +86,9 @@ pub(crate) fn topography(
     table: &HeightMapTable,
 ) -> PyResult<Topography> {
     let spacing = table.spacing.ok_or_else(|| wrong("spacing is missing"))?;
-    let heights = heights.as_array();
-    let shape = [heights.nrows(), heights.ncols()];
+    let array = heights.as_array();
+    let shape = [array.nrows(), array.ncols()];
     // The iterator yields rows independent of the strides.
-    let heights = heights.iter().copied().collect();
-    Ok(Topography::of_rows(shape, spacing, heights))
+    let by_rows = array.iter().copied().collect();
+    Ok(Topography::of_rows(shape, spacing, by_rows))
 }

@@ -49,8 +49,8 @@ impl Scenes {
     /// Problem number `index`, with one of `parts` equal parts of the memory.
     fn problem(&self, index: usize, parts: u64) -> PyResult<Problem> {
         let scene = self.scene(index, parts).map_err(wrong)?;
-        let problem = Problem::with_parts(&scene, self.parts.clone(), &self.folder, read_file);
-        let problem = problem.map_err(wrong)?;
+        let problem = Problem::with_parts(&scene, self.parts.clone(), &self.folder, read_file)
+            .map_err(wrong)?;
         plan(&problem).map_err(wrong)?;
         Ok(problem)
     }
@@ -101,10 +101,10 @@ pub(crate) struct Loads<'py> {
 impl Loads<'_> {
     /// The scenes of the arguments.
     fn scenes(&self) -> PyResult<Scenes> {
-        let columns = self.columns.iter().map(|(name, values)| {
-            let values = values.as_array().to_vec();
-            Ok((column(name)?, values))
-        });
+        let columns = self
+            .columns
+            .iter()
+            .map(|(name, values)| Ok((column(name)?, values.as_array().to_vec())));
         let mut scene = Scene::try_from(table(&self.scene, "")?).map_err(wrong)?;
         if let Some((control, times, values)) = &self.history {
             let (times, values) = (times.as_array(), values.as_array());
@@ -214,8 +214,10 @@ fn to_python(
                 for (column, (_, value)) in columns.iter_mut().zip(answer.numbers()) {
                     column[index] = value.unwrap_or(f64::NAN);
                 }
-                let json = has_text.then(|| serde_json::to_string(&answer));
-                let json = json.transpose().map_err(wrong)?;
+                let json = has_text
+                    .then(|| serde_json::to_string(&answer))
+                    .transpose()
+                    .map_err(wrong)?;
                 let other = other(py, answer)?;
                 other.set_item("json", json)?;
                 others.append(other)?;
@@ -445,8 +447,8 @@ pub(crate) fn sweep_problem(
 ) -> PyResult<Option<(usize, String)>> {
     let plan = sweep.plan()?;
     let header = header(&plan);
-    let rows = rows.into_iter().enumerate();
-    let mut problems = rows.filter_map(|(place, (point, fields))| {
+    let numbered = rows.into_iter().enumerate();
+    let mut problems = numbered.filter_map(|(place, (point, fields))| {
         let row = SweepRow { point, fields };
         let other = || "it holds other points".to_owned();
         match row.check(&header) {

@@ -113,8 +113,7 @@ fn value(object: &Bound<'_, PyAny>, path: &str) -> PyResult<Value> {
     }
     // Includes file paths.
     if let Ok(file) = object.extract::<std::path::PathBuf>() {
-        let file = file.to_string_lossy().into_owned();
-        return Ok(Value::String(file));
+        return Ok(Value::String(file.to_string_lossy().into_owned()));
     }
     let kind = object.get_type();
     Err(wrong(format!(

@@ -86,11 +86,11 @@ impl<F: Fn([f64; 2]) -> (f64, [f64; 2]) + Send + Sync> Surface for Formula<F> {
 
 /// The body of revolution Σ c r^p of pairs of coefficient and exponent.
 pub fn superposition(terms: &[(f64, f64)]) -> Superposition {
-    let terms = terms.iter().map(|&(coefficient, exponent)| PowerTerm {
+    let powers = terms.iter().map(|&(coefficient, exponent)| PowerTerm {
         coefficient,
         exponent,
     });
-    Superposition::new(terms.collect()).expect("a sum of powers")
+    Superposition::new(powers.collect()).expect("a sum of powers")
 }
 
 impl Case {

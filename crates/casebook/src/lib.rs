@@ -29,7 +29,7 @@ use proptest::strategy::Strategy;
 use proptest::test_runner::{Config, RngSeed};
 use serde_json::Value;
 
-/// So many random cases, the same in every run, and no file left behind.
+/// Configuration of `cases` random cases, the same in every run, without a file of failed cases.
 pub fn fixed_cases(cases: u32) -> Config {
     Config {
         cases,
@@ -63,13 +63,14 @@ pub struct Case(Value);
 pub fn group(name: &str) -> Vec<Case> {
     let book: Value =
         serde_json::from_str(include_str!("../casebook.json")).expect("the casebook is valid JSON");
-    let cases = book["cases"].as_array();
-    let cases = cases.expect("the casebook has a list of cases").iter();
+    let all = book["cases"]
+        .as_array()
+        .expect("the casebook has a list of cases");
     let is_member = |case: &&Value| {
         let id = case["id"].as_str().unwrap_or_default();
         id.split('/').next() == Some(name)
     };
-    let cases: Vec<Case> = cases.filter(is_member).cloned().map(Case).collect();
+    let cases: Vec<Case> = all.iter().filter(is_member).cloned().map(Case).collect();
     assert!(!cases.is_empty(), "the casebook has no group {name}");
     cases
 }
@@ -135,8 +136,10 @@ impl Case {
 
     /// Like [`Case::check`] with a tolerance of the caller's.
     pub fn check_within(&self, name: &str, actual: f64, relative_tolerance: f64) {
-        let (id, expected) = (self.id(), self.expected(name));
-        let expected = expected.unwrap_or_else(|| panic!("{id} expects no number {name}"));
+        let id = self.id();
+        let expected = self
+            .expected(name)
+            .unwrap_or_else(|| panic!("{id} expects no number {name}"));
         let absolute_tolerance = number(&self.0["abs_tol"]).unwrap_or(0.0);
         let allowed = relative_tolerance * expected.abs() + absolute_tolerance;
         let difference = (actual - expected).abs();

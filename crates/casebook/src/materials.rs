@@ -10,8 +10,8 @@ use crate::{Case, group};
 /// The material of a lone spring \[Pa], a lone dashpot \[Pa s], and branches of modulus \[Pa] and relaxation time \[s].
 pub fn prony([equilibrium_modulus, viscosity]: [f64; 2], branches: &[(f64, f64)]) -> Prony {
     let branch = |&(modulus, time)| RelaxationBranch::new(modulus, time);
-    let branches = branches.iter().map(branch).collect();
-    let relaxation = RelaxationSpectrum::new(equilibrium_modulus, viscosity, branches);
+    let in_order = branches.iter().map(branch).collect();
+    let relaxation = RelaxationSpectrum::new(equilibrium_modulus, viscosity, in_order);
     Prony::new(relaxation.expect("moduli")).expect("a material")
 }
 
@@ -31,10 +31,11 @@ pub fn standard_solid(
 
 /// A model that rows name, `"P3"` or `"P10"`, by its numbers in group RHE-05.
 pub fn model(name: &str) -> Prony {
-    let rows = group("RHE-05").into_iter();
-    let mut rows = rows.filter(|row| row.has_input("Ge"));
-    let row = rows.find(|row| row.input_text("model") == name);
-    row.expect("a model of RHE-05").material()
+    group("RHE-05")
+        .into_iter()
+        .find(|row| row.has_input("Ge") && row.input_text("model") == name)
+        .expect("a model of RHE-05")
+        .material()
 }
 
 impl Case {

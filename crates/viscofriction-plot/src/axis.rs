@@ -51,9 +51,11 @@ impl Axis {
         if high <= 0.0 {
             return Self::log10(label, [0.1, 1.0]);
         }
-        let low = low.log10().floor();
-        let high = (high.log10() * (1.0 + f64::EPSILON)).ceil().max(low + 1.0);
-        Self::log10(label, [low, high].map(|decade| 10_f64.powf(decade)))
+        let first = low.log10().floor();
+        let last = (high.log10() * (1.0 + f64::EPSILON))
+            .ceil()
+            .max(first + 1.0);
+        Self::log10(label, [first, last].map(|decade| 10_f64.powf(decade)))
     }
 
     /// Refuses a range that cannot be drawn.

@@ -17,8 +17,10 @@ pub struct Figure {
 impl Figure {
     /// Figure of charts in a number of `columns`.
     pub fn new(charts: impl IntoIterator<Item = Chart>, columns: usize) -> Self {
-        let charts = charts.into_iter().collect();
-        Self { charts, columns }
+        Self {
+            charts: charts.into_iter().collect(),
+            columns,
+        }
     }
 
     /// Figure of a single chart.

@@ -38,14 +38,17 @@ impl Raster {
 
     /// The image as a URL with its PNG file.
     pub(crate) fn data_url(&self) -> Result<String, PlotError> {
-        let png = self.pixels.encode_png();
-        let png = png.map_err(|error| PlotError::Render(error.to_string()))?;
+        let png = self
+            .pixels
+            .encode_png()
+            .map_err(|error| PlotError::Render(error.to_string()))?;
         Ok(format!("data:image/png;base64,{}", base64(&png)))
     }
 }
 
 /// Bytes in the encoding base64 (RFC 4648, Section 4).
 fn base64(bytes: &[u8]) -> String {
+    /// Letters of the digits 0 to 63.
     const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
     for group in bytes.chunks(3) {

@@ -10,7 +10,7 @@ use crate::estimate::averages::Refinement;
 use crate::estimate::quantities::{Name, Quantities};
 
 /// Index of the friction from the dissipated power in vectors of quantities, after those of [`Name`].
-const DISSIPATED: usize = Name::ALL.len();
+const DISSIPATED: usize = Name::IN_ORDER.len();
 /// Error of each end of a contact, in elements. Chosen above one element (case of `evidence tuning`).
 ///
 /// The contact boundary follows the elements, and each outermost element is in contact as a whole or not at all. The test
@@ -84,7 +84,7 @@ pub(crate) struct OnGrid<S, O> {
 }
 
 impl<S, O> OnGrid<S, O> {
-    /// The quantities of the grid for the refinement, in the order of [`Name::ALL`], then the friction from dissipation if it is known.
+    /// The quantities of the grid for the refinement, in the order of [`Name::IN_ORDER`], then the friction from dissipation if it is known.
     ///
     /// Normal force and the quantity `target` control the refinement: they are refined to the error asked for.
     fn quantities_for(&self, target: Name) -> Vec<Quantity> {

@@ -17,7 +17,7 @@ pub(crate) enum Name {
 
 impl Name {
     /// All names, in the order of their indices.
-    pub(crate) const ALL: [Self; 5] = [
+    pub(crate) const IN_ORDER: [Self; 5] = [
         Self::Friction,
         Self::Force,
         Self::Depth,
@@ -25,14 +25,14 @@ impl Name {
         Self::Peak,
     ];
 
-    /// Index in a vector with one entry for each name, in the order of [`ALL`](Self::ALL).
+    /// Index in a vector with one entry for each name, in the order of [`IN_ORDER`](Self::IN_ORDER).
     pub(crate) const fn index(self) -> usize {
         self as usize
     }
 
     /// The description of the quantity with this index; for a history the quantities of all rows follow each other.
     pub(crate) fn of_quantity(index: usize) -> &'static str {
-        Self::ALL[index % Self::ALL.len()].description()
+        Self::IN_ORDER[index % Self::IN_ORDER.len()].description()
     }
 
     /// Words for the quantity in error messages, with its unit.
@@ -86,8 +86,10 @@ impl<T: Copy> Quantities<T> {
         }
     }
 
-    /// Names and values in the order of [`Name::ALL`].
+    /// Names and values in the order of [`Name::IN_ORDER`].
     pub(crate) fn iter(&self) -> impl Iterator<Item = (Name, T)> {
-        Name::ALL.into_iter().map(|name| (name, self.get(name)))
+        Name::IN_ORDER
+            .into_iter()
+            .map(|name| (name, self.get(name)))
     }
 }

@@ -112,7 +112,7 @@ pub fn move_along_memory(
     };
     let extent = MarchExtent {
         passed_length: front - rear,
-        // The last load is stored beside the history variables.
+        // The last load is stored in addition to the history variables.
         numbers_per_element: copies * (n_history_variables(&problem.creep) + 1),
         n_steps: load.n_steps(STEPS_PER_ELEMENT * elements, max_step_length, MAX_STEPS)?,
     };
@@ -195,8 +195,8 @@ impl<'a> MovingBody<'a> {
         let start = self.load.stages()[0].start;
         let touch = TOUCH_DURATION_RATIO * steps[0].duration;
         let ends = steps.iter().map(|step| (step.end, step.duration));
-        let motions = std::iter::once((start, touch)).chain(ends);
-        let motions = motions.map(|(point, duration)| TimedMotion {
+        let points = std::iter::once((start, touch)).chain(ends);
+        let motions = points.map(|(point, duration)| TimedMotion {
             end: Motion {
                 time: point.time,
                 position: point.position - start.position,

@@ -165,8 +165,8 @@ fn unit_behind<'a>(line: &'a str, name: &str) -> Option<&'a str> {
                 return Some(unit.trim());
             }
         }
-        let rest = rest.strip_prefix(['/', '_'])?;
-        return rest.trim_start().split([' ', '\t', ',', ';', '"']).next();
+        let unit = rest.strip_prefix(['/', '_'])?.trim_start();
+        return unit.split([' ', '\t', ',', ';', '"']).next();
     }
     None
 }

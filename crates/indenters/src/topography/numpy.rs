@@ -82,10 +82,13 @@ fn size_of_number(header: &str) -> Result<usize, String> {
         Some(value) if value.starts_with("'<f8'") => Ok(F64_BYTES),
         Some(value) if value.starts_with("'<f4'") => Ok(F32_BYTES),
         Some(value) => {
-            let letters = value.chars().filter(|letter| !letter.is_control());
-            let letters = letters.take_while(|letter| *letter != ',').take(40);
+            let found: String = value
+                .chars()
+                .filter(|letter| !letter.is_control())
+                .take_while(|letter| *letter != ',')
+                .take(40)
+                .collect();
             let needed = "little-endian floats are needed, '<f8' or '<f4'";
-            let found = letters.collect::<String>();
             Err(format!(
                 "{needed}, and not {found}: save heights.astype(\"<f8\")"
             ))
@@ -107,15 +110,14 @@ fn is_by_column(header: &str) -> Result<bool, String> {
 
 /// The numbers of rows and columns of the array; fails for another number of dimensions.
 fn shape_of(header: &str) -> Result<[usize; 2], String> {
-    let lengths = || {
+    let stated_lengths = || -> Option<Vec<usize>> {
         let tuple = value_of(header, "'shape'")?.strip_prefix('(')?;
         let (tuple, _) = tuple.split_once(')')?;
         // A tuple may end with a comma.
         let lengths = tuple.trim().split_terminator(',');
         lengths.map(|length| length.trim().parse().ok()).collect()
     };
-    let lengths: Option<Vec<usize>> = lengths();
-    let lengths = lengths.ok_or_else(|| without("its shape, as in 'shape': (3, 4)"))?;
+    let lengths = stated_lengths().ok_or_else(|| without("its shape, as in 'shape': (3, 4)"))?;
     <[usize; 2]>::try_from(lengths).map_err(|lengths| {
         let dimensions = lengths.len();
         format!("an array of 2 dimensions is needed, and not of {dimensions}")

@@ -149,8 +149,10 @@ pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, ReadFa
         return Err(format!("{given} bytes for {columns} × {rows} points").into());
     };
     memory.require_heights(points)?;
-    let heights = data.chunks_exact(head.data_type.bytes());
-    let heights = heights.map(|bytes| head.data_type.number(bytes)).collect();
+    let heights = data
+        .chunks_exact(head.data_type.bytes())
+        .map(|bytes| head.data_type.number(bytes))
+        .collect();
     let mut surface = head.surface(heights);
     if !trailer.is_empty() {
         let bytes = trailer.len();
@@ -205,9 +207,11 @@ fn binary_head(contents: &[u8]) -> Result<(Head, &[u8]), String> {
 fn read_text(text: &str) -> Result<Topography, String> {
     // Stars separate the header, the heights and the rest.
     let mut parts = text.split('*');
-    let parts = parts.next().zip(parts.next());
-    let (names, data) = parts.ok_or("no '*' behind the header")?;
-    let names = Entries(names);
+    let (header, data) = parts
+        .next()
+        .zip(parts.next())
+        .ok_or("no '*' behind the header")?;
+    let names = Entries(header);
     let head = Head {
         columns: names.parsed("NumPoints")?,
         rows: names.parsed("NumProfiles")?,
@@ -217,8 +221,8 @@ fn read_text(text: &str) -> Result<Topography, String> {
             names.parsed("Zscale")?,
         ],
         data_type: DataType::of(names.parsed("DataType")?)?,
-    };
-    let head = head.validated(names.parsed("Compression")?, names.parsed("CheckType")?)?;
+    }
+    .validated(names.parsed("Compression")?, names.parsed("CheckType")?)?;
     // Read the heights and check their number; the words bad and nan mark missing ones.
     let height = |word: &str| {
         if word.eq_ignore_ascii_case("bad") || word.eq_ignore_ascii_case("nan") {
@@ -252,9 +256,9 @@ impl Entries<'_> {
         let mut pairs = self.0.lines().filter_map(|line| line.split_once('='));
         let found = pairs.find(|(key, _)| key.trim().eq_ignore_ascii_case(name));
         let (_, value) = found.ok_or_else(|| format!("no {name}"))?;
-        let value = value.trim().replace(',', ".");
-        value
+        let decimal = value.trim().replace(',', ".");
+        decimal
             .parse()
-            .map_err(|_| format!("{name} = {}", shown(&value)))
+            .map_err(|_| format!("{name} = {}", shown(&decimal)))
     }
 }

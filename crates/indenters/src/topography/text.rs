@@ -161,8 +161,10 @@ impl<'a> Sheet<'a> {
     pub(super) fn of(text: &'a str) -> Result<Self, TopographyError> {
         let notation = Notation::of(text);
         let mut rows: Vec<_> = lines(text).collect();
-        let first = rows.iter().position(|(_, line)| notation.is_row(line));
-        let first = first.ok_or_else(|| without_rows(&rows))?;
+        let first = rows
+            .iter()
+            .position(|(_, line)| notation.is_row(line))
+            .ok_or_else(|| without_rows(&rows))?;
         let above = rows.drain(..first).collect::<Vec<_>>();
         if let Some(&(line, text)) = above.iter().find(|(_, line)| !notation.is_preamble(line)) {
             let cells = notation.cells(text);
@@ -373,10 +375,10 @@ pub(super) fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
 
 /// Whether a line is a comment, after `#`, `%` or `//`.
 pub(super) fn is_comment(line: &str) -> bool {
-    let line = line.trim_start();
-    match line.strip_prefix('#') {
+    let trimmed = line.trim_start();
+    match trimmed.strip_prefix('#') {
         Some(rest) => !FAILED_FORMULAS.iter().any(|word| rest.starts_with(word)),
-        None => line.starts_with('%') || line.starts_with("//"),
+        None => trimmed.starts_with('%') || trimmed.starts_with("//"),
     }
 }
 
@@ -407,11 +409,11 @@ fn decode(contents: &[u8]) -> String {
         let units = contents
             .chunks_exact(2)
             .map(|pair| unit([pair[0], pair[1]]));
-        let letters = char::decode_utf16(units.skip_while(|unit| *unit == 0xfeff));
-        let letters = letters.map(|letter| letter.unwrap_or(char::REPLACEMENT_CHARACTER));
-        return letters.collect();
+        return char::decode_utf16(units.skip_while(|unit| *unit == 0xfeff))
+            .map(|letter| letter.unwrap_or(char::REPLACEMENT_CHARACTER))
+            .collect();
     }
-    let contents = contents.strip_prefix(b"\xef\xbb\xbf").unwrap_or(contents);
-    let latin = || contents.iter().copied().map(char::from).collect();
-    std::str::from_utf8(contents).map_or_else(|_| latin(), str::to_owned)
+    let without_mark = contents.strip_prefix(b"\xef\xbb\xbf").unwrap_or(contents);
+    let latin = || without_mark.iter().copied().map(char::from).collect();
+    std::str::from_utf8(without_mark).map_or_else(|_| latin(), str::to_owned)
 }

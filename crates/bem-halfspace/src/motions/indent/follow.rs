@@ -136,7 +136,7 @@ pub fn indent_along<'w>(
     // Take the largest error of a quantity at any point of the history as its error at all points.
     let worst = |name: Name| {
         let parts = fine.parts.iter().skip(name.index());
-        let parts_of_rows = parts.step_by(Name::ALL.len());
+        let parts_of_rows = parts.step_by(Name::IN_ORDER.len());
         let worst = parts_of_rows.max_by(|a, b| a.sum().total_cmp(&b.sum()));
         worst.copied().unwrap_or(ErrorParts::NONE)
     };
@@ -284,7 +284,7 @@ impl Path {
                 .map(|row| row_quantities(row).get(name).abs());
             values.fold(0.0, f64::max)
         };
-        let (sizes, [sought, _]) = (Name::ALL.map(largest), self.sought_and_given());
+        let (sizes, [sought, _]) = (Name::IN_ORDER.map(largest), self.sought_and_given());
         // Collect the quantities of one row. The sought one, force or depth, controls the refinement.
         let of_one_row = |row: &MotionRow| {
             let area_uncertainty = row.contact_area_uncertainty;
@@ -313,7 +313,7 @@ impl Path {
     ) -> Vec<IndentPoint> {
         let [_, given] = self.sought_and_given();
         let error = |name: Name| if name == given { 0.0 } else { error(name) };
-        let errors = Name::ALL.map(error);
+        let errors = Name::IN_ORDER.map(error);
         let point = |(step, values): (&HistoryPoint, Quantities<f64>)| {
             let known = values.map(|name, value| Estimate::new(value, errors[name.index()]));
             IndentPoint {

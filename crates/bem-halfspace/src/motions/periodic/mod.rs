@@ -162,8 +162,8 @@ fn other_errors(view: &MotionView, record: &MotionRecord) -> Vec<ErrorParts> {
     }
     let sizes = view.quantities(record).into_iter();
     let wide = sizes.map(|quantity| ErrorParts::discretisation_only(quantity.value.abs()));
-    let rests = rests.into_iter().chain(std::iter::repeat(ErrorParts::NONE));
-    wide.zip(rests)
+    let padded = rests.into_iter().chain(std::iter::repeat(ErrorParts::NONE));
+    wide.zip(padded)
         .map(|(wide, rest)| wide.plus(rest))
         .collect()
 }

@@ -105,13 +105,13 @@ impl ShiftEffects {
         let own = |link: &Link| pair_gain(fit, rows, link);
         let own: Vec<[RowDVector<f64>; 2]> = links.iter().map(own).collect();
         for (link, [shift, factor]) in links.iter().zip(&own) {
-            let mut shift = shift.clone();
+            let mut total = shift.clone();
             if let LinkedBy::Law(parts) = &link.by {
                 for (other, part) in parts {
-                    shift += &own[*other][0] * *part;
+                    total += &own[*other][0] * *part;
                 }
             }
-            for (offset, own) in [(0, &shift), (n, factor)] {
+            for (offset, own) in [(0, &total), (n, factor)] {
                 let sum = self.shift_gain.row(offset + link.fixed) + own;
                 self.shift_gain.row_mut(offset + link.moved).copy_from(&sum);
             }
