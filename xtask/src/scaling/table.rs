@@ -9,8 +9,8 @@ use serde::{Deserialize, Serialize};
 use crate::scaling::scaling_factor;
 use crate::table::GrowingTable;
 
-/// Value of 2p − 1 at the first node, with the exponent p. Node k has 2p − 1 = `LAST_ORDER` · e^(−k `NODE_DISTANCE`), from p = 64 down to
-/// 0.501: nodes are dense next to p = 1/2, where the factor s(p) bends.
+/// Value of 2p − 1 at the first node, with the exponent p. Node k has 2p − 1 = `LAST_ORDER` · e^(−k `NODE_DISTANCE`), from p = 64
+/// down to 0.501: nodes are dense next to p = 1/2, where the factor s(p) bends.
 const LAST_ORDER: f64 = 127.0;
 /// Distance of neighbouring nodes in ln(2p − 1).
 const NODE_DISTANCE: f64 = 0.153_594_4;

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use crate::support::{Evidence, number};
 
-/// Whether a fraction `part` of all bars may hold if `held` of a sample of `all` do: that share is at most two standard deviations lower.
+/// Whether a fraction `part` of all bars may hold if `held` of a sample of `all` do: that share is at most two
+/// standard deviations lower.
 fn may_be(part: f64, [held, all]: [usize; 2]) -> bool {
     let scatter = (part * (1.0 - part) * all as f64).sqrt();
     held as f64 >= part * all as f64 - 2.0 * scatter

@@ -84,7 +84,8 @@ pub(crate) struct OnGrid<S, O> {
 }
 
 impl<S, O> OnGrid<S, O> {
-    /// The quantities of the grid for the refinement, in the order of [`Name::IN_ORDER`], then the friction from dissipation if it is known.
+    /// The quantities of the grid for the refinement, in the order of [`Name::IN_ORDER`], then the friction from dissipation if it is
+    /// known.
     ///
     /// Normal force and the quantity `target` control the refinement: they are refined to the error asked for.
     fn quantities_for(&self, target: Name) -> Vec<Quantity> {

@@ -53,8 +53,8 @@ fn a_patch_of_few_elements_is_refused_with_a_larger_number() {
     assert!(with(elements).is_ok(), "{elements} elements are not enough");
 }
 
-/// Both sides of a ridge across the motion end along rows of elements, which leave or join the contact in one step. Friction is a small
-/// difference of its flanks, and several grids agree by chance.
+/// Both sides of a ridge across the motion end along rows of elements, which leave or join the contact in one step. Friction is a
+/// small difference of its flanks, and several grids agree by chance.
 #[test]
 fn bars_hold_under_ridges_with_a_top_inside_one_cell() {
     let (n, cell) = (64, 6.35e-5);

@@ -16,7 +16,8 @@ use super::{HEIGHTS, Lengths, Motion, PROFILE, Range, SPECTRUM, keys_of, read};
 use crate::evidence::unit::Unit;
 use crate::random::Random;
 
-/// Relative error requested of reciprocating motions, and of those through points, on the half space. Chosen: a smaller one takes too long.
+/// Relative error requested of reciprocating motions, and of those through points, on the half space. Chosen: a smaller one
+/// takes too long.
 const ERROR_OF_MOTION: f64 = 0.1;
 /// Range of validity of drawn shift laws, \[°C]. Chosen; reference and actual temperature are drawn from it.
 const TEMPERATURES: [f64; 2] = [10.0, 40.0];

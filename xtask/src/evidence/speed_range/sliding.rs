@@ -83,8 +83,8 @@ impl Sliding {
         Ok(power_sliding(&body, &material, &load)?.friction_coefficient)
     }
 
-    /// η = G''(ω)/ω at ω = v/b, with the contact length b that solves F_N = 4 G''(v/b) b h̃(b). Fails where no b in [`CONTACT_LENGTH_RANGE`]
-    /// does.
+    /// η = G''(ω)/ω at ω = v/b, with the contact length b that solves F_N = 4 G''(v/b) b h̃(b). Fails where no b in
+    /// [`CONTACT_LENGTH_RANGE`] does.
     fn viscosity(&self, normal_force: f64) -> Result<f64> {
         let solid = solid(self.stiffness_ratio)?;
         let modulus = |length: f64| solid.complex_modulus(self.speed / length);
