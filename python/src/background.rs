@@ -104,13 +104,13 @@ fn pool_of_process(_: Python<'_>) -> PyResult<Arc<ThreadPool>> {
     Ok(pool)
 }
 
-/// A pool of `threads` threads; 0 stands for one per core.
+/// Thread pool of `threads` threads; 0 stands for one per core.
 fn pool_of(threads: usize) -> PyResult<ThreadPool> {
     let builder = ThreadPoolBuilder::new().num_threads(threads);
     builder.build().map_err(failed)
 }
 
-/// A `RuntimeError` with a message.
+/// Exception `RuntimeError` with a message.
 fn failed(why: impl std::fmt::Display) -> PyErr {
     PyRuntimeError::new_err(why.to_string())
 }

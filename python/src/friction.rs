@@ -33,7 +33,7 @@ pub(crate) struct Measured<'py> {
 }
 
 impl Measured<'_> {
-    /// The points from the file or the columns.
+    /// The measured points, from the file or from the arrays of the call.
     fn table(&self) -> PyResult<FrictionTable> {
         let Some(columns) = &self.columns else {
             let file = self.file.clone().unwrap_or_default();

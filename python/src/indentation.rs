@@ -47,7 +47,7 @@ enum ThicknessOf {
 }
 
 impl Curve<'_> {
-    /// The thickness of the sample.
+    /// Thickness of the sample as the call gives it: a number, or "fit".
     fn thickness(&self) -> PyResult<Thickness> {
         match &self.thickness {
             None => Ok(Thickness::Infinite),
@@ -59,7 +59,7 @@ impl Curve<'_> {
         }
     }
 
-    /// The curve from the columns or the file.
+    /// The measured curve, from the arrays or from the file of the call.
     fn measured(&self) -> PyResult<CurveFile> {
         if let Some([time, depth, force]) = &self.columns {
             let [time, depth, force] = [time, depth, force].map(|one| one.as_array().to_vec());
@@ -144,7 +144,7 @@ pub(crate) fn fit_curve<'py>(py: Python<'py>, curve: Curve<'py>) -> PyResult<Bou
     to_python(py, fit)
 }
 
-/// The result as a dictionary.
+/// Result of a fit as a dictionary.
 fn to_python(py: Python<'_>, fit: IndentationFit) -> PyResult<Bound<'_, PyDict>> {
     let finding = |one: &Finding| {
         let estimate = one.estimate.map(|one| (one.value, one.error));

@@ -87,7 +87,7 @@ pub(crate) struct Options {
 }
 
 impl Options {
-    /// The validated options.
+    /// The options of the call, validated.
     fn checked(&self) -> PyResult<IdentifyOptions> {
         let control = match (self.branches, self.tolerance, self.smoothing) {
             (None, None, None) => IdentifyOptions::default().control,

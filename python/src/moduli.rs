@@ -63,12 +63,12 @@ pub(crate) fn read_moduli<'py>(
     Ok((measured, celsius))
 }
 
-/// Columns as arrays.
+/// Columns as NumPy arrays.
 fn columns<const N: usize>(py: Python<'_>, columns: [Vec<f64>; N]) -> Vec<Column<'_>> {
     columns.map(|column| column.into_pyarray(py)).into()
 }
 
-/// The columns of an isotherm.
+/// Columns of an isotherm as NumPy arrays.
 fn columns_of<'py>(py: Python<'py>, points: &[ModulusPoint]) -> Vec<Column<'py>> {
     let numbers: [fn(&ModulusPoint) -> f64; 3] =
         [|p| p.angular_frequency, |p| p.storage, |p| p.loss];
@@ -110,7 +110,7 @@ pub(crate) struct Superposition {
 }
 
 impl Superposition {
-    /// The options of the library.
+    /// Options of the superposition in the library, from those of the call.
     fn shifting(&self) -> PyResult<Shifting> {
         let law = match (self.wlf, self.arrhenius) {
             (Some(_), Some(_)) => return Err(wrong("either wlf or arrhenius, not both")),
@@ -161,7 +161,7 @@ pub(crate) fn fit_isotherms<'py>(
     Ok(dictionary)
 }
 
-/// The vertical shift of a name.
+/// The vertical shift with this name; a `ValueError` if there is none.
 fn vertical_shift(name: &str) -> PyResult<VerticalShift> {
     let named = VerticalShift::NAMED.into_iter();
     let mut kinds = named.filter_map(|(own, kind)| (own == name).then_some(kind));
@@ -173,7 +173,7 @@ fn vertical_shift(name: &str) -> PyResult<VerticalShift> {
         .ok_or_else(|| wrong(format!("vertical must be one of {names}, but is {name:?}")))
 }
 
-/// The name of a vertical shift.
+/// Name of a vertical shift; `None` if it has none.
 fn name_of(vertical: VerticalShift) -> Option<&'static str> {
     let mut named = VerticalShift::NAMED.into_iter();
     named.find_map(|(name, kind)| (kind == vertical).then_some(name))

@@ -6,7 +6,8 @@ use std::path::Path;
 
 use viscofriction::WrongInput;
 
-/// Largest table of measurements, \[bytes] (chosen).
+/// Largest table of measurements, \[bytes]. Chosen: 128 MiB, far above the export of an instrument, so that a wrong file
+/// does not fill the memory.
 const LARGEST_TABLE: u64 = 1 << 27;
 
 /// Reads a regular file of at most `most` bytes.

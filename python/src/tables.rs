@@ -12,7 +12,7 @@ use viscofriction::solve::{body, half_space};
 
 use crate::reading::read_file;
 
-/// A `ValueError` with a message.
+/// Exception `ValueError` with a message.
 pub(crate) fn wrong(problem: impl std::fmt::Display) -> PyErr {
     PyValueError::new_err(problem.to_string())
 }

@@ -300,7 +300,7 @@ fn list_of(key: &Key) -> Option<String> {
     (key.words["type"] == "array" && !keys.is_empty()).then(|| keys.join(", "))
 }
 
-/// The type of a key in Python.
+/// Type in Python of the argument for a key of a scene.
 fn type_of(key: &Key) -> String {
     let words = resolved(key.words);
     let name = match words["type"].as_str().or(words["type"][0].as_str()) {
@@ -315,7 +315,7 @@ fn type_of(key: &Key) -> String {
     name.to_owned()
 }
 
-/// The Python type of a definition that lists words.
+/// Type in Python of a definition that lists words: `Literal["a", "b"]`.
 fn literal(words: &Json) -> String {
     let choices = words["oneOf"].as_array().into_iter().flatten();
     let choices: Vec<String> = choices.map(|choice| choice["const"].to_string()).collect();

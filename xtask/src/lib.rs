@@ -89,7 +89,7 @@ enum Command {
     Ci,
 }
 
-/// Does what the command line asks for.
+/// Parses the command line and runs its command; the exit code is 0 if it succeeds.
 pub fn execute() -> ExitCode {
     let outcome = match CommandLine::parse().command {
         Command::ReproduceFigures { check: true, .. } => figures::check(),

@@ -10,7 +10,8 @@ const MAX_RUNS: f64 = 5.0;
 /// Largest number of runs of one median where a run is shorter than [`SHORT_RUN`]. Chosen: the resolution of the clock and the
 /// scheduler then disturb more runs.
 const MAX_SHORT_RUNS: f64 = 101.0;
-/// Processor time below which a run counts as short, \[s]. Chosen.
+/// Processor time below which a run counts as short, \[s]. Chosen: the slices in which a scheduler hands out time are of
+/// this order.
 const SHORT_RUN: f64 = 2e-3;
 /// Processor time that all runs of one median may take together, \[s]. Chosen, as a bound on the time of an experiment.
 const MAX_TOTAL: f64 = 3.0;
@@ -24,7 +25,7 @@ pub(crate) struct Cost {
     pub(crate) processor_seconds: f64,
 }
 
-/// Runs `work` once; its result and cost.
+/// Runs `work` once and measures its elapsed and its processor time.
 pub(crate) fn measure<T>(work: impl Fn() -> T) -> (T, Cost) {
     let (clock, processor) = (Instant::now(), ProcessTime::now());
     let value = work();

@@ -30,7 +30,7 @@ impl Scene {
         })
     }
 
-    /// The closed form of the one-dimensional model.
+    /// Stationary sliding of this scene by the closed form of the one-dimensional model.
     pub(crate) fn theory(&self) -> Result<StationarySliding> {
         Ok(power_sliding(&self.body, &self.material, &self.load)?)
     }

@@ -13,7 +13,8 @@ const SEARCH_STEP: f64 = 1.090_507_732_665_257_7;
 /// Number of octaves over which the line must follow its leading power to count as the apex. Chosen: 12 decades, so that a power
 /// of a small region is not taken for it.
 const APEX_OCTAVES: u32 = 40;
-/// Largest relative deviation of the local exponent from the leading exponent with which the line counts as the apex. Chosen.
+/// Largest relative deviation of the local exponent from the leading exponent with which the line counts as the apex.
+/// Chosen: it is far above the rounding of slopes; over [`APEX_OCTAVES`] octaves another power would deviate more.
 const APEX_EXPONENT_TOLERANCE: f64 = 1e-2;
 /// Largest relative fall of the line that counts as rounding: Δh̃/h̃ or x |h̃'|/h̃, with the height h̃ of the line at the radius
 /// x. Chosen: some thousand roundings.

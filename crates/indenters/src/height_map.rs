@@ -8,9 +8,8 @@ use crate::table::{check_heights, check_min_length};
 use crate::{IndenterError, Surface};
 use numerics::{finite, positive, whole_part};
 
-/// Ratio of the distance beyond the edge to the length of the map up to which a point counts as on the edge. Chosen.
-///
-/// It covers the rounding of coordinates that were meant to lie on the edge.
+/// Ratio of the distance beyond the edge to the length of the map up to which a point counts as on the edge. Chosen: it
+/// covers the rounding of coordinates that were meant to lie on the edge.
 const EDGE_TOLERANCE: f64 = 1e-12;
 
 /// A surface with bilinear interpolation between heights on a grid; it ends at the edge of the grid.

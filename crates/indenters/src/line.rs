@@ -5,7 +5,8 @@ use auto_impl::auto_impl;
 use crate::Axisymmetric;
 use numerics::bracketed_root;
 
-/// Largest number of bisections of a search interval whose slopes contradict its heights. Chosen.
+/// Largest number of bisections of search intervals whose slopes contradict their heights. Chosen, as a bound of the time
+/// for lines with rounding errors, whose slopes and heights never agree.
 const MAX_BISECTIONS: u32 = 40;
 
 /// A continuous rigid line h̃(x) on a closed interval, which moves towards positive x.

@@ -14,14 +14,14 @@ pub enum Control {
 }
 
 impl Control {
-    /// The force \[N] or the depth, \[m].
+    /// The prescribed force \[N] or depth, \[m].
     pub const fn value(self) -> f64 {
         match self {
             Self::NormalForce(value) | Self::IndentationDepth(value) => value,
         }
     }
 
-    /// The same kind of control with another value.
+    /// Control of the same quantity, force or depth, with another value.
     #[must_use]
     pub const fn with(self, value: f64) -> Self {
         match self {

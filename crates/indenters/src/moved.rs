@@ -8,8 +8,9 @@ use numerics::{ErrorParts, Estimate, Quantity, Refined};
 
 use crate::{Control, MovingLoad, Stage};
 
-/// Factors on the relative remaining changes per cycle in the test for a limit cycle: those of friction coefficient, tangential
-/// force, normal force and depth. Chosen. With 0.1 a quantity of a single step may still change by ten times the tolerance.
+/// Factors on the relative remaining changes per cycle in the test for a limit cycle: those of friction coefficient,
+/// tangential force, normal force and depth. Chosen: a quantity of a single step may still change by ten times the
+/// tolerance, because only the mean over a cycle is required to that.
 const LIMIT_CYCLE_WEIGHTS: [f64; 4] = [1.0, 0.1, 0.1, 0.1];
 /// Factor on the relative remaining change of the history variables in the test for a limit cycle. Chosen: equal to that of the
 /// forces.
@@ -18,10 +19,11 @@ const HISTORY_WEIGHT: f64 = 0.1;
 /// the cube of the ratio of this number to N: 3 % on 6.5 elements and 0.2 % on 16 (docs/theory/transient-half-space.md, "Linear
 /// loads").
 const UNRESOLVED_CONTACT_ELEMENTS: f64 = 2.0;
-/// Approximate number of points at which a motion is reported. Chosen. Each has error bars of its own, and the tangential forces
-/// of a single motion control its refinement.
+/// Approximate number of points at which a motion is reported. Chosen: a curve through them looks smooth. Each has error
+/// bars of its own, and the tangential forces of a single motion control its refinement.
 const POINTS_PER_MOTION: usize = 64;
-/// Ratio of the rounding error of the friction coefficient to the mean slope. Chosen.
+/// Ratio of the rounding error of the friction coefficient to the mean slope. Chosen: some thousand roundings of f64, as in
+/// a sum over all elements.
 const FRICTION_ROUNDING: f64 = 1e-12;
 /// Number of quantities of the whole motion, which precede those of its points: friction coefficient, peak friction, work.
 const MOTION_QUANTITIES: usize = 3;
@@ -114,7 +116,7 @@ pub struct MotionRecord {
 }
 
 impl MotionRecord {
-    /// Adds a step over a distance \[m].
+    /// Adds a step over which the body moves by `distance`, \[m].
     pub fn push(&mut self, step: MotionStep, distance: f64) {
         self.work += step.tangential_force * distance;
         self.normal_work += step.normal_force * distance.abs();

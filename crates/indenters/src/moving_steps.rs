@@ -141,7 +141,7 @@ struct StagePart {
     length: f64,
 }
 
-/// A whole number of equal steps of a stage.
+/// Equal steps of a stage whose number is `count`, a whole number.
 fn equal_parts(count: f64) -> impl Iterator<Item = StagePart> {
     let length = count.recip();
     let ends = (1_u32..).map(f64::from).take_while(move |k| *k <= count);
@@ -191,7 +191,7 @@ impl Graded {
         self.n_equal.recip() * self.equal_total
     }
 
-    /// All steps in the order of time.
+    /// Steps of the stage in the order of time, growing ones before equal ones.
     fn parts(&self) -> Vec<StagePart> {
         let equal = equal_parts(self.n_equal).map(|_| self.equal_length());
         let mut end = 0.0;

@@ -47,6 +47,7 @@ pub enum MeasurementError {
 }
 
 impl From<FrictionError> for MeasurementError {
+    /// Error of the moduli or of the contact that a computation of `friction-analytic` met.
     fn from(error: FrictionError) -> Self {
         match error {
             FrictionError::InvalidParameter(refused) => Self::InvalidParameter(refused),

@@ -35,7 +35,7 @@ pub fn layer_factor(s: f64, poisson_ratio: f64) -> f64 {
     numerator / denominator(s, poisson_ratio)
 }
 
-/// Deficit 1 − M(s) without cancellation.
+/// Deficit 1 − M(s) of the ratio of the compliances of a layer and a half space, without cancellation where it is small.
 pub fn layer_deficit(s: f64, poisson_ratio: f64) -> f64 {
     let s = s.min(MAX_ARGUMENT);
     let (kappa, decay) = (3.0 - 4.0 * poisson_ratio, (-2.0 * s).exp());
@@ -43,7 +43,7 @@ pub fn layer_deficit(s: f64, poisson_ratio: f64) -> f64 {
     2.0 * decay * rest / denominator(s, poisson_ratio)
 }
 
-/// Denominator of M, multiplied by 2 e^(−2s).
+/// Denominator of M, multiplied by 2 e^(−2s) against overflow.
 fn denominator(s: f64, poisson_ratio: f64) -> f64 {
     let (kappa, decay) = (3.0 - 4.0 * poisson_ratio, (-2.0 * s).exp());
     2.0 * decay * (denominator_constant(poisson_ratio) + 2.0 * s * s)

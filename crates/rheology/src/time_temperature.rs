@@ -47,7 +47,7 @@ impl WlfShift {
         })
     }
 
-    /// The constants C₁ and C₂ \[K].
+    /// Constants C₁ (dimensionless) and C₂, \[K].
     pub const fn constants(&self) -> [f64; 2] {
         [self.c1, self.c2]
     }
@@ -108,7 +108,8 @@ impl WlfShift {
     }
 }
 
-/// Number of updates of the weights of the linear equations. Chosen; convergence is not tested.
+/// Number of updates of the weights of the linear equations. Chosen: many more than such an iteration takes to converge,
+/// which is not tested, because each one only solves two equations.
 const N_REWEIGHTINGS: usize = 30;
 
 /// Weighted least-squares solution C₁ and C₂ of the linear equations for pairs of ΔT and log₁₀ a_T.

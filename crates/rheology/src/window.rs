@@ -13,11 +13,12 @@ use crate::CreepSpectrum;
 
 /// Number of waves per decade of the spectrum along a line. Chosen: bands have 6 % in frequency, about which the fractions blur.
 const WAVES_PER_DECADE: f64 = 40.0;
-/// Smallest product of the wave number and the longer of two lengths: that of the contact, and the distance slid in the longest
-/// retardation time. Chosen.
+/// Smallest wave number of the spectrum of the stress along a line, times the longer of two lengths: that of the contact,
+/// and the distance slid in the longest retardation time. Chosen: over longer waves neither stress nor compliance changes,
+/// and they dissipate hardly any power.
 const MIN_WAVE_NUMBER_FACTOR: f64 = 1e-2;
-/// Largest product of the wave number and the shortest distance of two points. Chosen: beyond it a jump has a thousandth of its
-/// power.
+/// Largest wave number of the spectrum of the stress along a line, times the shortest distance of two points. Chosen: beyond
+/// it a jump has a thousandth of its power.
 const MAX_WAVE_NUMBER_FACTOR: f64 = 1e2;
 
 /// Spectral weight of the stress of a stationary state in a band of angular frequencies.

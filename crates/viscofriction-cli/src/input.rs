@@ -126,7 +126,7 @@ const OPTIONS: [(&str, &str); 16] = [
     ("run_in", "--run-in"),
 ];
 
-/// Attributes the error of a parameter to its option.
+/// Invalid input from an out-of-range parameter of a library, under the name of the option that sets it.
 pub(crate) fn wrong_option(mut refused: InvalidParameter) -> WrongInput {
     let mut options = OPTIONS.iter();
     if let Some((_, option)) = options.find(|(parameter, _)| *parameter == refused.parameter) {

@@ -83,7 +83,7 @@ pub fn command_line() -> clap::Command {
     CommandLine::command()
 }
 
-/// Parses the command line and runs the command.
+/// Parses the command line and runs its command; the exit status is that of docs/output.md, "Exit status".
 pub fn execute() -> ExitCode {
     let result = match CommandLine::try_parse() {
         Ok(line) => line.command.execute(),

@@ -77,7 +77,8 @@ impl Field {
         Ok(BAR_GAP + BAR_WIDTH + side_margin(&self.colours)?)
     }
 
-    /// Size of the data rectangle within the largest, \[px\].
+    /// Width and height of the data rectangle \[px\], at most `largest`, in which both axes have one scale unless the field
+    /// is stretched.
     pub(crate) fn size(&self, axes: [&Axis; 2], largest: [f64; 2]) -> [f64; 2] {
         if self.is_stretched {
             return largest;

@@ -52,6 +52,7 @@ impl Outline {
         Ok(outline)
     }
 
+    /// Sets slant, size and drop of the following letters.
     fn set_style(&mut self, style: Style) {
         #[expect(clippy::cast_possible_truncation, reason = "constants of two digits")]
         let [size, drop] = [SUBSCRIPT_SIZE as f32, SUBSCRIPT_DROP as f32 * UNITS_PER_EM];
@@ -62,7 +63,7 @@ impl Outline {
         };
     }
 
-    /// Position of a point of the current letter.
+    /// Position of a point (x, y) of the outline of a letter, in font units, after the letters before it.
     fn place(&self, x: f32, y: f32) -> [f32; 2] {
         let right = self.length + self.scale * (x + self.slant * y);
         [right, self.scale * y - self.drop]

@@ -111,7 +111,7 @@ impl<'a> Frame<'a> {
         self.area.bottom() + (4.0 * GAP + f64::from(TICK_SIZE + LABEL_SIZE))
     }
 
-    /// Draws everything but the data.
+    /// Draws frame, grid lines, ticks and labels; the data are drawn by others.
     pub(crate) fn draw(&self, canvas: &mut Canvas, side: TickSide) {
         let area = self.area;
         if side == TickSide::Inside {
@@ -185,7 +185,7 @@ impl<'a> AxisEdge<'a> {
         }
     }
 
-    /// A pixel moved inwards by a distance \[px\].
+    /// Pixel at a distance from `pixel` towards the inside of the frame, \[px\].
     fn inwards(&self, [x, y]: Pixel, distance: f64) -> Pixel {
         match self.edge {
             Edge::Bottom => [x, y - distance],
@@ -194,7 +194,7 @@ impl<'a> AxisEdge<'a> {
         }
     }
 
-    /// The pixel on the other side of the rectangle.
+    /// Pixel opposite to `pixel` on the other side of the data rectangle.
     fn opposite(&self, pixel: Pixel) -> Pixel {
         let across = match self.edge {
             Edge::Bottom => self.area.height,

@@ -70,6 +70,7 @@ fn is_letter(character: char) -> bool {
     character.is_alphabetic() && !('\u{1d2c}'..='\u{1d6a}').contains(&character)
 }
 
+/// True if the character is in the Unicode block of Greek letters.
 fn is_greek(character: char) -> bool {
     ('\u{370}'..='\u{3ff}').contains(&character)
 }
@@ -104,6 +105,7 @@ fn is_symbol(before: &str, word: &str, after: &str) -> bool {
     is_single && word != "µ" && !is_unit && !is_article && !is_operator
 }
 
+/// True for the digits ₀ to ₉.
 fn is_subscript_digit(character: char) -> bool {
     ('₀'..='₉').contains(&character)
 }

@@ -14,11 +14,12 @@ pub(crate) struct Tick {
     pub(crate) label: Option<String>,
 }
 
-/// Largest number of labelled steps on a linear axis (chosen).
+/// Largest number of labelled steps on a linear axis. Chosen: with more the labels of a narrow axis would collide.
 const MAX_LABELLED_STEPS: f64 = 6.0;
 /// Largest number of labelled decades on a logarithmic axis (chosen); of more every n-th is labelled.
 const MAX_LABELLED_DECADES: f64 = 8.0;
-/// Largest number of decades of a logarithmic axis that is labelled in a prefixed unit (chosen).
+/// Largest number of decades of a logarithmic axis that is labelled in a prefixed unit. Chosen: neighbouring prefixes are
+/// three decades apart.
 const MAX_PREFIXED_DECADES: f64 = 3.0;
 /// Largest number of decades of an axis whose labels stand at 1, 2 and 5 (chosen: more would collide).
 const MAX_SUBDIVIDED_DECADES: f64 = 1.5;

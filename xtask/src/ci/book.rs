@@ -52,7 +52,7 @@ pub(super) fn build(copy: &Path, book: &Path) -> Result<()> {
     Ok(())
 }
 
-/// The folder of the pages.
+/// Folder with the pages of the documentation.
 fn docs() -> PathBuf {
     workspace_root().join("docs")
 }

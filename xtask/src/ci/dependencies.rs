@@ -114,7 +114,7 @@ fn tree(library: &str, edges: &str) -> Result<Vec<(usize, String)>> {
     text.lines().map(node).collect()
 }
 
-/// The crates of nodes of a tree, each once.
+/// Names of the crates in a tree of dependencies, each once.
 fn distinct(nodes: &[(usize, String)]) -> BTreeSet<&str> {
     nodes.iter().map(|(_, package)| &**package).collect()
 }

@@ -32,7 +32,7 @@ pub(crate) fn release(out: &Path) -> Result<()> {
 
 /// A release in the making.
 struct Release {
-    /// What is published, and where cargo builds.
+    /// Crates that are published, and the folder where cargo builds.
     workspace: Workspace,
     /// All folders are in this one: `crates`, `python`, `book`, and `trial`, which is not published.
     out: PathBuf,

@@ -28,13 +28,14 @@ const STANDARD_ERRORS: [f64; 2] = [0.05, 0.02];
 const FIRST_SEEDS: [u64; 2] = [1, 1_000_000];
 /// Number of seeds reserved for each mean of one scene. Chosen: more than the surfaces that a mean may take.
 const SEEDS_PER_SCENE: u64 = 2000;
-/// Largest deviation with which a mean holds, in standard errors of the difference. Chosen.
+/// Largest deviation with which a mean holds, in standard errors of the difference. Chosen: 95 % of a normal distribution
+/// are within it.
 const COVERAGE_FACTOR: f64 = 2.0;
 /// Smallest fraction of the means that must hold. Chosen: of a normal distribution 95 % are within two standard errors; fewer,
 /// because the standard errors are themselves estimates from few surfaces.
 const MIN_COVERAGE: f64 = 0.92;
-/// Number of binomial standard deviations by which the observed fraction may fall short of [`MIN_COVERAGE`] before the command
-/// fails. Chosen.
+/// Number of binomial standard deviations by which the observed fraction may fall short of [`MIN_COVERAGE`] before the
+/// command fails. Chosen: if exactly [`MIN_COVERAGE`] hold, one of 700 runs falls short of it by more.
 const ALLOWED_SCATTER: f64 = 3.0;
 
 /// Two means of one quantity over surfaces of one spectrum. A column without `compared` is of the judged mean.
@@ -62,7 +63,7 @@ struct Row {
 struct Refusal {
     /// Number of the scene.
     scene: usize,
-    /// The error.
+    /// Message of the error.
     why: String,
 }
 
@@ -139,7 +140,7 @@ fn compared(scene: usize, given: &Scene) -> Result<Vec<Row>> {
     Ok(scattered().filter_map(row).collect())
 }
 
-/// Rows of one quantity.
+/// Rows of the quantity with this name.
 fn of<'a>(quantity: &str, rows: &'a [Row]) -> Vec<&'a Row> {
     rows.iter().filter(|row| row.quantity == quantity).collect()
 }

@@ -8,7 +8,7 @@ const MIN_POINTS: usize = 3;
 /// Smallest ratio of the largest to the smallest abscissa of a fit. Chosen: over a shorter span the exponent is mostly noise.
 const MIN_SPAN: f64 = 2.0;
 
-/// The [`exponent`] of positive points (x, y); `None` of fewer than [`MIN_POINTS`], of a span below [`MIN_SPAN`], and where
+/// The [`exponent`] of positive points (x, y); `None` for fewer than [`MIN_POINTS`], of a span below [`MIN_SPAN`], and where
 /// its standard error is not smaller than itself.
 pub(super) fn clear_exponent(points: &[[f64; 2]]) -> Option<Estimate> {
     let abscissae = || points.iter().map(|point| point[0]);

@@ -46,7 +46,7 @@ impl<R, F> FromIterator<Result<Vec<R>, F>> for Outcomes<R, F> {
 }
 
 impl<R: Serialize, F: Serialize> Outcomes<R, F> {
-    /// The tables of both, with these names.
+    /// Tables of rows and of refusals, under the two given names.
     pub(super) fn tables(&self, [rows, refusals]: [&'static str; 2]) -> Result<Vec<Table>> {
         Ok(vec![
             Table::new(rows, &self.rows)?,
@@ -63,7 +63,7 @@ pub(super) fn extent<T: DeserializeOwned>(file: &str, quick: bool) -> Result<T> 
 }
 
 impl Report {
-    /// Path of the page in the folder `out`.
+    /// Path of the page of the report in the folder `out`.
     pub(super) fn page(&self, out: &Path) -> PathBuf {
         out.join(self.name).with_extension("md")
     }

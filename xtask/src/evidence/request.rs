@@ -28,7 +28,7 @@ pub(super) struct Reference {
 }
 
 impl Reference {
-    /// A reference of an absolute error bar `error`.
+    /// Reference with an absolute error bar `error`; `source` says how it was computed.
     pub(super) fn new(value: f64, error: f64, source: &str) -> Self {
         Self {
             known: Estimate::new(value, error),
@@ -38,7 +38,7 @@ impl Reference {
 }
 
 impl Request {
-    /// A request of any kind of accuracy.
+    /// Request of an answer by a method in a model, to a relative error or with a number of elements.
     pub(super) const fn new(model: Model, method: Method, accuracy: Accuracy) -> Self {
         Self {
             model,
@@ -75,7 +75,7 @@ impl Request {
         Ok(Problem::try_from(&scene)?.with_accuracy(self.accuracy))
     }
 
-    /// Whether the method solves such scenes.
+    /// True if the method solves scenes of this kind.
     pub(super) fn is_offered(&self, scene: &Scene) -> Result<bool> {
         Ok(plan(&self.problem(scene)?).is_ok())
     }

@@ -10,7 +10,7 @@ pub(super) struct Share {
 }
 
 impl Share {
-    /// Between 0 and 1; NaN without cases.
+    /// Fraction of the cases that hold, 0 to 1; NaN without cases.
     pub(super) fn fraction(self) -> f64 {
         self.held as f64 / self.all as f64
     }

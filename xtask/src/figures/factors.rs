@@ -21,8 +21,8 @@ const PLAIN_ELEMENTS: f64 = 10.0;
 const PLAIN_LENGTHS: f64 = 40.0;
 /// Relative error requested of the converged factors. Chosen an order below the biases that they reveal.
 const RELATIVE_ERROR: f64 = 2e-4;
-/// Largest relative change of friction over the second half of the distance with which the end still counts as stationary enough
-/// to be extrapolated. Chosen.
+/// Largest relative change of friction over the second half of the distance with which the end still counts as stationary
+/// enough to be extrapolated. Chosen: the extrapolation removes most of the remaining change, which is of the same order.
 const DRIFT_TOLERANCE: f64 = 0.02;
 
 /// Factors of one profile, each the ratio of the friction of the half space to that of the one-dimensional model. They satisfy
@@ -47,7 +47,7 @@ pub(super) struct Row {
     plain_drift: f64,
 }
 
-/// The rows of both profiles of [`PAPER`].
+/// Rows of the table of scaling factors, for the profiles of [`PAPER`].
 pub(super) fn compute() -> Result<Vec<Row>> {
     in_parallel("scaling factors", &PAPER, |&(exponent, paper)| {
         let converged = scaling_factor(exponent, RELATIVE_ERROR, MAX_UNKNOWNS)?.value();

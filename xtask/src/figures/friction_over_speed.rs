@@ -11,23 +11,25 @@ use crate::output::points;
 use crate::scene::Scene;
 use crate::tasks::in_parallel;
 
-/// Slope of the cone, as Kürschner (2014) gives it. The next three constants are chosen so that contacts measure from 0.1 mm to 2
-/// cm.
+/// Slope of the cone, as Kürschner (2014) gives it.
 const CONE_SLOPE: f64 = 0.1;
-/// Coefficient c of the paraboloid c r² at the radius r, \[1/m].
+/// Coefficient c of the paraboloid c r² at the radius r, \[1/m]. Chosen, with force and viscosity: contacts measure from 0.1
+/// mm to 2 cm.
 const CURVATURE: f64 = 10.0;
-/// Normal force on both bodies, \[N].
+/// Normal force on both bodies, \[N]. Chosen, see [`CURVATURE`].
 const NORMAL_FORCE: f64 = 1.0;
-/// Viscosity η of the half space, \[Pa s].
+/// Viscosity η of the half space, \[Pa s]. Chosen, see [`CURVATURE`].
 const VISCOSITY: f64 = 1e5;
-/// Number of speeds from 10⁻³ to 10⁻¹ m/s, six per decade.
+/// Number of speeds from 10⁻³ to 10⁻¹ m/s. Chosen: six per decade.
 pub(super) const SPEEDS: u32 = 13;
-/// Ratio of the sliding distance on the half space to the contact length of the one-dimensional model. Chosen; the remaining
-/// change to the stationary state is extrapolated.
+/// Ratio of the sliding distance on the half space to the contact length of the one-dimensional model. Chosen: it ends with
+/// a drift below [`DRIFT_TOLERANCE`], and the remaining change to the stationary state is extrapolated.
 const SLIDING_LENGTHS: f64 = 32.0;
-/// Smallest number of elements along the contact length of the one-dimensional model. Chosen, since there are 26 simulations.
+/// Smallest number of elements along the contact length of the one-dimensional model. Chosen: the grids are small, because
+/// there are 26 simulations.
 const MIN_ELEMENTS: f64 = 12.0;
-/// Largest relative change of friction over the second half of the distance with which the end may be extrapolated. Chosen.
+/// Largest relative change of friction over the second half of the distance with which the end may be extrapolated. Chosen:
+/// the extrapolation removes most of the remaining change, which is of the same order.
 const DRIFT_TOLERANCE: f64 = 0.03;
 /// Label of the ordinate of the figures.
 const FRICTION: &str = "coefficient of friction μ";
@@ -71,10 +73,10 @@ pub(super) const PARABOLOID: Indenter = Indenter {
 #[derive(Debug, Serialize)]
 pub(super) struct Row {
     velocity_m_per_s: f64,
-    /// Eqs. (21) and (22).
+    /// Closed form, Eqs. (21) and (22) of Kürschner (2014).
     theory: f64,
     chain: f64,
-    /// Extrapolated to an infinite sliding distance, with the error of that.
+    /// Friction on the half space, extrapolated to an infinite sliding distance; below the error of the extrapolation.
     half_space: f64,
     half_space_distance_error: f64,
     /// At the end of the run, with the slope at the end of the step: the plain reading of the paper.

@@ -40,13 +40,13 @@ fn solid(ratio: f64) -> Result<StandardSolid> {
     Ok(standard_solid([ratio * modulus, modulus, modulus])?)
 }
 
-/// The table and the picture.
+/// Table and picture of loss tangent and moduli.
 pub(super) fn part() -> Result<Part> {
     let rows = compute()?;
     Part::new(NAME, &rows, [(NAME, Figure::single(chart(&rows)))])
 }
 
-/// Forty frequencies per decade from 10⁻⁴ to 10².
+/// Rows of the table, at forty frequencies per decade from 10⁻⁴ to 10².
 pub(super) fn compute() -> Result<Vec<Row>> {
     let [soft, middle, stiff] = [solid(RATIOS[0])?, solid(RATIOS[1])?, solid(RATIOS[2])?];
     let row = |k: u32| {

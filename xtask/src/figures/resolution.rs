@@ -11,7 +11,7 @@ use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series
 
 /// Name of table and picture.
 pub(super) const NAME: &str = "plain_resolution";
-/// Number of resolutions of each profile.
+/// Number of resolutions of each profile in the table.
 pub(super) const COUNT: usize = 7;
 /// Numbers of elements along the contact length of the one-dimensional model. Chosen: each is about √2 times the one before.
 const ELEMENTS: [u32; COUNT] = [5, 7, 10, 14, 20, 28, 40];

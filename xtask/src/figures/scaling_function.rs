@@ -11,12 +11,13 @@ use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series
 
 /// Name of table and picture.
 pub(super) const NAME: &str = "scaling_function";
-/// Number of rows of the table, evenly spaced in ln(2p − 1) with the exponent p. Chosen: more than twice the nodes of the
-/// tabulated factor, so that the interpolation is seen.
+/// Number of rows of the table, evenly spaced in ln(2p − 1) with the exponent p. Chosen: more than twice the number of nodes
+/// of the tabulated factor, so that the picture also shows the interpolation.
 const ROWS: u32 = 181;
 /// Smallest and largest 2p − 1, with the exponent p: nearly the range of the table of `friction-analytic`.
 const ORDERS: [f64; 2] = [0.003, 127.0];
-/// Exponents that the check solves anew, with the relative error requested of each.
+/// Exponents that the check solves anew, with the relative error requested of each. Chosen: they cover both sides of the
+/// cone, and each reaches its error in little time.
 const SOLVED_ANEW: [(f64, f64); 5] = [
     (0.7, 2e-3),
     (0.9, 2e-3),
@@ -25,13 +26,13 @@ const SOLVED_ANEW: [(f64, f64); 5] = [
     (6.0, 2e-3),
 ];
 
-/// The table and the picture.
+/// Table and picture of the scaling factor over the exponent.
 pub(super) fn part() -> Result<Part> {
     let nodes = compute()?;
     Part::new(NAME, &nodes, [(NAME, figure(&nodes))])
 }
 
-/// All rows, interpolated in the table of `friction-analytic`.
+/// Rows of the table, interpolated in the table of `friction-analytic`.
 pub(super) fn compute() -> Result<Vec<Node>> {
     (0..ROWS).map(|index| node(exponent(index))).collect()
 }
@@ -66,7 +67,7 @@ pub(super) fn check_against_the_half_space() -> Result<usize> {
     Ok(SOLVED_ANEW.len())
 }
 
-/// The function above, its relative error below.
+/// Picture of the scaling factor over the exponent, with its relative error in a panel below.
 fn figure(rows: &[Node]) -> Figure {
     let curve = |value: fn(&Node) -> f64| {
         let points = points(rows, |row| row.exponent, value);

@@ -13,7 +13,7 @@ pub(super) const NAME: &str = "stationary_contact";
 
 /// A power profile c r^p.
 struct Profile {
-    /// p.
+    /// Exponent p.
     exponent: f64,
     /// Elements along the contact length of the one-dimensional model.
     elements: usize,
@@ -56,9 +56,9 @@ pub(super) struct Row {
 /// The stationary contact of one profile; lengths in contact lengths of the one-dimensional model.
 pub(super) struct Contact {
     pub(super) exponent: f64,
-    /// Elements along that length.
+    /// Number of elements along the contact length of the one-dimensional model.
     pub(super) elements: usize,
-    /// From one side of the contact to the other.
+    /// Ends of the contact in each column of elements, from one side to the other.
     pub(super) outline: Vec<Row>,
     contact_length: f64,
     mean_pressure: f64,
@@ -73,7 +73,7 @@ impl Contact {
     }
 }
 
-/// The table and the picture.
+/// Table and picture of the stationary contacts.
 pub(super) fn part() -> Result<Part> {
     let contacts = compute()?;
     Part::new(

@@ -22,7 +22,7 @@ const SQUARE_ELEMENTS_FROM: f64 = 4.0;
 /// Largest number of unknown pressures of a factor that the command computes. Chosen; it bounds the time.
 pub(crate) const MAX_UNKNOWNS: usize = 100_000;
 
-/// s_p, and what it took.
+/// Scaling factor s(p), and the effort of its computation.
 #[derive(Serialize)]
 pub(crate) struct ScalingFactor {
     exponent: f64,
@@ -30,14 +30,14 @@ pub(crate) struct ScalingFactor {
     scaling_factor: f64,
     /// Absolute error bar.
     error: f64,
-    /// Unknown pressures on the finest grid.
+    /// Number of unknown pressures on the finest grid.
     unknowns: usize,
     /// Time on the wall clock \[s].
     seconds: f64,
 }
 
 impl ScalingFactor {
-    /// s_p with its error bar.
+    /// Scaling factor s(p) with its error bar.
     pub(crate) fn value(&self) -> Estimate {
         Estimate::new(self.scaling_factor, self.error)
     }
@@ -61,7 +61,7 @@ const COLUMNS: [Column<ScalingFactor>; 5] = [
     ("seconds", |row| format!("{:.3}", row.seconds)),
 ];
 
-/// Computes the factors and prints them.
+/// Computes the factors s(p) of the given exponents and prints them.
 pub(crate) fn print(exponents: &[f64], relative_error: f64, format: Format) -> Result<()> {
     validate(exponents, relative_error)?;
     let rows = in_parallel("scaling factors", exponents, |&exponent| {

@@ -8,7 +8,7 @@ use crate::rough::{PeriodicSurface, Wave};
 use crate::{HeightMap, IndenterError};
 
 /// Ratio of an amplitude to the largest height up to which it counts as rounding of the transform, and the wave is left out.
-/// Chosen.
+/// Chosen: some hundred roundings of f64, as in a transform of a large map.
 const AMPLITUDE_ROUNDING: f64 = 1e-13;
 
 impl PeriodicSurface {

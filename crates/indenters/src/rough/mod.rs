@@ -124,7 +124,7 @@ impl PeriodicSurface {
         Self::new(self.period, waves).ok()
     }
 
-    /// Magnitude of the wave vector, \[1/m].
+    /// Magnitude of the wave vector of a wave of this surface, \[1/m].
     fn wave_number(&self, wave: &Wave) -> f64 {
         let [x, y] = self.wave_vector(wave);
         x.hypot(y)

@@ -6,9 +6,8 @@ use numerics::whole_part;
 
 /// Height that marks a missing one if the header states no marker (Esri's convention).
 const DEFAULT_MISSING: f64 = -9999.0;
-/// Magnitude beyond which heights with the sign of the marker count as missing, too. Chosen.
-///
-/// Such markers are the smallest or largest f32, written with any number of digits.
+/// Magnitude beyond which heights with the sign of the marker count as missing, too. Chosen: no height is so large, and such
+/// markers are the smallest or largest f32, ∓3.4e38, written with any number of digits.
 const MAX_ABS_HEIGHT: f64 = 1e30;
 
 /// Names of the header, in lower case; the header ends at the first line that begins with another word.
@@ -78,7 +77,7 @@ pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, Topogr
     Ok(surface)
 }
 
-/// Error for a file that is no ASCII grid.
+/// Error at a line that Esri's ASCII grid cannot have.
 fn format_error(line: usize, found: &str) -> TopographyError {
     let format = "an ASCII grid with ncols, nrows, cellsize and heights";
     let problem = format!("{format} is needed, but there is {found}");

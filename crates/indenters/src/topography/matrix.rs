@@ -8,7 +8,8 @@ use super::{FORMATS, LateralUnit, Memory, Topography, TopographyError};
 /// Largest relative difference between the given spacing and that of the size in the header. Chosen, because the header is
 /// rounded.
 const SPACING_TOLERANCE: f64 = 0.01;
-/// Largest ratio of the deviation of a rounded label from equal spacing to the spacing. Chosen.
+/// Largest ratio of the deviation of a rounded label from equal spacing to the spacing. Chosen: labels that are rounded by
+/// half a spacing may coincide.
 const ROUNDED_LABEL_TOLERANCE: f64 = 0.3;
 /// Number of labels from which they may be rounded. Chosen: of fewer numbers some are equally spaced within the larger tolerance
 /// by chance.
@@ -16,7 +17,8 @@ const MIN_ROUNDED_LABELS: usize = 8;
 /// Largest ratio of the deviation of fewer than [`MIN_ROUNDED_LABELS`] labels from equal spacing to the spacing. Chosen:
 /// practically none.
 const EXACT_LABEL_TOLERANCE: f64 = 1e-6;
-/// Smallest number of equally spaced numbers that count as labels and not as a coincidence. Chosen.
+/// Smallest number of equally spaced numbers that count as labels and not as a coincidence. Chosen: two numbers are always
+/// equally spaced, and three often.
 const MIN_LABELS: usize = 4;
 /// Largest number of columns with which rows may be a list of points. Chosen: x, y, z, and colours and normals that scanners add.
 const MAX_POINT_COLUMNS: usize = 10;

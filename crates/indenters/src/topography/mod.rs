@@ -224,7 +224,7 @@ impl Topography {
         ]
     }
 
-    /// Number of missing heights.
+    /// Number of heights that the file marks as missing.
     pub fn missing(&self) -> usize {
         self.heights.iter().filter(|height| height.is_nan()).count()
     }

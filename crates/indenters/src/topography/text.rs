@@ -9,7 +9,8 @@ const MISSING_WORDS: [&str; 16] = [
 ];
 /// Length of the beginning of a text from which the separator is found, \[bytes]. Chosen: it limits the time for long texts.
 const SAMPLED_BYTES: usize = 1 << 20;
-/// Error values of spreadsheets, which begin with `#` and are no comments.
+/// Error values of spreadsheets after their first character `#`, as in `#N/A`. Lines that begin with them are rows and not
+/// comments.
 const FAILED_FORMULAS: [&str; 8] = ["N/A", "NV", "DIV", "VALUE", "WERT", "NUM", "REF", "NAME"];
 
 /// Separator of the cells and number of cells in a row.
@@ -181,7 +182,7 @@ impl<'a> Sheet<'a> {
         })
     }
 
-    /// Number of cells in a row.
+    /// Number of cells in each row.
     pub(super) const fn width(&self) -> usize {
         self.notation.width
     }
@@ -300,7 +301,7 @@ impl<'a> DigitCounts<'a> {
 }
 
 impl Notation {
-    /// Error for a line that is no row.
+    /// Error for a line that is no row of numbers.
     fn wrong_row(&self, line: usize, cells: &[&str]) -> TopographyError {
         let wrong = cells.iter().position(|cell| self.height(cell).is_none());
         let problem = match wrong {
@@ -329,7 +330,7 @@ impl Notation {
     }
 }
 
-/// Error for a text without a row.
+/// Error for a text without a row of numbers.
 fn without_rows(lines: &[(usize, &str)]) -> TopographyError {
     let Some(&(line, text)) = lines.first() else {
         let problem = "numbers are needed, and the text is empty but for comments".to_owned();

@@ -15,7 +15,8 @@ const MAX_DESCRIPTION_BYTES: u64 = 1 << 20;
 const MAX_ATTRIBUTES: usize = 4096;
 /// Largest number of parts of an archive. Chosen; only a description and heights are needed.
 const MAX_ARCHIVE_PARTS: usize = 1000;
-/// Largest padding after the heights, \[bytes]. Chosen: a block of a file.
+/// Largest padding after the heights, \[bytes]. Chosen: programs fill up a block of a file at most; more bytes mean that the
+/// number of heights is wrong.
 const MAX_PADDING_BYTES: u64 = 4096;
 
 /// Reads an archive with a description in XML and a matrix of heights.

@@ -20,24 +20,29 @@ use crate::{Finding, MeasurementError};
 const NORMAL_QUANTILE: f64 = 1.959_963_984_540_054;
 /// Probability with which an interval of a parameter contains its true value.
 const COVERAGE: f64 = 0.95;
-/// Relative tolerance of the rise of the sum of squares at an end of an interval. Within it the end is interpolated between two
-/// trials. Chosen.
+/// Relative tolerance of the rise of the sum of squares at an end of an interval. Within it the end is interpolated between
+/// two trials. Chosen: the sum is nearly quadratic in the parameter, so that 10 % of the rise move an end by 5 % of its
+/// distance from the best fit.
 const PROFILE_TOLERANCE: f64 = 0.1;
 /// Predicted decrease of the sum of squares, in variances of a point, below which the least squares take their last step without
 /// computing the model again. Chosen, far below the rise by t² = 3.8 that ends an interval.
 const SUFFICIENT_DECREASE: f64 = 0.05;
-/// Relative noise of the friction that is assumed until a fit estimates it, if the noise is not known. Chosen.
+/// Relative noise of the friction that is assumed until a fit estimates it, if the noise is not known. Chosen: it is a
+/// common scatter of measured friction; the next rounds replace it by the scatter of the residuals.
 const INITIAL_RELATIVE_NOISE: f64 = 0.05;
-/// Largest excess of the sum of squares over its expectation with which a fit counts as good and the search for better starts
-/// ends. Its unit is the standard deviation of χ². Chosen.
+/// Largest excess of the sum of squares over its expectation with which a fit counts as good and the search for better
+/// starts ends. Its unit is the standard deviation of χ². Chosen: in one of 700 fits of a right model noise alone exceeds
+/// it.
 const GOOD_FIT_DEVIATIONS: f64 = 3.0;
-/// Number of rounds of fitting the parameters and estimating the noise anew from the residuals, if there is a prior. Chosen.
+/// Number of rounds of fitting the parameters and estimating the noise anew from the residuals, if there is a prior. Chosen:
+/// the first round takes [`INITIAL_RELATIVE_NOISE`], the second the noise of the first residuals, and the third one of
+/// residuals that were weighted rightly. Convergence is not tested.
 const NOISE_ROUNDS: usize = 3;
 /// Largest number of evaluations of the model for one end of an interval; after them the end is left open. Chosen: a parameter
 /// that the points determine needs 2 to 10.
 const MAX_COMPUTATIONS: usize = 60;
-/// Excess of χ², or of the correlation of neighbouring residuals, over its expectation, above which a misfit is flagged. Its unit
-/// is the standard deviation of that number. Chosen.
+/// Excess of χ², or of the correlation of neighbouring residuals, over its expectation, above which a misfit is flagged. Its
+/// unit is the standard deviation of that number. Chosen: in one of 30 000 fits of a right model noise alone exceeds it.
 const MISFIT_DEVIATIONS: f64 = 4.0;
 
 /// A fitting problem: measured points, free parameters, prior and noise.
@@ -112,7 +117,7 @@ impl<'a> FrictionFitting<'a> {
         self.prior.map_or(0, |prior| prior.rank)
     }
 
-    /// Points and known parameters less parameters, at least 0.
+    /// Number of points and of parameters with a prior, less that of all parameters; at least 0.
     fn degrees_of_freedom(&self) -> usize {
         let known = self.points.len() + self.n_priors();
         known.saturating_sub(self.parameters.len())

@@ -6,10 +6,9 @@ use super::{IndentationCurve, Note};
 use crate::MeasurementError;
 use crate::table::Source;
 
-/// Largest distance at which the beginning of a part continues, or repeats, the previous part: from its end or its beginning.
-/// Chosen.
-///
-/// It is relative to the duration of the previous part for times, and to its range for depths.
+/// Largest distance at which the beginning of a part continues, or repeats, the previous part: from its end or its
+/// beginning. It is relative to the duration of the previous part for times, and to its range for depths. Chosen: it is
+/// above the gap or overlap of parts of one ramp and small against a part.
 const JOIN_TOLERANCE: f64 = 0.1;
 
 /// A point of a curve, and its line in the file.

@@ -16,10 +16,11 @@ pub(super) struct Measured {
     pub(super) path: Option<SmoothedPath>,
 }
 
-/// Largest number of points of a curve that is fitted without averaging. Chosen; longer curves are averaged to about as many
-/// means.
+/// Largest number of points of a curve that is fitted without averaging. Chosen, as a bound of the time; longer curves are
+/// averaged to about as many means.
 const MAX_UNAVERAGED_POINTS: usize = 4000;
-/// Ratio of the second difference of the depth to its range up to which the depth counts as linear even without noise. Chosen.
+/// Ratio of the second difference of the depth to its range up to which the depth counts as linear even without noise.
+/// Chosen: above the rounding of written depths, which bends a straight path by as much.
 const BEND_TOLERANCE: f64 = 1e-6;
 
 impl Measured {

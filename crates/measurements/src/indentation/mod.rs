@@ -58,7 +58,7 @@ impl IndentationCurve {
         self.map(|values| inner().chain([last]).map(|i| values[i]).collect())
     }
 
-    /// Applies one function to times, depths and forces.
+    /// The curve with `column` applied to its times, depths and forces, one after the other.
     fn map(&self, column: impl Fn(&[f64]) -> Vec<f64>) -> Self {
         Self {
             time: column(&self.time),

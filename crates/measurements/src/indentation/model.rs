@@ -24,7 +24,7 @@ pub(super) enum Kind {
 }
 
 impl Kind {
-    /// Number of parameters of the material.
+    /// Number of fitted parameters of a material of this kind.
     pub(super) const fn n_parameters(self) -> usize {
         match self {
             Self::Branches(n) => 2 * n + 1,
@@ -32,7 +32,7 @@ impl Kind {
         }
     }
 
-    /// Whether a parameter of the material is a logarithm.
+    /// True if the parameter of the material with this index is fitted as its logarithm.
     pub(super) fn is_logarithm(self, parameter: usize) -> bool {
         parameter < self.n_parameters() && (self, parameter) != (Self::PowerLaw, 1)
     }
@@ -43,7 +43,8 @@ const EXPANSION_ERROR: f64 = 1e-4;
 /// Largest relative difference of two relaxation times that count as those of one branch. Chosen, above the rounding of exp and
 /// ln.
 const TIME_TOLERANCE: f64 = 1e-7;
-/// Step of the natural logarithm of the thickness for the derivative of the forces by a difference quotient. Chosen.
+/// Step of the natural logarithm of the thickness for the derivative of the forces by a difference quotient. Chosen: it is
+/// far below the step of the table of profiles, over which the forces are smooth, and far above rounding.
 const THICKNESS_STEP: f64 = 1e-4;
 /// Step of the exponent β of a power law for the derivative of the forces by a difference quotient. Chosen: the nodes of the
 /// Prony series rarely change over it.
@@ -109,7 +110,7 @@ impl<'a> Model<'a> {
         self.sample.is_fitted().then(|| self.n_parameters() - 1)
     }
 
-    /// Whether a parameter is a logarithm.
+    /// True if the parameter with this index, of the material or the sample, is fitted as its logarithm.
     pub(super) fn is_logarithm(&self, parameter: usize) -> bool {
         self.kind.is_logarithm(parameter) || self.thickness() == Some(parameter)
     }

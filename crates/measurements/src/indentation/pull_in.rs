@@ -17,18 +17,20 @@ use super::means::Measured;
 use super::noise::{DIAGONAL_FACTOR, Linear, Noise, normal_matrix};
 use super::start::approach_end;
 
-/// Smallest number of points of a baseline, the line through the points before a fall of the force. Chosen.
+/// Smallest number of points of a baseline, the line through the points before a fall of the force. Chosen: a line through
+/// fewer points is too uncertain where it is extrapolated to the fall.
 const MIN_BASELINE_POINTS: usize = 10;
-/// Inverse of the relative growth of the baselines that are tried: each has a fifth more points than the one before. Chosen.
+/// Inverse of the relative growth of the baselines that are tried: each has a fifth more points than the one before. Chosen:
+/// the uncertainty of a line changes little over a fifth, and only some tens of baselines have to be tried.
 const BASELINE_GROWTH: usize = 5;
-/// Smallest number of points of a fall of the force by attraction; fewer count as outliers. Chosen.
+/// Smallest number of points of a fall of the force by attraction; fewer count as outliers. Chosen: one or two low points
+/// are more probably disturbances.
 const MIN_FALL_POINTS: usize = 3;
-/// Probability that noise stays below a deviation that counts as a fall: that of five standard errors of a normal distribution.
-/// Chosen.
-///
-/// About a thousand means of a curve are compared.
+/// Probability that noise stays below a deviation that counts as a fall: that of five standard errors of a normal
+/// distribution. Chosen: about a thousand means of a curve are compared, so that noise exceeds it in one of 2000 curves.
 const COVERAGE: f64 = 1.0 - 5.7e-7;
-/// Smallest distance of an outlier from the median of five points, in standard deviations of the noise. Chosen.
+/// Smallest distance of an outlier from the median of five points, in standard deviations of the noise. Chosen: normal noise
+/// exceeds it in one of 2·10⁶ points, which no curve has.
 const OUTLIER_DEVIATIONS: f64 = 5.0;
 
 /// Adhesion on the approach.

@@ -198,7 +198,7 @@ impl Stated {
         }
     }
 
-    /// The options, completed by the constants of the file.
+    /// The options; a spring constant or sensitivity that they leave out is that of the file.
     fn complete(self, options: &CurveOptions) -> CurveOptions {
         CurveOptions {
             spring_constant: options.spring_constant.or(self.spring_constant),
@@ -254,7 +254,7 @@ fn number_after(text: &str, name: &str) -> Option<f64> {
 }
 
 impl CurveOptions {
-    /// Refuses numbers out of range.
+    /// Refuses options out of their ranges.
     fn check_ranges(&self) -> Result<(), InvalidParameter> {
         let rates = [
             ("spring_constant", self.spring_constant),
@@ -398,7 +398,8 @@ impl Segment {
         })
     }
 
-    /// Note on the meaning of a displacement.
+    /// Note that says whether a column of displacement was read as depth or as travel of a piezo; `None` without such a
+    /// column.
     fn displacement(&self, table: &Table) -> Option<String> {
         let name = table.find(Displacement)?.name;
         Some(if self.of_force == 0.0 {

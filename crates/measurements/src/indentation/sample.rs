@@ -16,7 +16,8 @@ use crate::MeasurementError;
 
 /// Step of the natural logarithm of the thickness in a table of profiles. Chosen: the interpolation error is 1e-5 of a radius.
 const LOG_THICKNESS_STEP: f64 = 0.1;
-/// Ratio of the smallest fitted thickness to the contact radius on a half space at the whole range of depths. Chosen.
+/// Ratio of the smallest fitted thickness to the contact radius on a half space at the whole range of depths. Chosen: the
+/// contact is then ten times as wide as the sample is thick, and strains are beyond linear theory.
 const MIN_THICKNESS_RATIO: f64 = 0.1;
 /// Ratio of the largest fitted thickness to the contact radius on a half space at the whole range of depths. Chosen: the sample
 /// is then a half space.
@@ -24,8 +25,8 @@ const MAX_THICKNESS_RATIO: f64 = 1000.0;
 /// Ratio of the largest tabulated depth of a profile to the range of depths of the curve. Chosen: the contact point may precede
 /// the curve by half the range.
 const DEPTH_MARGIN: f64 = 1.5;
-/// Ratio of the indentation depth to the thickness above which strains are not small, and a fit is flagged. Chosen, as for
-/// scenes.
+/// Ratio of the indentation depth to the thickness above which strains are not small, and a fit is flagged. Chosen: the same
+/// as for the warning about the layer of a scene.
 const LARGE_STRAIN_RATIO: f64 = 1.0 / 3.0;
 
 /// A body on a sample.
@@ -158,7 +159,7 @@ impl<'a> ProfileTable<'a> {
         })
     }
 
-    /// Smallest and largest logarithm of the thickness.
+    /// Natural logarithms of the smallest and the largest thickness.
     fn range(&self) -> [f64; 2] {
         let last = self.profiles.len() - 1;
         [self.first, self.first + LOG_THICKNESS_STEP * last as f64]
@@ -201,7 +202,7 @@ impl<'a> ProfileTable<'a> {
 struct InterpolatedProfile<'a>(Vec<(&'a LayerProfile, f64)>);
 
 impl InterpolatedProfile<'_> {
-    /// Largest depth that all profiles have, \[m].
+    /// Largest depth that all interpolated profiles have, \[m].
     fn depth(&self) -> f64 {
         let depths = self.0.iter().map(|(profile, _)| profile.depth());
         depths.fold(f64::INFINITY, f64::min)

@@ -34,8 +34,9 @@ pub(super) struct Group {
     pub(super) rows: BTreeMap<u64, IsothermRow>,
 }
 
-/// Largest difference between the temperature of a row and that of the first row of its isotherm, \[K]. A row that differs more
-/// belongs to another isotherm. Chosen.
+/// Largest difference between the temperature of a row and that of the first row of its isotherm, \[K]. A row that differs
+/// more belongs to another isotherm. Chosen: it is above the fluctuation of a temperature chamber and below the steps
+/// between isotherms, usually 3 K or more.
 const MAX_TEMPERATURE_DRIFT: f64 = 1.0;
 
 /// Inserts a row into the isotherm of the nearest temperature without this frequency, or into a new one.

@@ -121,7 +121,7 @@ struct Kind {
 }
 
 impl Kind {
-    /// The kind of a table, from its columns.
+    /// Kind of measurement in a table, as its columns show it.
     fn of(table: &Table) -> Self {
         let temperature = table.find(Temperature);
         Self {

@@ -82,7 +82,7 @@ impl Layout {
         self.separator == ' '
     }
 
-    /// Name of the separator, for messages.
+    /// Name of the separator in the plural, for messages.
     pub(crate) fn separators(self) -> &'static str {
         let mut known = SEPARATORS.iter();
         let found = known.find(|(separator, _)| *separator == self.separator);

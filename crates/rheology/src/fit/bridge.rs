@@ -18,14 +18,14 @@ pub(super) struct KnownShift {
 /// Largest number of known pairs, the nearest ones, to which the law is fitted. Chosen: with more, some may lie on the other side
 /// of a glass transition, where another law holds.
 const MAX_PAIRS: usize = 4;
-/// Largest misfit of the natural logarithm of a shift factor with which the law holds. It is also the largest distance from the
-/// law at which a doubtful placement is kept. Chosen: a tenth of a decade.
+/// Largest misfit of the natural logarithm of a shift factor with which the law holds. It is also the largest distance from
+/// the law at which a doubtful placement is kept. Chosen: a tenth of a decade, about the error of measured shifts.
 pub(super) const LAW_TOLERANCE: f64 = 0.1 * LN_10;
 /// Largest ratio of the misfit to the shift of a pair with which the law holds. Chosen: 0.5 K and 0.5 K of error in pairs 10 K
 /// apart.
 const LAW_RELATIVE_TOLERANCE: f64 = 0.15;
-/// Range in which the logarithm of the distance of the pole below the coldest isotherm is searched; the distance is in kelvins.
-/// Chosen: 1 K to 8000 K.
+/// Range in which the logarithm of the distance of the pole below the coldest isotherm is searched; the distance is in
+/// kelvins. Chosen: 1 K to 8000 K, from a law that changes within a kelvin to one that is nearly a straight line.
 const LOG_POLE_RANGE: [f64; 2] = [0.0, 9.0];
 
 /// A shift by the law, and its dependence on the known shifts.

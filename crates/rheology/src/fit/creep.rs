@@ -23,9 +23,11 @@ pub struct CreepPoint {
     pub compliance: f64,
 }
 
-/// Number of retardation times per decade. Chosen: neighbouring times differ by a factor of 1.33.
+/// Number of retardation times per decade. Chosen: neighbouring times differ by a factor of 1.33, less than the width of the
+/// response of one element, so that their sum is smooth.
 const TIMES_PER_DECADE: f64 = 8.0;
-/// Root mean square relative error of the series above which the curve is refused as that of no creeping material. Chosen.
+/// Root mean square relative error of the series above which the curve is refused as that of no creeping material. Chosen:
+/// creep is measured to some per cent; a wrong column or unit makes a far larger error.
 const MAX_RMS_ERROR: f64 = 0.2;
 
 /// Relaxation moduli at the times of measured creep compliances.

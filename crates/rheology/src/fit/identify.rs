@@ -107,10 +107,9 @@ impl From<Identification> for PronyExpansion {
     }
 }
 
-/// Factor m by which a relaxation time may lie outside the measured window. Chosen.
-///
-/// The loss modulus of a branch then exceeds its value at the end of the window by at most (m + 1/m)/2 = 1.25. A branch
-/// farther outside would be determined by its flank only.
+/// Factor m by which a relaxation time may lie outside the measured window. Chosen: the loss modulus of a branch then
+/// exceeds its value at the end of the window by at most (m + 1/m)/2 = 1.25. A branch farther outside would be determined by
+/// its flank only.
 const WINDOW_MARGIN: f64 = 2.0;
 /// Number of branches per decade of the reference series that shows the attainable error. Chosen: neighbouring times differ by a
 /// factor of 1.8, less than the width of the response of one branch.
@@ -181,11 +180,11 @@ fn fit_series(
     Ok((problem, series))
 }
 
-/// Smallest ratio of the scale of the errors of a modulus in the fit to |G*|. Chosen.
+/// Smallest ratio of the scale of the errors of a modulus in the fit to |G*|. Chosen: instruments measure a phase angle,
+/// whose error changes the smaller modulus in proportion to |G*|.
 const MIN_WEIGHT_SCALE: f64 = 0.1;
-/// Largest ratio of the error of G' with individual weights to that with weights by |G*|. Chosen.
-///
-/// Beyond it the moduli contradict each other.
+/// Largest ratio of the error of G' with individual weights to that with weights by |G*|. Chosen: beyond it the moduli
+/// contradict each other, and a small G'' would spoil the fit of G'.
 const MAX_STORAGE_ERROR_RATIO: f64 = 3.0;
 
 /// The weighted data of a fit.

@@ -77,7 +77,8 @@ impl Place {
 /// Smallest sum of weights of the points in an overlap, about one and a half intervals between points. Chosen: a pair with less
 /// is placed by the law of other pairs, or refused.
 const MIN_OVERLAP: f64 = 2.5;
-/// Largest root mean square distance of ln G' with which two isotherms meet, a quarter of the modulus. Chosen.
+/// Largest root mean square distance of ln G' with which two isotherms meet, a quarter of the modulus. Chosen: scatter and a
+/// vertical shift are smaller; a larger distance means isotherms of different curves.
 const MAX_RMS_DISTANCE: f64 = 0.23;
 /// Number of trial shifts, from contact at one end to contact at the other. Chosen: the best one is refined by golden section.
 const N_TRIALS: u32 = 1000;

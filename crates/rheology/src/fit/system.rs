@@ -41,7 +41,7 @@ pub(super) struct Measurement {
 pub(super) const MIN_RELATIVE_SIZE: f64 = 1e-3;
 
 impl Measurement {
-    /// Response of a spring of unit modulus.
+    /// Contribution of a spring of unit modulus to the measured quantity: 1 to G' and G(t), 0 to G''.
     pub(super) const fn spring(&self) -> f64 {
         match self.quantity {
             Quantity::Storage | Quantity::Relaxation => 1.0,

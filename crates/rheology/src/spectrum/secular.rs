@@ -24,7 +24,7 @@ pub(super) struct Root {
     pub(super) relative_inverse_slope: f64,
 }
 
-/// All roots in increasing order; `level` is e.
+/// Roots of the secular equation in increasing order, with the constant term e = `level`.
 pub(super) fn roots(poles: &[Pole], level: f64) -> Vec<Root> {
     let equation = Secular { poles, level };
     let gaps = (1..poles.len()).map(|upper| equation.root_in_gap(upper));

@@ -106,7 +106,7 @@ pub(crate) fn fit(options: &FitFriction) -> Result<()> {
     }
 }
 
-/// Reads and protects a table of measured friction.
+/// Reads a table of measured friction and protects its file from being overwritten by outputs.
 pub(crate) fn read_points(
     path: &Path,
     options: &FrictionTableOptions,

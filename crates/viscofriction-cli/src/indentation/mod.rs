@@ -97,7 +97,7 @@ struct Body {
 }
 
 impl Body {
-    /// The indenter; an error names the option.
+    /// The indenter that the options describe; an error names the option.
     fn shape(&self) -> Result<Box<dyn Axisymmetric>, WrongInput> {
         let slope = |parameter, value: f64| {
             let allowed = "greater than 0 and less than 90 degrees";
@@ -123,7 +123,7 @@ impl Body {
     }
 }
 
-/// Parses a length, or "fit".
+/// Parses the thickness of the sample: a length, or "fit".
 fn thickness(text: &str) -> Result<Thickness, String> {
     if text == "fit" {
         return Ok(Thickness::Fitted);
@@ -132,7 +132,7 @@ fn thickness(text: &str) -> Result<Thickness, String> {
     known.map_err(|needed| format!("{needed}; or \"fit\""))
 }
 
-/// A boxed shape.
+/// Boxes a body, so that bodies of different types can be returned.
 fn boxed(shape: impl Axisymmetric + 'static) -> Box<dyn Axisymmetric> {
     Box::new(shape)
 }
@@ -265,7 +265,7 @@ fn fit_map(
     print_line(&format!("written into {}", out.path().display()))
 }
 
-/// Names of the findings of a fit.
+/// Names of the findings of a fit, in their order.
 fn names(fit: &IndentationFit) -> Vec<&str> {
     fit.findings.iter().map(|one| &one.name[..]).collect()
 }
@@ -283,7 +283,7 @@ fn all_names(fits: &[Result<IndentationFit, WrongInput>]) -> Vec<&str> {
     [others, longest].concat()
 }
 
-/// Notes of a fit in one cell.
+/// Notes of a fit, separated by semicolons, as the text of one cell; empty for a curve that was not fitted.
 fn notes(fit: &Result<IndentationFit, WrongInput>) -> String {
     let notes = fit.iter().flat_map(|fit| &fit.notes);
     notes
@@ -323,7 +323,7 @@ pub(crate) fn numbers(finding: &Finding) -> [Option<f64>; 4] {
 }
 
 impl FitIndentation {
-    /// Text of the result: findings, residual, notes and flags.
+    /// Text that is printed of a fit: findings, residual, notes and flags.
     fn table(&self, fit: &IndentationFit) -> String {
         let mut table = markdown(FINDINGS);
         for finding in &fit.findings {

@@ -3,7 +3,8 @@
 use measurements::indentation::IndentationFit;
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series, Shape};
 
-/// Largest number of points that are drawn; of more points every n-th is. Chosen.
+/// Largest number of points that are drawn; of more points every n-th is. Chosen: about three for each pixel of the width of
+/// a chart.
 const MAX_POINTS: usize = 1500;
 
 /// The figure of a fit: force over time, force over the depth from the contact point, and residuals in units of their standard

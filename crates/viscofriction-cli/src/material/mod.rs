@@ -133,7 +133,7 @@ pub(crate) fn fit(options: &FitMaterial) -> Result<()> {
     fitted.report(out.as_ref())
 }
 
-/// The measured points joined to one curve, and the shifts of its isotherms if the table has temperatures.
+/// The measured points as one curve: isotherms are shifted to a master curve, which is returned with their shifts.
 fn joined_points(
     moduli: MeasuredModuli,
     options: &FitMaterial,
@@ -194,7 +194,7 @@ enum Points {
 }
 
 impl Points {
-    /// The curve to which the series is fitted.
+    /// The measured curve to which the Prony series is fitted.
     fn curve(&self) -> Result<MeasuredCurve, RheologyError> {
         match self {
             Self::Oscillation(points) => MeasuredCurve::oscillation(points.clone()),
@@ -204,7 +204,7 @@ impl Points {
 }
 
 impl FitMaterial {
-    /// Options for reading the table.
+    /// Options for reading the table of moduli.
     fn table(&self) -> Result<TableOptions, WrongInput> {
         Ok(TableOptions {
             shear_per_tension: shear_per_tension(self.poisson_ratio).map_err(wrong_option)?,
@@ -264,7 +264,7 @@ impl Fitted<'_> {
         print_line(&format!("written into {}", out.path().display()))
     }
 
-    /// Number of branches and relative errors in one line.
+    /// One line about the series: number of branches and relative errors of the moduli.
     fn summary(&self) -> String {
         let found = &self.found;
         let n_branches = found.spectrum.branches().len();

@@ -134,7 +134,7 @@ pub(crate) struct NewFiles<'a> {
 }
 
 impl NewFiles<'_> {
-    /// Writes one of the files.
+    /// Writes the file `name` of an output folder.
     pub(crate) fn write(&self, name: &str, contents: &[u8]) -> Result<()> {
         let written = fs::write(self.part.path().join(name), contents);
         written.map_err(|error| not_written(self.folder.path.join(name).display(), error))?;
@@ -233,6 +233,7 @@ fn is_on_one_disk(folder: &Path, parent: &Path) -> bool {
     let disk = |path: &Path| fs::metadata(path).map(|folder| folder.dev()).ok();
     disk(folder) == disk(parent)
 }
+/// Assumes one file system, on systems other than Unix; a move across file systems then fails with its own message.
 #[cfg(not(unix))]
 fn is_on_one_disk(_: &Path, _: &Path) -> bool {
     true
@@ -353,6 +354,7 @@ fn is_same(one: &Path, other: &Path) -> bool {
     };
     identity(one).is_some() && identity(one) == identity(other)
 }
+/// True if both are files, on systems other than Unix, where the identity of a file is not read.
 #[cfg(not(unix))]
 fn is_same(one: &Path, other: &Path) -> bool {
     one.is_file() && other.is_file()

@@ -71,7 +71,7 @@ struct Row {
 }
 
 impl Row {
-    /// A number by its name; `None` if it is not known.
+    /// Value of the column `name` of the answer to this cut-off; `None` if the answer does not have it.
     fn number(&self, name: &str) -> Option<f64> {
         let place = NUMBERS.iter().position(|known| *known == name);
         place.and_then(|place| self.numbers[place])
@@ -203,7 +203,7 @@ fn row(one: &CutOff, all: &CutOff) -> Row {
     }
 }
 
-/// The rows as a printed table.
+/// The rows, one for each cut-off, as a printed table.
 fn table(rows: &[Row]) -> comfy_table::Table {
     let mut table = markdown(
         "shortest wavelength [m] | rms slope | friction coefficient | standard error | area fraction | standard error | \
@@ -238,7 +238,7 @@ struct Files {
 }
 
 impl Files {
-    /// Validates the three output paths.
+    /// Validates the paths of the CSV file and of its two pictures.
     fn new(out: &Path, overwrite: bool) -> Result<Self, WrongInput> {
         let file = |path: &Path| OutputFile::new(path, overwrite);
         Ok(Self {

@@ -71,7 +71,7 @@ pub(super) fn write(
     out.finish()
 }
 
-/// What the map of the pressure shows.
+/// Extent of the map of the pressure: the surroundings of a body, a period, or one of four mirror images.
 fn shown(source: &Source, answer: &Answer) -> Result<Shown> {
     let scene = source.table()?;
     let map = scene

@@ -72,7 +72,7 @@ impl Run {
     }
 }
 
-/// Adds the advice to leave out an option.
+/// Appends to the problem of a key that `option` may also be left out.
 fn or_without(option: &str, error: SceneError) -> SceneError {
     match error {
         SceneError::At { key, problem } => {

@@ -59,7 +59,7 @@ pub(super) fn page(
 /// Explanation of the column of errors for readers of the report.
 const BARS: &str = "The true value of what is modelled lies within the error of the value; without an error it is given, or exact.";
 
-/// Title: the body, its motion and the material.
+/// Title of the report: body, motion and material.
 fn title(scene: &Table, problem: &Problem) -> String {
     let kind = |table: &str, otherwise: &str| {
         let table = scene.get(table).and_then(Value::as_table);
@@ -222,7 +222,8 @@ fn moduli_figure(problem: &Problem, answer: &Answer) -> Option<Figure> {
     })
 }
 
-/// Ratio of the highest drawn frequency to v/L, and of v/L to the lowest, with the speed v and the contact length L. Chosen.
+/// Ratio of the highest drawn frequency to v/L, and of v/L to the lowest, with the speed v and the contact length L. Chosen:
+/// v/L is the frequency of the contact itself; the range shows its neighbourhood of three decades either way.
 const FREQUENCY_HALF_RANGE: f64 = 1e3;
 
 /// Caption of a picture by the name of its file.

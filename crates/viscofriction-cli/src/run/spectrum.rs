@@ -10,11 +10,11 @@ use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series
 use super::pictures::range_with_zero;
 use crate::output::markdown;
 
-/// Smallest fraction of the sum of the absolute derivatives of friction by all bands with which a band has a row in the table.
-/// Chosen.
+/// Smallest fraction of the sum of the absolute derivatives of friction by all bands with which a band has a row in the
+/// table. Chosen: the sentence below the table has the sum of all smaller ones.
 const MIN_FRACTION_IN_TABLE: f64 = 0.01;
 /// Smallest fraction of the sum of the absolute derivatives of friction by all bands with which a band has a point in the
-/// picture. Chosen.
+/// picture. Chosen: lower points cannot be distinguished from zero on the linear axis, and would lengthen the other one.
 const MIN_FRACTION_IN_PICTURE: f64 = 1e-4;
 /// Number of points per decade of a master curve. Chosen; it changes the picture only.
 const POINTS_PER_DECADE: f64 = 20.0;
@@ -27,7 +27,7 @@ fn derivatives(band: &ByFrequency, key: &str) -> [Option<Estimate>; 2] {
     [&band.storage_modulus, &band.loss_modulus].map(|one| one.derivatives.of(key))
 }
 
-/// Derivatives of the friction by G' and by G''; 0 if they are not known.
+/// Derivatives d ln μ/d ln G' and d ln μ/d ln G'' of the friction coefficient in a frequency band; 0 if the answer has none.
 fn friction_derivatives(band: &ByFrequency) -> [Estimate; 2] {
     derivatives(band, "friction_coefficient").map(|known| known.unwrap_or(Estimate::exact(0.0)))
 }
@@ -52,7 +52,7 @@ fn significant_bands(
         .filter(move |band| derivative_size(band) >= least)
 }
 
-/// Table of the significant bands, and a sentence about the fraction of all others.
+/// Table of the frequency bands whose derivatives are significant, and a sentence about the part of all others.
 pub(super) fn table(spectral: &SpectralSensitivity) -> (Table, String) {
     let first = spectral.bands.first().into_iter();
     let known = first.flat_map(|band| band.storage_modulus.derivatives.iter());

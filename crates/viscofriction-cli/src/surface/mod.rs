@@ -150,7 +150,7 @@ impl Surface {
         Ok((surface, notes))
     }
 
-    /// The height-map table of a scene with these options.
+    /// The table `height-map` of a scene that reads the file with these options.
     fn table(&self) -> HeightMapTable {
         let edges = if self.periodic {
             Edges::Periodic
@@ -185,7 +185,7 @@ impl Surface {
         }
     }
 
-    /// Invalid input, with the name of the file.
+    /// Invalid input in the file of heights, with the name of the file.
     fn wrong(&self, problem: impl std::fmt::Display) -> WrongInput {
         WrongInput(format!("{}: {problem}", self.file.display()))
     }
@@ -208,7 +208,7 @@ const QUANTITIES: &str = "root mean square of the heights|Sq|m\n\
                           root mean square of the mean curvature||1/m\n\
                           Nayak's parameter|α|1";
 
-/// The rows with their values.
+/// Roughness parameters with name, symbol and unit, in the order of [`QUANTITIES`].
 fn rows(of: &Roughness) -> Vec<Statistic> {
     let heights = [
         of.rms_height,
@@ -232,7 +232,7 @@ fn rows(of: &Roughness) -> Vec<Statistic> {
     QUANTITIES.lines().zip(values).map(row).collect()
 }
 
-/// The rows as a printed table.
+/// Roughness parameters as a printed table.
 fn table(rows: &[Statistic]) -> comfy_table::Table {
     let mut table = markdown("quantity | symbol | value | unit");
     for (quantity, symbol, value, unit) in rows {

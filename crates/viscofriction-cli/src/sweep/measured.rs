@@ -16,9 +16,11 @@ use crate::output::eprint_line;
 pub(super) const SPEED: &str = "load.velocity";
 /// Largest difference of the natural logarithms of two speeds that count as one. Chosen, above the rounding of the table.
 const SAME_SPEED: f64 = 1e-9;
-/// Largest relative difference between a measured normal force and that of a computed curve with which both are compared. Chosen.
+/// Largest relative difference between a measured normal force and that of a computed curve with which both are compared.
+/// Chosen: it is the accuracy of a normal force that is held.
 const SAME_FORCE: f64 = 0.02;
-/// Largest difference between a measured temperature and that of a computed curve with which both are compared, \[K]. Chosen.
+/// Largest difference between a measured temperature and that of a computed curve with which both are compared, \[K].
+/// Chosen: it is the accuracy of a temperature that is held.
 const SAME_TEMPERATURE: f64 = 1.0;
 /// Smallest number of computed speeds for an interpolation. Derived: three define a parabola, whose difference from linear
 /// interpolation is the error estimate.
@@ -166,7 +168,7 @@ impl Measured {
         })
     }
 
-    /// The residuals of the points on each curve.
+    /// Residuals of the measured points on each computed curve.
     pub(super) fn residuals(&self, table: &RowTable) -> Result<Residuals> {
         // A curve is a combination of the other varied keys; along it friction is interpolated over the speed.
         let mut others = keys(table)?;
@@ -333,7 +335,7 @@ fn ends(values: impl Iterator<Item = f64>) -> [f64; 2] {
     })
 }
 
-/// A range with its unit in words.
+/// A range as text, `0.1 to 10 UNIT`; a single number if its ends are equal.
 fn range([low, high]: [f64; 2], unit: &str) -> String {
     if low < high {
         format!("{low:?} to {high:?} {unit}")

@@ -174,7 +174,7 @@ fn rows_without_results(plan: &Plan) -> RowTable {
     }
 }
 
-/// Reports the distribution of the answers of samples.
+/// Prints the distribution of the answers to samples of the uncertain quantities on the standard error.
 fn eprint_samples(header: &[String], rows: &[SweepRow]) {
     let table = RowTable {
         header: header.to_vec(),

@@ -208,7 +208,7 @@ const fn incompressible() -> f64 {
 }
 
 impl MaterialTable {
-    /// Path of the table.
+    /// Path of the table of the material in the scene, such as `material.prony`.
     pub fn key(&self) -> String {
         let name: &str = self.into();
         format!("material.{name}")

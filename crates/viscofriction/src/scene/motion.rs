@@ -71,7 +71,7 @@ impl Load {
         load.map(Some).map_err(|error| refused(key, &error))
     }
 
-    /// Rejects a second description of the motion.
+    /// Rejects a scene with more than one of a stroke, a motion and a history.
     fn check_alone(&self) -> Result<(), SceneError> {
         let motions = [
             ("load.stroke", self.stroke.is_some()),

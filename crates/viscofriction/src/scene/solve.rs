@@ -70,7 +70,7 @@ pub enum Model {
 }
 
 impl Model {
-    /// Name in a scene file.
+    /// Name of the model in a scene file.
     pub fn name(self) -> &'static str {
         self.into()
     }
@@ -96,7 +96,7 @@ const MAX_BYTES: f64 = (1_u64 << 53) as f64;
 const DEFAULT_RELATIVE_ERROR: f64 = 1e-3;
 
 impl Method {
-    /// Name in a scene file.
+    /// Name of the method in a scene file.
     pub fn name(self) -> &'static str {
         self.into()
     }
@@ -112,7 +112,7 @@ impl Method {
 }
 
 impl Solve {
-    /// Validated accuracy: relative error or number of elements.
+    /// The accuracy that the scene requests, validated: relative error or number of elements.
     pub(crate) fn accuracy(&self) -> Result<Accuracy, SceneError> {
         match (self.relative_error, self.elements) {
             (Some(_), Some(_)) => Err(SceneError::at(
@@ -135,7 +135,7 @@ impl Solve {
         }
     }
 
-    /// Validated number of threads; `None` for all available ones.
+    /// The number of threads that the scene requests, validated; `None` for all available ones.
     pub(crate) fn checked_threads(&self) -> Result<Option<usize>, SceneError> {
         if let Some(threads) = self.threads {
             let holds = (1..=1024).contains(&threads);

@@ -34,12 +34,12 @@ impl Source {
         })
     }
 
-    /// Path of the file.
+    /// Path of the scene file.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Text of the file.
+    /// Contents of the scene file.
     pub fn text(&self) -> &str {
         &self.text
     }
@@ -83,7 +83,7 @@ impl Source {
         Ok(table)
     }
 
-    /// The message of an error with file and line.
+    /// Message of an error of the scene, with the file and the line of its key.
     pub fn locate(&self, error: &SceneError) -> WrongInput {
         let line = match error {
             SceneError::Syntax { line, .. } => *line,

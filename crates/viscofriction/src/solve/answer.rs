@@ -303,7 +303,7 @@ impl Answer {
         numbers
     }
 
-    /// Names of all [`numbers`](Self::numbers), the columns of the CSV.
+    /// Names of all [`numbers`](Self::numbers) of an answer, which are the columns of the CSV.
     pub fn columns() -> Vec<String> {
         let empty = Self::new(Method::Analytic, Model::HalfSpace, Estimate::exact(0.0));
         empty.numbers().into_iter().map(|(name, _)| name).collect()

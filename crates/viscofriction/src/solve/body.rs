@@ -18,7 +18,8 @@ use crate::scene::{
 };
 use crate::text::WrongInput;
 
-/// Relative deviation of the rms slope of a sampled surface from that of its spectrum, above which a warning is given. Chosen.
+/// Relative deviation of the rms slope of a sampled surface from that of its spectrum, above which a warning is given.
+/// Chosen: the friction of a rough surface is about proportional to its rms slope, and deviates as much.
 const MAX_SLOPE_DEVIATION: f64 = 0.1;
 
 /// The rigid body, by the kinds that methods distinguish.

@@ -9,7 +9,8 @@ use serde::ser::{SerializeMap as _, Serializer};
 use super::answer::Answer;
 use super::warning::Warning;
 
-/// Relative change of friction or area by the shortest octave of the waves, above which a warning is given. Chosen.
+/// Relative change of friction or area by the shortest octave of the waves, above which a warning is given. Chosen: it is
+/// well above the error bars, and each further octave may change the answer as much.
 const MAX_CHANGE: f64 = 0.1;
 /// Smallest relative error requested of the answer without the shortest octave of the waves. Chosen: well below the change
 /// [`MAX_CHANGE`] to detect.

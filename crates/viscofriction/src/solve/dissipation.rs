@@ -23,7 +23,8 @@ pub struct Dissipation {
     pub shortest_octave: Option<f64>,
 }
 
-/// Fraction of the friction that comes from outside the measured frequencies, above which a warning is given. Chosen.
+/// Fraction of the friction that comes from outside the measured frequencies, above which a warning is given. Chosen:
+/// extrapolated moduli may be wrong by their own size, and the friction then by a tenth.
 const MAX_EXTRAPOLATED_FRACTION: f64 = 0.1;
 
 impl Dissipation {

@@ -245,7 +245,7 @@ impl SolveError {
     }
 }
 
-/// True if the body is invalid.
+/// True if the error says that the body itself is invalid, and not that a computation with it failed.
 const fn is_wrong_body(error: &IndenterError) -> bool {
     matches!(
         error,
@@ -260,6 +260,7 @@ const fn is_wrong_body(error: &IndenterError) -> bool {
 macro_rules! causes {
     ($($cause:ty => $variant:ident,)*) => {
         $(impl From<$cause> for SolveError {
+            /// Wraps an error of a library, whose message becomes that of the variant.
             fn from(error: $cause) -> Self {
                 Self::$variant(error)
             }
@@ -301,7 +302,7 @@ pub enum NotOffered {
     },
 }
 
-/// Names the methods that answer the scene.
+/// Names of the methods that answer the scene, as advice in a message.
 fn others(offered: &[Method]) -> String {
     if offered.is_empty() {
         return "no other method does either".to_owned();

@@ -178,7 +178,7 @@ fn shear_material(table: &MaterialTable, files: &Files<'_>) -> Result<HalfSpace,
     found.map_err(|error| refused(&table.key(), error))
 }
 
-/// A material without an error of its own.
+/// Half space of a material that needs no approximating series and has no range of valid frequencies.
 fn exact(material: impl Material + 'static) -> HalfSpace {
     HalfSpace {
         material: Box::new(material),

@@ -8,16 +8,19 @@ use numerics::whole_part;
 use super::body::{Body, BodyOfScene};
 use crate::scene::{Edges, HeightMapTable, SceneError};
 
-/// Rms slope above which a warning says that the unit of the heights is probably wrong. Chosen: linear theory needs small slopes.
+/// Rms slope above which a warning says that the unit of the heights is probably wrong. Chosen: linear theory needs slopes
+/// far below 1, and rough surfaces in contact rarely have steeper ones.
 pub(super) const MAX_RMS_SLOPE: f64 = 1.0;
 /// Rms slope below which a warning says that the unit of heights or distances is probably wrong. Chosen: optical flats have 1e-5.
 const MIN_RMS_SLOPE: f64 = 1e-5;
-/// Length of a map, \[m], above which a warning says that the unit of its distances is probably wrong. Chosen.
+/// Length of a map, \[m], above which a warning says that the unit of its distances is probably wrong. Chosen: instruments
+/// that measure roughness scan less.
 const MAX_PERIOD: f64 = 1.0;
-/// Fraction of the heights that were missing and have been filled in, above which a warning is given. Chosen.
+/// Fraction of the heights that were missing and have been filled in, above which a warning is given. Chosen: so few heights
+/// hardly change the friction, wherever they are.
 const MAX_FILLED_FRACTION: f64 = 0.01;
 /// Largest fraction of the mean square slope that the step at the edge of a periodic map may contribute without a warning.
-/// Chosen: half.
+/// Chosen: a larger step contributes more than the surface itself.
 const MAX_STEP_FRACTION: f64 = 0.5;
 
 /// Builds the rigid body from measured heights, given by a scene or an array.

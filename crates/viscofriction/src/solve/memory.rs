@@ -200,7 +200,7 @@ impl Progress for Limited<'_> {
 /// Memory needed by a grid of `elements` elements along the contact, \[bytes]; `None` for methods without a memory estimate.
 ///
 /// # Errors
-/// As for the method, before anything is solved.
+/// Those of the method that do not need a solution, such as a parameter out of range.
 pub(super) fn memory_needed(
     problem: &Problem,
     method: Method,

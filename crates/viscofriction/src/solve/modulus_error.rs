@@ -15,9 +15,9 @@ use crate::scene::{Accuracy, Method, Model};
 /// Fraction of the requested relative error that is requested of the method if a Prony series approximates the material. Chosen;
 /// the rest is left for the error of the series.
 const SOLVER_ERROR_SHARE: f64 = 0.95;
-/// Bound of the ratio of the relative change of a quantity to the relative change of the moduli. Chosen. A force at a given depth
-/// is proportional to the moduli. Under a given force depth and radius change less, area and peak pressure at most twice as much;
-/// the bound doubles this.
+/// Bound of the ratio of the relative change of a quantity to the relative change of the moduli. Chosen: twice the largest
+/// known ratio. A force at a given depth is proportional to the moduli. Under a given force depth and radius change less,
+/// area and peak pressure at most twice as much.
 pub(super) const MODULUS_ERROR_AMPLIFICATION: f64 = 4.0;
 
 impl Problem {

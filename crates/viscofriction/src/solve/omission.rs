@@ -32,7 +32,7 @@ pub enum Omission {
 }
 
 impl Omission {
-    /// The JSON name with spaces for hyphens.
+    /// Name of the omission in words: that in JSON with spaces for hyphens.
     pub fn name(self) -> String {
         let name: &str = self.into();
         name.replace('-', " ")

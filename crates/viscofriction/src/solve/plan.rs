@@ -67,7 +67,7 @@ pub fn plan(problem: &Problem) -> Result<Plan<'_>, NotOffered> {
 }
 
 impl Plan<'_> {
-    /// The method.
+    /// Method by which the problem is solved.
     pub const fn method(&self) -> Method {
         self.method
     }

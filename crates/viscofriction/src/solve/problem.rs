@@ -118,7 +118,7 @@ impl Problem {
     /// The problem of a scene with the given body and elastomer in the place of its own.
     ///
     /// # Errors
-    /// As for [`Self::new`].
+    /// [`SceneError`] for a scene that [`Self::new`] refuses, too.
     pub fn with_parts(
         scene: &Scene,
         parts: Parts,
@@ -260,12 +260,12 @@ impl Problem {
         Ok(self)
     }
 
-    /// The rigid body.
+    /// Rigid body that is pressed or slides.
     pub fn body(&self) -> &Body {
         &self.parts.body.body
     }
 
-    /// Body and elastomer, for problems with another load.
+    /// Body and elastomer without the load, to be shared with problems of other loads.
     pub const fn parts(&self) -> &Parts {
         &self.parts
     }
@@ -275,7 +275,7 @@ impl Problem {
         &self.parts.body.warnings
     }
 
-    /// The elastomer.
+    /// Linear viscoelastic material of the elastomer.
     pub fn material(&self) -> &dyn Material {
         &*self.parts.half_space.material
     }
@@ -332,7 +332,7 @@ impl Problem {
         }
     }
 
-    /// Requested accuracy.
+    /// Accuracy that is requested of the answer.
     pub const fn accuracy(&self) -> Accuracy {
         self.accuracy
     }
@@ -342,7 +342,7 @@ impl Problem {
         self.method
     }
 
-    /// The model of the elastomer.
+    /// Model of the elastomer: half space or layer, or the one-dimensional model.
     pub const fn model(&self) -> Model {
         self.model
     }
@@ -372,7 +372,7 @@ impl Problem {
         self.simple.as_ref()
     }
 
-    /// The viscoelastic layer or half space.
+    /// The viscoelastic layer, or the half space if the scene has no layer.
     pub(crate) fn elastomer(&self) -> Result<Layer<'_, dyn Material>, SolveError> {
         Ok(Layer::new(&*self.parts.half_space.material, self.thickness).map_err(BemError::from)?)
     }

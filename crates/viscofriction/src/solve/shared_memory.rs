@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// Number of threads of the pool.
+/// Number of threads of the current thread pool.
 #[cfg(feature = "rayon")]
 pub(super) fn threads() -> usize {
     rayon::current_num_threads()

@@ -11,10 +11,11 @@ use super::half_space::Simple;
 use super::problem::{Motion, Problem};
 use super::warning::Warning;
 
-/// Mean slope of the body in contact above which a warning is given. Chosen: linear theory needs a small one.
+/// Mean slope of the body in contact above which a warning is given. Chosen: linear theory neglects the square of the slope
+/// against 1, here a quarter.
 pub(super) const MAX_MEAN_SLOPE: f64 = 0.5;
 /// Ratio of the indentation depth to the radius of a sphere, or to the thickness of a layer, above which a warning is given.
-/// Chosen: a third.
+/// Chosen: strains are then a third or more, beyond the range in which the theory and most elastomers are linear.
 const MAX_RELATIVE_DEPTH: f64 = 1.0 / 3.0;
 
 /// Warnings about the validity of an answer, after those of its files; without any the linear theory holds.

@@ -141,7 +141,7 @@ fn on_grids<'a>(
     ready(move |watch| answer(Request { accuracy, watch }))
 }
 
-/// Refuses with a reason unless a condition holds.
+/// Returns the refusal unless the condition holds.
 fn require(holds: bool, refusal: Refusal) -> Result<(), Refusal> {
     if holds { Ok(()) } else { Err(refusal) }
 }
@@ -151,7 +151,7 @@ fn sinks(problem: &Problem) -> bool {
     problem.material().creep().fluidity() > 0.0 && !problem.thickness().is_finite()
 }
 
-/// True if the normal force is given.
+/// True if the scene gives the normal force, and not the depth.
 fn has_force(problem: &Problem) -> bool {
     matches!(problem.motion().control(), Control::NormalForce(_))
 }
@@ -190,7 +190,7 @@ fn followed<'a>(
     }
 }
 
-/// Reciprocating motion, or motion through given positions.
+/// Offer of a method for a reciprocating motion, or for a motion through given positions.
 fn moved<'a>(
     problem: &'a Problem,
     load: &'a MovingLoad,
@@ -230,7 +230,7 @@ fn moved<'a>(
     }
 }
 
-/// A cylinder on the half space, under a force.
+/// Offer of a method for a cylinder on the half space under a given force.
 fn line_contact<'a>(
     problem: &'a Problem,
     cylinder: &'a Cylinder,

@@ -83,7 +83,7 @@ impl Plan {
         })
     }
 
-    /// The text of the scene.
+    /// Text of the scene that is varied.
     pub fn scene_text(&self) -> &str {
         self.source.text()
     }
@@ -98,7 +98,7 @@ impl Plan {
         self.vary.iter().map(|vary| vary.key.as_str())
     }
 
-    /// Values of a point; the last key varies fastest.
+    /// Values of the varied keys at the point of this index, in the order of the keys; the last key varies fastest.
     pub fn values(&self, point: usize) -> Vec<&Varied> {
         let mut rest = point;
         let mut values = Vec::new();
@@ -169,7 +169,7 @@ impl Plan {
     /// The row of a point; a missed request is part of the row.
     ///
     /// # Errors
-    /// [`WrongInput`] as of [`Self::validate`].
+    /// [`WrongInput`] for a point that [`Self::validate`] refuses.
     pub fn solve(&self, point: usize) -> Result<SweepRow, WrongInput> {
         let (scene, problem) = self.scene_and_problem(point, 1)?;
         self.solve_problem(point, (&scene, &problem))
@@ -267,10 +267,10 @@ impl Plan {
         names.into_iter().chain(numbers).chain(after).collect()
     }
 
-    /// The problem of a point.
+    /// The problem at the point of this index: the scene with the values of the varied keys.
     ///
     /// # Errors
-    /// [`WrongInput`] as of [`Self::validate`].
+    /// [`WrongInput`] for a point that [`Self::validate`] refuses.
     pub fn problem(&self, point: usize) -> Result<Problem, WrongInput> {
         self.scene_and_problem(point, 1).map(|(_, problem)| problem)
     }

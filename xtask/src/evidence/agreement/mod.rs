@@ -24,17 +24,19 @@ const SCENES: [usize; 2] = [5000, 22];
 /// Number of decades, up and down, from which sliding distances from first touch are drawn in a quick run. Chosen: long distances
 /// take long.
 const QUICK_DISTANCE_DECADES: f64 = 0.2;
-/// Largest memory of one solution in a quick run, which bounds the size of its grids. Chosen.
+/// Largest memory of one solution in a quick run, which bounds the size of its grids. Chosen: a solution then takes seconds
+/// at most.
 const QUICK_MEMORY: &str = "16 MiB";
 /// Relative errors requested in a quick run. Chosen: smaller ones would only repeat the refinement on finer grids.
 const QUICK_ERRORS: [f64; 1] = [0.1];
 /// Fraction of the comparisons within error bars that may deviate by more than the sum of both. Each bar is to hold in 95 % of
 /// the cases, their sum much more often.
 const MAX_OUTSIDE_FRACTION: f64 = 0.01;
-/// Largest ratio of the deviation to the sum of both bars in the comparisons that [`MAX_OUTSIDE_FRACTION`] admits outside the
-/// error bars. Chosen.
+/// Largest ratio of the deviation to the sum of both bars in the comparisons that [`MAX_OUTSIDE_FRACTION`] admits outside
+/// the error bars. Chosen: a bar that is an estimate may be too small by such a factor; a larger deviation is a defect.
 const MAX_DEVIATION_OVER_BARS: f64 = 3.0;
-/// Number of contradictions that the page lists by name, the worst ones. Chosen.
+/// Number of contradictions that the page lists by name, the worst ones. Chosen: they suffice to see what contradictions
+/// have in common; `agreement.csv` has all.
 const LISTED_CONTRADICTIONS: usize = 20;
 
 /// Judges random scenes. Those that `agreement.csv` in `out` already has for this seed are not judged again.

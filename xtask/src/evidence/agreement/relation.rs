@@ -36,7 +36,7 @@ pub(super) enum Relation {
     MoreLoad,
     /// All lengths, stresses and times multiplied by powers of two.
     OtherUnits,
-    /// The same body or material under another name.
+    /// The body or material is described under the name of an equivalent one.
     OtherName,
     /// Branches split in two and in another order.
     SplitBranches,
@@ -88,7 +88,8 @@ const THICKNESS_OVER_CONTACT: f64 = 1e6;
 /// Largest relative difference between such a layer and the half space, if long waves find the material no softer than the
 /// contact does. Derived: ten times the ratio of half the contact length to the thickness.
 const LAYER_DIFFERENCE: f64 = 1e-5;
-/// Relative difference between layer and half space above which the relation is not tried, because it would say nothing. Chosen.
+/// Relative difference between layer and half space above which the relation is not tried. Chosen: a larger tolerance would
+/// hide most contradictions.
 const MAX_LAYER_DIFFERENCE: f64 = 0.01;
 /// Ratio of the larger load to the given one. Chosen, so that its effects are well above the error bars.
 const LOAD_FACTOR: f64 = 1.5;
@@ -100,7 +101,8 @@ const ELEMENTS_OF_PERIOD: usize = 256;
 /// Number of elements along the period of a surface that reciprocates or follows points, for [`Relation::GivenElements`]. Chosen
 /// smaller, since a cycle takes as many steps as there are elements in a stroke.
 const ELEMENTS_OF_MOTION: usize = 64;
-/// Relative error that the series of [`other_series`] has and states. Chosen.
+/// Relative error that the series of [`other_series`] has and states. Chosen: it is below most requested errors, so that
+/// scenes remain solvable, and far above rounding.
 const SERIES_ERROR: f64 = 1e-4;
 /// Factor by which the times for which [`SERIES_ERROR`] is stated go beyond the shortest and the longest relaxation time. Chosen,
 /// so that no scene needs other times.
@@ -111,7 +113,8 @@ const TRACK_OVER_CONTACT: f64 = 1e15;
 /// Ratio of the date at which the later motion begins to its duration. Chosen: the elapsed time must be subtracted without losing
 /// digits.
 const START_OVER_DURATION: f64 = 1e6;
-/// Largest |n| of the factor 2^n by which a unit is changed: factors up to 4096. Chosen.
+/// Largest |n| of the factor 2^n by which a unit is changed: factors up to 4096. Chosen: it is more than from metres to
+/// millimetres. Powers of two change no digit of a number, so that answers must agree to rounding.
 const MAX_POWER_OF_TWO: f64 = 12.0;
 
 impl Relation {
@@ -254,7 +257,7 @@ fn thick_layer(case: &mut Case) -> Option<()> {
     scene.layer.map(|_| ())
 }
 
-/// Closes the path of a body that slides in a stationary state into a long track; `None` of others and of periodic surfaces.
+/// Closes the path of a body that slides in a stationary state into a long track; `None` for others and of periodic surfaces.
 fn long_track(case: &mut Case) -> Option<()> {
     let track = TRACK_OVER_CONTACT * case.contact;
     let Scene {
@@ -436,7 +439,7 @@ fn at(of_file: &MaterialTable, temperature: Option<f64>) -> Option<MaterialTable
 }
 
 /// Makes every other term of a Prony series too large by [`SERIES_ERROR`] and the others too small, and states this as the
-/// error of the series. `None` of other materials and of a series that already states one.
+/// error of the series. `None` for other materials and of a series that already states one.
 fn other_series(material: &mut MaterialTable) -> Option<()> {
     let MaterialTable::Prony {
         equilibrium_modulus,
@@ -505,7 +508,7 @@ fn middle_of_motion(one: MotionPoint, other: MotionPoint) -> Option<MotionPoint>
     })
 }
 
-/// The point halfway between two points of a history; `None` of a jump, which takes no time.
+/// The point halfway between two points of a history; `None` for a jump, which takes no time.
 fn middle_of_history(one: LoadPoint, other: LoadPoint) -> Option<LoadPoint> {
     let mean = |of: fn(&LoadPoint) -> Option<f64>| Some(0.5 * (of(&one)? + of(&other)?));
     (other.time > one.time).then(|| LoadPoint {

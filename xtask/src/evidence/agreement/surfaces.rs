@@ -12,7 +12,7 @@ use viscofriction::scene::{
 use crate::evidence::sample::{Case, Lengths, SPECTRUM};
 
 /// Mirrors a height map across the motion; or, if `is_turned`, replaces it by heights of opposite sign in the opposite order
-/// together with the keys that undo both. `None` of other bodies.
+/// together with the keys that undo both. `None` for other bodies.
 pub(super) fn other_map(case: &mut Case, is_turned: bool) -> Option<()> {
     let Indenter::HeightMap(map) = &mut case.scene.indenter else {
         return None;
@@ -59,7 +59,7 @@ pub(super) fn as_spectrum(surface: &SelfAffineSurface) -> Result<(Indenter, Leng
     Ok((Indenter::Spectrum(other), table))
 }
 
-/// Interpolates a periodic height map by its Fourier series on twice as many heights along both edges; `None` of other bodies.
+/// Interpolates a periodic height map by its Fourier series on twice as many heights along both edges; `None` for other bodies.
 pub(super) fn resampled(case: &mut Case) -> Option<()> {
     let Indenter::HeightMap(map) = &mut case.scene.indenter else {
         return None;

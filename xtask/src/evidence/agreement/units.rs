@@ -27,9 +27,9 @@ struct Row {
 pub(super) struct Powers {
     /// All lengths are multiplied by 2 to this power.
     pub(super) length: i32,
-    /// All moduli and pressures.
+    /// All moduli and pressures are multiplied by 2 to this power.
     pub(super) stress: i32,
-    /// All times.
+    /// All times are multiplied by 2 to this power.
     pub(super) time: i32,
 }
 

@@ -67,7 +67,7 @@ struct Bar {
     deviation: f64,
     /// Whether the deviation is within the bar and the error of the reference.
     holds: bool,
-    /// Whether it is within the bar alone.
+    /// Whether the deviation is within the bar alone.
     holds_alone: bool,
     #[serde(skip)]
     solver: Method,

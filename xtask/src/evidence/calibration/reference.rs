@@ -20,7 +20,8 @@ const HALF_LENGTHS: [f64; 2] = [1e-6, 1.0];
 const CYLINDER_ERROR: f64 = 1e-12;
 /// Relative errors requested of references in the one-dimensional model; the first that is reached is taken.
 const LINE_ERRORS: [f64; 3] = [1e-12, 1e-11, 1e-10];
-/// Largest ratio of the error of a reference to an error bar with which the reference judges the bar sharply. Chosen.
+/// Largest ratio of the error of a reference to an error bar with which the reference judges the bar sharply. Chosen: the
+/// error of the reference then changes the ratio of deviation to bar by at most a third.
 pub(super) const SHARP_REFERENCE_RATIO: f64 = 1.0 / 3.0;
 /// Range of the relative errors requested of references on the half space. Chosen: smaller errors take too long.
 const HALF_SPACE_ERRORS: [f64; 2] = [1e-5, 1e-3];
@@ -105,7 +106,7 @@ fn cylinder(scene: &scene::Scene) -> Result<Reference> {
 }
 
 /// Depth \[m] of a power profile under a constant force by its closed form, with which the quadrature for any body is compared;
-/// `None` of other bodies and where the depth is given.
+/// `None` for other bodies and where the depth is given.
 fn power_pressed(scene: &scene::Scene) -> Result<Option<Reference>> {
     let problem = Problem::try_from(scene)?;
     let (Body::Revolution(Revolution::Power(profile)), Control::NormalForce(force)) =

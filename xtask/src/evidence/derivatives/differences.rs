@@ -66,7 +66,7 @@ pub(super) struct Derivative {
 }
 
 impl Derivative {
-    /// Whether the deviation is within the bar and the error of the reference.
+    /// True if the deviation of the derivative is within its error bar and the error of its reference.
     pub(super) fn holds(&self) -> bool {
         self.deviation <= self.error_bar + self.reference_error
     }
@@ -81,7 +81,7 @@ pub(super) struct Refusal {
 }
 
 impl Refusal {
-    /// The refusal of the scene with the number `scene`.
+    /// Row for a scene whose differentiation was refused.
     pub(super) fn new(scene: usize, asked: &Asked, error: &anyhow::Error) -> Self {
         Self {
             scene,

@@ -13,9 +13,11 @@ use crate::table::{Column, group_by, table_of};
 use crate::tasks::in_parallel;
 use differences::{Asked, Derivative, Refusal, compared};
 
-/// Smallest fraction of the derivatives of each method whose deviation must be within both error bars. Chosen.
+/// Smallest fraction of the derivatives of each method whose deviation must be within both error bars. Chosen: an error bar
+/// is an estimate and no bound.
 const MIN_COVERAGE: f64 = 0.95;
-/// Number of binomial standard deviations by which the observed fraction may fall short of [`MIN_COVERAGE`]. Chosen.
+/// Number of binomial standard deviations by which the observed fraction may fall short of [`MIN_COVERAGE`]. Chosen: if
+/// exactly [`MIN_COVERAGE`] hold, one of 15 runs falls short of it by more.
 const ALLOWED_SCATTER: f64 = 1.5;
 
 /// What is computed: a table of `requests.toml`.
@@ -67,7 +69,7 @@ fn failure(rows: &[Derivative]) -> Option<String> {
     }
 }
 
-/// How many derivatives are within their bars.
+/// Fraction of the derivatives whose deviation is within both error bars.
 fn held(rows: &[&Derivative]) -> Share {
     rows.iter().map(|row| row.holds()).collect()
 }

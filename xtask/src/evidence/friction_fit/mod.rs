@@ -19,17 +19,20 @@ use crate::random::Random;
 use crate::table::Table;
 use crate::tasks::in_parallel;
 
-/// Relative error of the friction on the half space before random errors are added. Chosen.
+/// Relative error of the friction on the half space before random errors are added. Chosen: it is far below the random
+/// errors, which are of the order of per cents.
 const TRUTH_ERROR: f64 = 1e-3;
-/// Relative error of the friction in the one-dimensional model before random errors are added. Chosen.
+/// Relative error of the friction in the one-dimensional model before random errors are added. Chosen: it is negligible, and
+/// costs little in this model.
 const TRUTH_ERROR_ON_LINE: f64 = 1e-9;
 /// Largest |x| of the factor 10^x by which the moduli of a start deviate from the true ones. Chosen: a factor of three, as from a
 /// data sheet.
 const START_DECADES: f64 = 0.5;
-/// Smallest and largest percentage of the experiments in which an interval that claims 95 % may hold. Chosen.
+/// Smallest and largest percentage of the experiments in which an interval that claims 95 % may hold. Chosen: the number of
+/// experiments scatters the percentage, and 95 % hold only for models that are linear in their parameters.
 const ALLOWED_COVERAGE: [f64; 2] = [93.0, 97.0];
 
-/// What `cases.toml` holds.
+/// Contents of `cases.toml`.
 #[derive(Deserialize)]
 struct Cases {
     /// One entry for each material and kind of errors.
@@ -39,13 +42,13 @@ struct Cases {
 /// A material behind many experiments.
 #[derive(Deserialize)]
 struct Case {
-    /// For the table.
+    /// Name of the case in the table.
     name: String,
     /// Number of experiments of a full run.
     experiments: usize,
     /// Number of experiments of a quick run; 0 leaves the case out.
     quick: usize,
-    /// The slowest and the fastest, \[m/s].
+    /// Lowest and highest speed, \[m/s].
     speeds: [f64; 2],
     /// Number of speeds, evenly spaced in their logarithm.
     points: usize,
@@ -65,7 +68,7 @@ struct Row {
     quantity: String,
     /// The modulus or the viscosity with which friction was computed, in SI.
     truth: f64,
-    /// How often the interval holds it.
+    /// Percentage of the experiments whose interval contains `truth`.
     holds_percent: f64,
     /// Binomial standard deviation of `holds_percent`.
     holds_percent_error: f64,

@@ -13,17 +13,19 @@ use experiment::{Experiments, Found};
 
 /// 95 % of a normal distribution are within this number of standard deviations from its mean.
 const OF_95_PERCENT: f64 = 1.96;
-/// Smallest and largest fraction of the true frictions that may be inside the band of 95 %. Chosen.
+/// Smallest and largest fraction of the true frictions that may be inside the band of 95 %. Chosen: 95 % within the scatter
+/// of the number of experiments.
 const ALLOWED_COVERAGE: [f64; 2] = [0.92, 0.98];
-/// Number of binomial standard deviations by which this fraction may be outside [`ALLOWED_COVERAGE`] in a quick run. Chosen.
+/// Number of binomial standard deviations by which this fraction may be outside [`ALLOWED_COVERAGE`] in a quick run. Chosen:
+/// if the coverage is exactly at a limit, one of 700 runs is outside by more.
 const ALLOWED_SCATTER: f64 = 3.0;
 
 /// Experiments that have something in common.
 #[derive(Debug, Serialize)]
 struct Group {
-    /// What they have in common.
+    /// What the experiments of the group have in common.
     experiments: String,
-    /// How many there are.
+    /// Number of experiments in the group.
     number: usize,
     /// Fraction of them whose true friction is within 1.96 standard uncertainties of the found one; then within one.
     inside_95_percent_band: f64,
@@ -34,7 +36,8 @@ struct Group {
     warns_outside: f64,
 }
 
-/// Measures, fits and slides all experiments; a quick run takes a few.
+/// Simulates all experiments, fits a material to each measurement, and compares the friction of a ball on it with that on
+/// the true material; a quick run has a few experiments.
 pub(super) fn report(quick: bool) -> Result<Report> {
     let experiments: Experiments = toml::from_str(include_str!("experiments.toml"))?;
     let numbers: Vec<u32> = (0..experiments.count[usize::from(quick)]).collect();

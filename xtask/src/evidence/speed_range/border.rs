@@ -9,7 +9,8 @@ use super::sliding::LINE_ERROR;
 use super::{Law, MODELS, Prediction, plateau};
 use crate::tasks::in_parallel;
 
-/// Largest |prediction/friction − 1| at which the law counts as right. Chosen.
+/// Largest |prediction/friction − 1| at which the law counts as right. Chosen: friction is hardly ever measured more
+/// accurately.
 const RIGHT_WITHIN: f64 = 0.1;
 /// Step in ln v, with the speed v, of the central difference that gives the slope of the deviation. By the slope an error of the
 /// friction becomes one of the speed. Chosen; a rough slope suffices.
@@ -21,12 +22,12 @@ pub(super) struct Row {
     pub(super) exponent: f64,
     pub(super) model: Model,
     pub(super) stiffness_ratio: f64,
-    /// vτ/a.
+    /// Lowest speed vτ/a at which the law is right; `None` if it is beyond the map.
     pub(super) lowest_speed: Option<f64>,
     lowest_speed_error: Option<f64>,
     pub(super) highest_speed: Option<f64>,
     highest_speed_error: Option<f64>,
-    /// tan δ at ω = v/a, at both speeds.
+    /// Loss tangent tan δ at ω = v/a, at the lowest and at the highest speed.
     loss_tangent_at_lowest: Option<f64>,
     loss_tangent_at_lowest_error: Option<f64>,
     loss_tangent_at_highest: Option<f64>,

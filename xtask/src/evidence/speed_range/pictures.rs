@@ -18,12 +18,12 @@ const RATIOS: [f64; 2] = [0.4, 1.1];
 /// Number of points along each side of the outline of the region with tan δ > 1. Chosen, so that it looks smooth.
 const WINDOW_STEPS: i32 = 60;
 
-/// Name of a profile of [`super::EXPONENTS`].
+/// Name of the body whose profile has this exponent of [`super::EXPONENTS`].
 fn name(exponent: f64) -> &'static str {
     if exponent < 1.5 { "cone" } else { "paraboloid" }
 }
 
-/// Smallest and largest value.
+/// Smallest and largest value of a logarithmic scale.
 fn range(Decades(first, last, _): Decades) -> [f64; 2] {
     [first, last].map(|power| 10_f64.powi(power))
 }
@@ -56,7 +56,7 @@ fn values(rows: &[Point], value: fn(&Friction) -> f64) -> Vec<[f64; 2]> {
     points(rows, |(at, _)| at.speed, |(_, friction)| value(friction))
 }
 
-/// Circles with error bars.
+/// Circles with error bars at one number of each computed point.
 fn circles(
     rows: &[Point],
     colour: Colour,

@@ -12,13 +12,13 @@ use crate::tasks::in_parallel;
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(default)]
 pub(super) struct Family {
-    /// What is computed.
+    /// Name of the computation that all cases of the family share.
     pub(super) name: String,
-    /// What differs from case to case.
+    /// Name of the parameter that differs from case to case.
     pub(super) parameter: String,
     /// Powers of ten as values: exponents of the first and the last, and the step of the exponent.
     decades: Vec<(i32, i32, usize)>,
-    /// Further values.
+    /// Values of the parameter that are no powers of ten.
     values: Vec<f64>,
 }
 
@@ -43,11 +43,11 @@ impl Family {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(super) enum Verdict {
-    /// All numbers within their tolerances.
+    /// All numbers are within their tolerances.
     Accurate,
-    /// The error that is right, by its type.
+    /// The computation returns the type of error that is expected.
     Refused,
-    /// A number outside its tolerance, an error where there is a solution, a solution where there is none.
+    /// A number is outside its tolerance, an error is returned where there is a solution, or a solution where there is none.
     #[default]
     Wrong,
 }
@@ -125,7 +125,7 @@ impl Row {
         }
     }
 
-    /// A wrong case, unless the caller changes the verdict.
+    /// Row of a case, with the verdict `Wrong` unless the caller changes it.
     fn wrong(expected: impl Into<String>, got: impl Into<String>) -> Self {
         Self {
             expected: expected.into(),
@@ -154,7 +154,7 @@ impl Row {
 }
 
 impl Verdict {
-    /// This verdict if `right`, otherwise `Wrong`.
+    /// This verdict if the case is `right`, otherwise `Wrong`.
     fn provided(self, right: bool) -> Self {
         if right { self } else { Self::Wrong }
     }

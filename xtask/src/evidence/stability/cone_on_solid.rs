@@ -15,9 +15,9 @@ use rheology::{RelaxationBranch, RelaxationSpectrum};
 
 /// Stationary sliding of a cone.
 pub(super) struct ConeOnSolid {
-    /// F_N, in the unit of the moduli times the square of x_r.
+    /// Normal force F_N, in the unit of the moduli times the square of x_r.
     pub(super) normal_force: f64,
-    /// F_h/F_N.
+    /// Friction coefficient F_h/F_N.
     pub(super) friction_coefficient: f64,
 }
 
@@ -68,9 +68,9 @@ fn integral(stress: impl Fn(f64) -> f64, length: f64) -> f64 {
 
 /// A spring in series with a dashpot.
 struct Branch {
-    /// G.
+    /// Modulus G of the spring.
     modulus: f64,
-    /// l = v τ.
+    /// Relaxation length l = v τ.
     length: f64,
 }
 
@@ -80,12 +80,12 @@ impl Branch {
         self.modulus * self.length
     }
 
-    /// Stress at a distance behind the front.
+    /// Stress of the branch at a distance behind the front of the contact, before the apex.
     fn ahead(&self, distance: f64) -> f64 {
         -self.stiffness() * (-distance / self.length).exp_m1()
     }
 
-    /// Stress at a distance behind the apex.
+    /// Stress of the branch at a distance behind the apex.
     fn behind(&self, distance: f64) -> f64 {
         let lost = (-distance / self.length).exp_m1();
         self.ahead(1.0) * (1.0 + lost) + self.stiffness() * lost

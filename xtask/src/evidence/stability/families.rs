@@ -10,10 +10,10 @@ use super::half_space;
 use super::line::{self, sixteen_branches};
 use crate::scene::solid;
 
-/// What `families.toml` holds.
+/// Contents of `families.toml`.
 #[derive(Deserialize)]
 struct Families {
-    /// In the order of the table.
+    /// Families of cases, in the order of the table.
     family: Vec<Family>,
 }
 

@@ -39,17 +39,17 @@ pub(super) fn sixteen_branches() -> Prony {
     prony([0.1, 0.0], &branches)
 }
 
-/// A cone of slope 0.1.
+/// A cone of slope 0.1, h = 0.1 r.
 pub(super) fn cone() -> Result<PowerProfile> {
     Ok(PowerProfile::cone(0.1)?)
 }
 
-/// h = 0.1 r², in metres.
+/// A paraboloid h = 0.1 r², with r and h in metres.
 pub(super) fn paraboloid() -> Result<PowerProfile> {
     Ok(PowerProfile::paraboloid(0.1)?)
 }
 
-/// The stationary state in the one-dimensional model, to [`REQUESTED_ERROR`].
+/// Stationary state of sliding in the one-dimensional model, to the relative error [`REQUESTED_ERROR`].
 fn state(
     body: &dyn Axisymmetric,
     material: &dyn Material,
@@ -160,7 +160,7 @@ pub(super) fn pressed(material: &dyn Material, time: f64) -> Result<Row> {
     Ok(Row::relative("indentation depth", depths, REQUESTED_ERROR))
 }
 
-/// Number of elements along the stationary contact of [`march`]. Chosen.
+/// Number of elements along the stationary contact of [`march`]. Chosen: the comparison is then to 1 %, at a small cost.
 const MARCH_ELEMENTS: usize = 400;
 
 /// A march of a cone on Maxwell's material into the stationary state, at a speed \[m/s]; compared with the closed form to 4/n

@@ -14,7 +14,7 @@ pub(super) struct Cases {
     /// Scenes to which cases refer by name.
     #[serde(rename = "scene")]
     pub(super) scenes: Vec<BenchmarkScene>,
-    /// One for each constant.
+    /// Cases, one for each constant.
     #[serde(rename = "case")]
     pub(super) cases: Vec<Case>,
 }
@@ -31,7 +31,7 @@ pub(super) struct BenchmarkScene {
     pub(super) arguments: Vec<String>,
     /// Keys of the answer that are compared.
     pub(super) quantities: Vec<String>,
-    /// `[solve]` of the reference.
+    /// Table `[solve]` of the scene with which the reference is computed.
     pub(super) reference: toml::Table,
 }
 
@@ -51,22 +51,22 @@ pub(super) struct Case {
     /// Larger initialisers that are tried instead, the nearest first.
     #[serde(default)]
     pub(super) larger: Vec<String>,
-    /// Names of scenes.
+    /// Names of the scenes that exercise the constant.
     pub(super) scenes: Vec<String>,
-    /// Whether a quick run tries it.
+    /// True if a quick run tries the constant.
     #[serde(default)]
     pub(super) is_quick: bool,
 }
 
 impl Cases {
-    /// Parses `cases.toml`.
+    /// Cases of `cases.toml`: constants with the values to try.
     pub(super) fn read() -> Result<Self> {
         toml::from_str(include_str!("cases.toml")).context("xtask/src/evidence/tuning/cases.toml")
     }
 }
 
 impl Case {
-    /// All initialisers that are tried.
+    /// Initialisers of the constant that are tried in place of the present one, smaller ones first, numbered from 1.
     pub(super) fn tried(&self) -> impl Iterator<Item = Tried<'_>> {
         let values = self.smaller.iter().chain(&self.larger);
         (1..).zip(values).map(|(place, value)| Tried {

@@ -38,9 +38,9 @@ pub(super) struct Run {
 /// The parts of an answer that are compared.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Answer {
-    /// By name, in SI.
+    /// Compared quantities by name, in SI units.
     pub(super) quantities: BTreeMap<String, Estimate>,
-    /// What the program states of its work, where it does.
+    /// Number of unknowns, and below of iterations, if the program states them.
     pub(super) unknowns: Option<f64>,
     pub(super) iterations: Option<f64>,
 }
@@ -48,9 +48,9 @@ pub(super) struct Answer {
 /// Why there is no answer.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Failure {
-    /// The last line of the program's error.
+    /// The program ended with an error, whose last line this is.
     Refused(String),
-    /// The processor time in which the program did not end \[s].
+    /// The program was ended after this processor time, \[s].
     Unfinished(f64),
 }
 
@@ -58,7 +58,7 @@ pub(super) enum Failure {
 const POLLING_INTERVAL: Duration = Duration::from_millis(2);
 
 impl Program {
-    /// The program in `folder`.
+    /// The program `viscofriction` in the build of `folder`.
     pub(super) fn new(folder: &Path) -> Self {
         let file = folder.join("viscofriction");
         Self {

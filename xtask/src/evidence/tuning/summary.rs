@@ -4,7 +4,8 @@ use super::cases::Case;
 use super::{Outcome, Row};
 use crate::table::{known_digits, markdown_table};
 
-/// Largest ratio of processor times that counts as no change; the smallest is its inverse. Chosen.
+/// Largest ratio of processor times that counts as no change; the smallest is its inverse. Chosen: processor times of equal
+/// runs scatter by some per cent, more while other programs run.
 pub(super) const MAX_TIME_RATIO: f64 = 1.25;
 /// Largest ratio of processor times that counts as no change for runs shorter than [`SHORT_RUN_SECONDS`]. Chosen: their times
 /// scatter by the steps of the clock.
@@ -14,7 +15,7 @@ const SHORT_RUN_SECONDS: f64 = 0.03;
 /// Largest ratio of error bars that counts as no change; the smallest is its inverse. Chosen, since a bar is an estimate.
 const MAX_BAR_RATIO: f64 = 2.0;
 
-/// A table in Markdown with one row per constant.
+/// Table in Markdown with one row for each constant, from the rows of all its cases.
 pub(super) fn summary(cases: &[&Case], rows: &[Row]) -> String {
     let header = "constant|present|nothing changes|what changes|scenes";
     let lines = cases.iter().map(|case| {
@@ -111,7 +112,7 @@ impl<'a> Change<'a> {
         is_beyond.then_some(Self { ratio, scene })
     }
 
-    /// The ratio farthest from 1, in words.
+    /// The change whose ratio is farthest from 1, in words.
     fn largest(quantity: &str, changes: impl Iterator<Item = Self>) -> Option<String> {
         let distance = |change: &Self| change.ratio.ln().abs();
         let largest = changes.max_by(|one, other| distance(one).total_cmp(&distance(other)))?;

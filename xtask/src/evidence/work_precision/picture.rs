@@ -23,7 +23,7 @@ pub(super) fn figure(rows: &[&Row]) -> Figure {
     Figure::new(scenes.map(|rows| chart(rows, &axes)), 2)
 }
 
-/// Processor time \[s] and relative error.
+/// Point of a row in the picture: processor time \[s] and relative error.
 fn point(row: &Row) -> [f64; 2] {
     [row.processor_seconds, row.visible_error()]
 }
@@ -49,7 +49,7 @@ fn label(row: &Row) -> String {
     }
 }
 
-/// The runs of one method, joined by a line; `None` of no runs.
+/// The runs of one method, joined by a line; `None` for no runs.
 fn curve(rows: &[&Row]) -> Option<Series> {
     let (colour, marker) = style(rows.first()?);
     let points = rows.iter().map(|row| point(row)).collect();

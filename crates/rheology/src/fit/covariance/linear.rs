@@ -100,7 +100,7 @@ pub(super) struct Residuals {
 }
 
 impl Residuals {
-    /// The operator of a fit and its shifts.
+    /// Operator from the errors of the data to the residuals, for a fit whose data were shifted.
     pub(super) fn new(fit: &Linear, effects: &ShiftEffects) -> Self {
         let [n_shifts, n_moduli] = [effects.shift_gain.nrows(), fit.gain.nrows()];
         let gain = &fit.gain - (&fit.gain * &effects.slopes) * &effects.shift_gain;

@@ -13,8 +13,8 @@ use crate::fit::system::{Measurement, Quantity};
 /// Scale of the prior of the relative factor of an isotherm. Chosen: geometry, clamps and gauges of one instrument. It is the
 /// standard deviation as far as the isotherms do not determine it.
 pub(super) const FACTOR_SCALE: f64 = 0.01;
-/// Scale of the prior of the temperature error of an isotherm, \[K]. Chosen. It is the standard deviation as far as the isotherms
-/// do not determine it.
+/// Scale of the prior of the temperature error of an isotherm, \[K]. Chosen: the temperature control of instruments is
+/// specified so. It is the standard deviation as far as the isotherms do not determine it.
 pub(super) const TEMPERATURE_SCALE: f64 = 0.5;
 
 /// Variance components.
@@ -252,7 +252,8 @@ impl EffectInResiduals {
 
 /// Ratio of the ridge of a covariance to its trace. Chosen, above rounding.
 const COVARIANCE_ROUNDING: f64 = 1e-9;
-/// Number of points of the integral over the scale s of a factor or temperature error. Chosen.
+/// Number of points of the integral over the scale s of a factor or temperature error. Chosen: their distance is 1/40 of the
+/// scale of the prior, over which the density changes little.
 const INTEGRATION_POINTS: u32 = 200;
 /// Ratio of the upper limit of the integral over the scale s to the scale of its prior, which is below 1e-5 of its maximum there.
 const MAX_SCALES: f64 = 5.0;

@@ -27,8 +27,8 @@ pub(super) struct Drawn<'a> {
     pub(super) missed: Option<SolveError>,
 }
 
-/// Ratio of the number of elements of a coarse grid to that of the finest grid of an answer, above which the coarse grid is not
-/// tried. Chosen: the spacing is then less than twice that of the answer.
+/// Ratio of the number of elements of a coarse grid to that of the finest grid of an answer, above which the coarse grid is
+/// not tried. Chosen: its spacing would be less than twice that of the answer, so that it saves little.
 const MAX_COARSE_WORK: f64 = 0.25;
 
 /// A coarse grid with its solutions for the first surfaces.

@@ -35,7 +35,7 @@ pub struct Realisation {
 }
 
 impl Realisation {
-    /// Seed and scattering quantities of an answer.
+    /// The quantities of an answer that scatter over the ensemble, with the seed of its surface.
     fn of((answer, seed): (&Answer, &u64)) -> Self {
         let scattered = |quantity: &Quantity| quantity.has_scatter.then(|| (quantity.of)(answer));
         Self {
@@ -214,7 +214,7 @@ fn mean_estimate(estimates: impl Iterator<Item = Option<Estimate>>) -> Option<Es
     Some(Estimate::new(mean(|one| one.value), mean(|one| one.error)))
 }
 
-/// Mean of the answers without the shortest octave.
+/// Mean over an ensemble of the quantities that each answer has without the shortest octave of its waves.
 fn without_shortest_octave(answers: &[Answer]) -> Option<WithoutShortestOctave> {
     let mean = |of: fn(WithoutShortestOctave) -> Option<Estimate>| {
         let without = answers.iter().map(|one| one.without_shortest_octave);

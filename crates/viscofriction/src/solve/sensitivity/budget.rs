@@ -127,7 +127,7 @@ impl Budget {
 }
 
 impl Source {
-    /// Name in a table; for a number its path.
+    /// Name of the source of uncertainty in a table; for a number of the scene its path.
     pub fn name(&self) -> &str {
         match self {
             Self::Numerics => "numerics",

@@ -188,7 +188,8 @@ impl<'a> Numbers<'a> {
         Problem::with_parts(&scene, parts, self.folder, self.read)
     }
 
-    /// The scene with another value of a number.
+    /// The scene in which `number` has another value; if it is the temperature, the scene that still names the material
+    /// file.
     pub(super) fn scene_with(&self, number: &Number, value: f64) -> Result<Scene, SceneError> {
         let (mut scene, value) = match &self.of_file {
             Some((written, _)) if number.is_temperature() => {

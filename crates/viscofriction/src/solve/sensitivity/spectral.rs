@@ -16,10 +16,11 @@ use crate::solve::problem::{Motion, Problem};
 
 /// Number of frequency bands per decade. Chosen: it is the resolution of the output, and changes no sum over bands.
 const BANDS_PER_DECADE: f64 = 10.0;
-/// Number of bands computed between two reports of progress. Chosen.
+/// Number of bands computed between two reports of progress. Chosen: it sets how often progress is reported, and changes no
+/// number.
 const BANDS_AT_ONCE: usize = 8;
-/// Ratio of the lowest resolved frequency to v/a, where v is the velocity and a the contact length. Chosen. Friction comes from
-/// far shorter waves; a depth depends on longer ones too, which form the first band.
+/// Ratio of the lowest resolved frequency to v/a, where v is the velocity and a the contact length. Chosen: friction comes
+/// from far shorter waves; a depth depends on longer ones too, which form the first band.
 const MIN_FREQUENCY_RATIO: f64 = 0.01;
 
 /// Derivatives of the quantities of an answer by the complex modulus, in frequency bands.
