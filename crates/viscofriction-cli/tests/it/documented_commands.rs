@@ -8,46 +8,53 @@ use std::path::Path;
 
 use crate::support::{Folder, repository};
 
-/// Pages with console blocks, and files that their commands need and the page only describes: the name, the file of the page or of
-/// the repository that it is made of, and what is replaced in that.
-const PAGES: [(&str, &[FileOfPage]); 10] = [
-    ("README.md", &[]),
-    ("docs/fit-friction.md", &[]),
-    ("docs/layers.md", &[]),
-    ("docs/methods.md", &[]),
-    (
-        "docs/road.md",
-        &[(
-            "finest.toml",
-            "road.toml",
-            [
-                "shortest_wavelength = 3.2e-4",
-                "shortest_wavelength = 1.6e-4",
-            ],
-        )],
-    ),
-    (
-        "docs/output.md",
-        &[(
-            "scene.toml",
-            "examples/scenes/cone-viscous.toml",
-            ["velocity = 0.01 ", "velocity = -0.01 "],
-        )],
-    ),
-    ("docs/numbers.md", &[]),
-    ("docs/scenes.md", &[]),
-    (
-        "docs/sweeps.md",
-        &[("measured.csv", "examples/data/tread-rubber.csv", ["", ""])],
-    ),
-    ("docs/tutorial.md", &[]),
-];
+/// Pages with console blocks, each run by a test of this name, and files that their commands need and the page only describes: the
+/// name, the file of the page or of the repository that it is made of, and what is replaced in that.
+macro_rules! pages {
+    ($($test:ident: $page:literal, $files:expr;)*) => {
+        const PAGES: &[&str] = &[$($page),*];
+
+        mod commands_print_what_is_said_on {
+            $(
+                #[test]
+                fn $test() {
+                    super::assert_prints($page, $files);
+                }
+            )*
+        }
+    };
+}
+
+pages! {
+    the_first_page: "README.md", &[];
+    fits_of_friction: "docs/fit-friction.md", &[];
+    layers: "docs/layers.md", &[];
+    methods: "docs/methods.md", &[];
+    roads: "docs/road.md", &[(
+        "finest.toml",
+        "road.toml",
+        ["shortest_wavelength = 3.2e-4", "shortest_wavelength = 1.6e-4"],
+    )];
+    output: "docs/output.md", &[(
+        "scene.toml",
+        "examples/scenes/cone-viscous.toml",
+        ["velocity = 0.01 ", "velocity = -0.01 "],
+    )];
+    numbers: "docs/numbers.md", &[];
+    scenes: "docs/scenes.md", &[];
+    sweeps: "docs/sweeps.md", &[("measured.csv", "examples/data/tread-rubber.csv", ["", ""])];
+    the_tutorial: "docs/tutorial.md", &[];
+}
 
 type FileOfPage = (&'static str, &'static str, [&'static str; 2]);
 
 /// Sweeps of which fewer points are run: the beginning of the command, the numbers of points that it has, as the command and its
 /// output write them, and those that are run.
-const FEWER_POINTS: [(&str, [[&str; 2]; 2]); 3] = [
+const FEWER_POINTS: [(&str, [[&str; 2]; 2]); 4] = [
+    (
+        "sweep examples/scenes/cone-half-space.toml",
+        [[":5:log", ":2:log"], ["15", "6"]],
+    ),
     ("sweep road.toml", [[":13:log", ":2:log"], ["39", "6"]]),
     ("sweep ball.toml", [[":11:log", ":2:log"], ["11", "2"]]),
     (
@@ -167,27 +174,25 @@ fn folder_of(page: &str, text: &str, files: &[FileOfPage]) -> Folder {
     folder
 }
 
-#[test]
-fn the_commands_of_the_pages_print_what_they_say() {
-    for (page, files) in PAGES {
-        let text = fs::read_to_string(repository().join(page)).expect("the page");
-        let commands = console(&text);
-        assert!(!commands.is_empty(), "no console block on {page}");
-        let folder = folder_of(page, &text, files);
-        for (arguments, expected) in commands {
-            let (arguments, expected) = with_fewer_points(&arguments, &expected);
-            let said = folder.run(&arguments);
-            if expected.trim().is_empty() {
-                assert_eq!(said.status, Some(0), "{page}: {arguments}: {said:?}");
-                continue;
-            }
-            let printed = without_seconds(&(said.stdout + &said.stderr));
-            assert_eq!(
-                printed,
-                without_seconds(expected.trim_end()),
-                "{page}: {arguments}"
-            );
+/// Demands that the commands of a page print what it says.
+fn assert_prints(page: &str, files: &[FileOfPage]) {
+    let text = fs::read_to_string(repository().join(page)).expect("the page");
+    let commands = console(&text);
+    assert!(!commands.is_empty(), "no console block on {page}");
+    let folder = folder_of(page, &text, files);
+    for (arguments, expected) in commands {
+        let (arguments, expected) = with_fewer_points(&arguments, &expected);
+        let said = folder.run(&arguments);
+        if expected.trim().is_empty() {
+            assert_eq!(said.status, Some(0), "{page}: {arguments}: {said:?}");
+            continue;
         }
+        let printed = without_seconds(&(said.stdout + &said.stderr));
+        assert_eq!(
+            printed,
+            without_seconds(expected.trim_end()),
+            "{page}: {arguments}"
+        );
     }
 }
 
@@ -206,7 +211,7 @@ fn all_pages_with_commands_are_known() {
         let text = fs::read_to_string(page).expect("a page");
         let is_known = PAGES
             .iter()
-            .any(|(known, _)| *page == repository().join(Path::new(known)));
+            .any(|known| *page == repository().join(Path::new(known)));
         assert_eq!(text.contains("```console"), is_known, "{}", page.display());
     }
 }
