@@ -163,7 +163,7 @@ fn mutated_scenes_are_accepted_or_refused_with_file_and_line() {
     fuzz(
         "scenes",
         &scenes,
-        cases(10_000),
+        cases(5_000),
         0.05..=0.6,
         |file, contents| oracle::check(InputKind::Scene, file, contents),
     );
@@ -193,7 +193,7 @@ fn mutated_tables_are_accepted_or_refused_with_file_and_line() {
         (InputKind::Friction, &[friction], 0.06..=0.9),
     ] {
         let check = |file: &Path, contents: &[u8]| oracle::check(kind, file, contents);
-        fuzz(&format!("{kind:?}"), files, cases(2_000), usual, check);
+        fuzz(&format!("{kind:?}"), files, cases(1_000), usual, check);
     }
 }
 
@@ -292,7 +292,7 @@ fn mutated_files_of_scenes_are_accepted_or_refused_with_both_places() {
         fuzz(
             file,
             &[(file.into(), contents.into())],
-            cases(1_000),
+            cases(500),
             0.02..=0.9,
             check,
         );
