@@ -2,12 +2,13 @@
 
 use std::sync::Arc;
 
-use crate::stationary::steady::filter::{Filters, Spectrum, signed_offset};
+use crate::stationary::steady::filter::Filters;
 use crate::stationary::steady::sliding_creep::ElementCreep;
 use crate::stationary::steady::wake_table::WakeTable;
 use crate::stationary::steady::wiener_hopf;
 use crate::transform::fast_length::fast_length;
 use crate::transform::plane_transform::PlaneTransform;
+use crate::transform::plane_transform::complex_product::{Spectrum, signed_offset};
 
 /// Number of transform periods whose spectra are kept. Chosen to limit the memory: beyond it the oldest spectra are dropped, and
 /// computed anew when they are needed. The boxes of successive active sets have about the same size.

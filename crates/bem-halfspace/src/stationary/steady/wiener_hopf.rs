@@ -16,12 +16,13 @@ use std::sync::Arc;
 
 use rustfft::num_complex::Complex;
 
-use crate::stationary::steady::filter::{Filters, RegionFilter, Spectrum, signed_offset};
+use crate::stationary::steady::filter::{Filters, RegionFilter};
 use crate::stationary::steady::region::Region;
 use crate::stationary::steady::sliding_creep::{ElementCreep, RetardationElement};
 use crate::stationary::steady::wake_table::WakeTable;
 use crate::transform::fast_length::fast_length;
 use crate::transform::plane_transform::PlaneTransform;
+use crate::transform::plane_transform::complex_product::{Spectrum, signed_offset};
 
 /// Elements by which the period of the filters exceeds the box. Few are enough, because the inverse factors of the preconditioner
 /// decay fast. Chosen; from 0 to 16 no answer changes by more than 8 % of its bar (case of `evidence tuning`).

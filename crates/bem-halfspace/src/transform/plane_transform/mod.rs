@@ -11,6 +11,7 @@
 mod about_centre;
 mod about_edge;
 mod columns;
+pub(crate) mod complex_product;
 mod even_product;
 mod real_rows;
 mod rows;
