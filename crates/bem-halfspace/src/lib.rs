@@ -12,7 +12,8 @@
 //! * [`steady()`]: stationary sliding, solved directly; [`steady_line`] in plane strain.
 //!
 //! The variants on one grid are [`slide_on_grid`], [`steady_on_grid`] and [`steady_line_on_grid`]. Histories of force and depth are
-//! in [`mod@indent`], arbitrary motions in [`mod@slide`], single contacts on given heights in [`contact`].
+//! in [`mod@indent`], arbitrary motions in [`mod@slide`], single contacts on given heights in [`contact`], and the temperature under
+//! moving heat sources in [`heat`].
 //!
 //! Theory: docs/theory/contact.md (one contact), transient-half-space.md (in time) and stationary-half-space.md.
 //!
@@ -39,6 +40,7 @@ mod dense;
 mod elements;
 mod error;
 mod estimate;
+pub mod heat;
 mod march;
 mod motions;
 mod parallel;

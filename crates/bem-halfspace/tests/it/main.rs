@@ -12,6 +12,7 @@ mod dissipated_energy;
 mod ends_of_the_speed_range;
 mod error_bars;
 mod hardness;
+mod heat;
 mod height_maps;
 mod indentation_follows_lee_radok_and_ting;
 mod invariance;

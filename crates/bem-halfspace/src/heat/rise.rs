@@ -1,0 +1,366 @@
+//! The temperature rise on a grid, its largest value and means, and their error bars.
+
+use numerics::{Estimate, InvalidParameter, finite, in_range, not_negative, positive};
+
+use crate::heat::operator::{HeatKernel, HeatOperator};
+use crate::heat::periodic_waves::PeriodicWaves;
+use crate::heat::source::SourceDepth;
+use crate::heat::time_rule::{KERNEL_ERROR, TimeRule};
+use crate::heat::{Counterface, HeatConductor, HeatSource};
+use crate::parallel::chunks::in_pool;
+use crate::{BemError, Grid, PressureField};
+
+/// Largest Péclet number vL/(4D) of a grid of the length L. Chosen: 100 m/s over a metre of rubber have 2e8, and the number of time
+/// nodes grows with its square root.
+const MAX_PECLET_NUMBER: f64 = 1e10;
+
+/// Operator from fluxes on one grid to the temperature rise of the surface, for one conductor and velocity.
+///
+/// The influence coefficients of sources at the surface are computed once, those of each profile of sources in the bulk when they are
+/// used. The flux is constant per element, and the temperature is that at the centre. Errors are of the order Δ² for smooth
+/// fluxes, and of the order Δ where the flux jumps and for the largest rise at Péclet numbers ≫ 1.
+#[derive(Debug, Clone)]
+pub struct SurfaceTemperature {
+    /// Grid of the fluxes.
+    grid: Grid,
+    /// Factor from temperatures of the operators to those in kelvin: the edge of an element over the conductivity.
+    scale: f64,
+    /// Operator on the grid, and on the grid of elements with twice the edges.
+    operators: [HeatOperator; 2],
+    /// Whether the elements are infinite along y, so that powers are per length.
+    is_line: bool,
+}
+
+/// Temperature rise of the surface above the temperature far below it.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+#[must_use]
+pub struct TemperatureRise {
+    /// Grid of the temperature.
+    pub grid: Grid,
+    /// Temperature rise at the centre of each element, row-major, \[K].
+    pub temperature: Vec<f64>,
+    /// Largest rise of an element with a flux, \[K]; 0 if there is none. For all error bars see [`SurfaceTemperature::of`].
+    pub largest: Estimate,
+    /// Mean rise over the area of the elements with a flux, \[K].
+    pub mean: Estimate,
+    /// Mean rise weighted with the flux of all sources before the counterface takes its share, \[K].
+    pub flux_weighted_mean: Estimate,
+    /// Power of all sources, \[W]; on a line per length, \[W/m].
+    pub total_power: f64,
+    /// Power that the elastomer receives, \[W]; on a line per length, \[W/m].
+    pub absorbed_power: f64,
+}
+
+/// Largest value and means of a temperature on one grid.
+#[derive(Debug, Clone, Copy, Default)]
+struct Averages {
+    /// Largest value on elements with a flux.
+    largest: f64,
+    /// Mean over the loaded area.
+    mean: f64,
+    /// Mean weighted with the flux.
+    flux_weighted_mean: f64,
+}
+
+/// Flux of all sources on one grid.
+struct Loading {
+    /// Sum of the fluxes per element.
+    flux: Vec<f64>,
+    /// Part of each element that is loaded.
+    loaded_fraction: Vec<f64>,
+}
+
+impl SurfaceTemperature {
+    /// The stationary temperature under a body that moves along +x with `velocity` ≥ 0 \[m/s]. Nothing outside the grid is heated, and
+    /// the half space is unbounded.
+    ///
+    /// # Errors
+    /// [`BemError::InvalidParameter`] for a velocity that is not finite and at least 0, a Péclet number vL/(4D) of the grid above
+    /// 1e10, or elements with an aspect ratio out of the range of numbers.
+    pub fn new(grid: &Grid, conductor: &HeatConductor, velocity: f64) -> Result<Self, BemError> {
+        let wake_length = wake_length(grid, conductor, velocity)?;
+        let coarse = coarse_grid(grid, grid.spacing().map(|edge| 2.0 * edge))?;
+        Self::on_grids([grid, &coarse], conductor, |grid, unit| {
+            HeatKernel::Free(TimeRule::of_body(grid, wake_length / unit))
+        })
+    }
+
+    /// The stationary temperature under a body that is infinite along y and moves along +x with `velocity` > 0 \[m/s]. The grid has
+    /// one element along y, of any length. At rest there is no stationary state: the temperature grows like the logarithm of the time.
+    ///
+    /// # Errors
+    /// As for [`new`](Self::new); for a velocity of 0, and a grid with several elements along y.
+    pub fn line(grid: &Grid, conductor: &HeatConductor, velocity: f64) -> Result<Self, BemError> {
+        let wake_length = wake_length(grid, conductor, velocity)?;
+        let allowed = "greater than 0, because a line source at rest has no stationary temperature";
+        in_range("velocity", velocity, wake_length.is_finite(), allowed)?;
+        let (columns, [edge, length]) = (grid.shape()[1], grid.spacing());
+        in_range(
+            "number of elements along y",
+            columns as f64,
+            columns == 1,
+            "1 on a line",
+        )?;
+        let coarse = coarse_grid(grid, [2.0 * edge, length])?;
+        let operator = Self::on_grids([grid, &coarse], conductor, |grid, unit| {
+            HeatKernel::Free(TimeRule::of_line(grid, wake_length / unit))
+        })?;
+        Ok(Self {
+            is_line: true,
+            ..operator
+        })
+    }
+
+    /// The temperature of a periodic surface that moves along +x with `velocity` ≥ 0 \[m/s], with the edges of the grid as periods.
+    ///
+    /// The mean is that after the `duration` ≥ 0 \[s] of a constant heat flux. All waves are stationary: they are after a multiple of
+    /// L²/(4π²D), with the period L.
+    ///
+    /// # Errors
+    /// As for [`new`](Self::new); for a duration that is not finite and at least 0.
+    pub fn periodic(
+        grid: &Grid,
+        conductor: &HeatConductor,
+        velocity: f64,
+        duration: f64,
+    ) -> Result<Self, BemError> {
+        wake_length(grid, conductor, velocity)?;
+        not_negative("duration", duration)?;
+        let diffusivity = conductor.diffusivity();
+        let mean_length = 2.0 * diffusivity.sqrt() * duration.sqrt();
+        // Blocks of two elements, or somewhat less where their number along the period is odd.
+        let [n, edges] = [grid.shape().map(|n| n as f64), grid.spacing()];
+        let coarse_edges = [0, 1].map(|axis| edges[axis] * n[axis] / (0.5 * n[axis]).ceil());
+        let coarse = coarse_grid(grid, coarse_edges)?;
+        Self::on_grids([grid, &coarse], conductor, |grid, unit| {
+            HeatKernel::Periodic(PeriodicWaves {
+                grid: *grid,
+                velocity_over_diffusivity: velocity * unit / diffusivity,
+                mean_length: mean_length / unit,
+            })
+        })
+    }
+
+    /// Operators on two grids with the kernel `kernel(scaled grid, unit)`, where the unit is the edge of an element along x, \[m].
+    fn on_grids(
+        grids: [&Grid; 2],
+        conductor: &HeatConductor,
+        kernel: impl Fn(&Grid, f64) -> HeatKernel + Sync,
+    ) -> Result<Self, BemError> {
+        let unit = grids[0].spacing()[0];
+        let scaled = |grid: &Grid| Grid::new(grid.shape(), grid.spacing().map(|edge| edge / unit));
+        let [fine, coarse] = [scaled(grids[0])?, scaled(grids[1])?];
+        let operator = |grid: &Grid| HeatOperator::new(grid, unit, kernel(grid, unit));
+        Ok(Self {
+            grid: *grids[0],
+            scale: unit / conductor.conductivity(),
+            operators: in_pool(fine.n_elements(), || [operator(&fine), operator(&coarse)]),
+            is_line: false,
+        })
+    }
+
+    /// The temperature rise by `sources` on the grid; temperatures of several sources add up.
+    ///
+    /// The error bars are the differences from the same flux on elements with twice the edges. With the convergence order 1, the lowest
+    /// that occurs, the difference is the error of the finer grid; with the order 2 of smooth fluxes it is three times the error. The
+    /// bar of the largest rise also contains twice the change over half an element around the hottest centre, because the maximum is
+    /// not at a centre, and the difference of largest values may vanish by chance. Bars do not contain errors of the given flux, such as that of the area of a contact of
+    /// whole elements.
+    ///
+    /// # Errors
+    /// [`BemError::LengthMismatch`] for a flux without one value per element; [`BemError::InvalidParameter`] for a flux that is not
+    /// finite and at least 0, a share of the elastomer outside of 0 to 1, and a temperature or power out of the range of numbers.
+    pub fn of(
+        &self,
+        sources: &[HeatSource<'_>],
+        counterface: Counterface,
+    ) -> Result<TemperatureRise, BemError> {
+        let share = counterface.elastomer_share()?;
+        for source in sources {
+            self.check_flux(source.flux)?;
+        }
+        let absorbed_share = |source: &HeatSource<'_>| match source.depth {
+            SourceDepth::Surface => share,
+            SourceDepth::Bulk(_) => 1.0,
+        };
+        let temperature_on = |operator: &HeatOperator, is_coarse: bool| {
+            let mut temperature = vec![0.0; operator.grid.n_elements()];
+            for source in sources.iter().filter(|source| absorbed_share(source) > 0.0) {
+                let factor = self.scale * absorbed_share(source);
+                let flux = source.flux.iter().map(|flux| flux * factor).collect();
+                let mut field = if is_coarse {
+                    self.coarsened(flux)
+                } else {
+                    flux
+                };
+                operator.add_temperature(source.depth, &mut field, &mut temperature);
+            }
+            temperature
+        };
+        let [fine, coarse] = &self.operators;
+        let [temperature, coarse_temperature] = in_pool(self.grid.n_elements(), || {
+            [temperature_on(fine, false), temperature_on(coarse, true)]
+        });
+
+        // Compare the averages on both grids.
+        let loading = Loading::of(sources, self.grid.n_elements());
+        let coarse_loading = Loading {
+            flux: self.coarsened(loading.flux.clone()),
+            loaded_fraction: self.coarsened(loading.loaded_fraction.clone()),
+        };
+        let averages = Averages::over(&temperature, &loading);
+        let hottest = loading.hottest_element(&temperature);
+        let sampling_error = hottest.map_or(0.0, |hottest| {
+            sampling_error(&temperature, hottest, self.grid.shape())
+        });
+        let coarse_averages = Averages::over(&coarse_temperature, &coarse_loading);
+        let power = |source| self.power(source);
+        let absorbed_power = |source| absorbed_share(source) * self.power(source);
+        Ok(TemperatureRise {
+            grid: self.grid,
+            temperature,
+            largest: estimate(averages.largest, coarse_averages.largest)?.widened(sampling_error),
+            mean: estimate(averages.mean, coarse_averages.mean)?,
+            flux_weighted_mean: estimate(
+                averages.flux_weighted_mean,
+                coarse_averages.flux_weighted_mean,
+            )?,
+            total_power: finite("total power", sources.iter().map(power).sum())?,
+            absorbed_power: sources.iter().map(absorbed_power).sum(),
+        })
+    }
+
+    /// Checks the length and the values of a flux.
+    fn check_flux(&self, flux: &[f64]) -> Result<(), BemError> {
+        if flux.len() != self.grid.n_elements() {
+            return Err(BemError::LengthMismatch {
+                field: "heat flux",
+                length: flux.len(),
+                elements: self.grid.n_elements(),
+            });
+        }
+        for value in flux {
+            not_negative("heat flux", *value)?;
+        }
+        Ok(())
+    }
+
+    /// Power of a source, \[W]; on a line per length, \[W/m].
+    fn power(&self, source: &HeatSource<'_>) -> f64 {
+        let area_of_element = if self.is_line {
+            self.grid.spacing()[0]
+        } else {
+            self.grid.element_area()
+        };
+        source.flux.iter().sum::<f64>() * area_of_element
+    }
+
+    /// Means of a field over the elements of the coarse grid; elements outside of the grid count as 0.
+    fn coarsened(&self, field: Vec<f64>) -> Vec<f64> {
+        // A pressure is resampled in the same way: the first edges of both grids agree.
+        let [fine, coarse] = [&self.operators[0].grid, &self.operators[1].grid];
+        let origin = [0, 1].map(|axis| 0.5 * (coarse.spacing()[axis] - fine.spacing()[axis]));
+        let field = PressureField {
+            grid: *fine,
+            origin: [0.0; 2],
+            pressure: field,
+        };
+        field.resampled(coarse, origin).pressure
+    }
+}
+
+impl Loading {
+    /// The loading by `sources` on a grid of `n_elements` elements.
+    fn of(sources: &[HeatSource<'_>], n_elements: usize) -> Self {
+        let mut flux = vec![0.0; n_elements];
+        for source in sources {
+            for (sum, value) in flux.iter_mut().zip(source.flux) {
+                *sum += value;
+            }
+        }
+        let is_loaded = |flux: &f64| if *flux > 0.0 { 1.0 } else { 0.0 };
+        Self {
+            loaded_fraction: flux.iter().map(is_loaded).collect(),
+            flux,
+        }
+    }
+
+    /// The loaded element with the largest temperature; `None` if none is loaded.
+    fn hottest_element(&self, temperature: &[f64]) -> Option<usize> {
+        let loaded = (0..temperature.len()).filter(|element| self.loaded_fraction[*element] > 0.0);
+        loaded.max_by(|left, right| temperature[*left].total_cmp(&temperature[*right]))
+    }
+}
+
+impl Averages {
+    /// Averages of a temperature over the loaded elements; 0 if there are none.
+    fn over(temperature: &[f64], loading: &Loading) -> Self {
+        let Some(hottest) = loading.hottest_element(temperature) else {
+            return Self::default();
+        };
+        Self {
+            largest: temperature[hottest],
+            mean: weighted_mean(temperature, &loading.loaded_fraction),
+            flux_weighted_mean: weighted_mean(temperature, &loading.flux),
+        }
+    }
+}
+
+/// Twice the excess of a temperature over that of the centre of its hottest element. The maximum is at most half an element away, and
+/// up to there the temperature rises by half the mean difference from the neighbours along each axis. The excess counts twice, because
+/// it may also hide as much of the difference from the coarse grid.
+fn sampling_error(temperature: &[f64], hottest: usize, [rows, columns]: [usize; 2]) -> f64 {
+    let [row, column] = [hottest / columns, hottest % columns];
+    let along = |index: usize, n: usize, stride: usize| {
+        let before = (index > 0).then(|| temperature[hottest - stride]);
+        let behind = (index + 1 < n).then(|| temperature[hottest + stride]);
+        let neighbours = [before, behind].into_iter().flatten();
+        let (sum, count) = neighbours.fold((0.0, 0.0_f64), |(sum, count), value| {
+            (sum + temperature[hottest] - value, count + 1.0)
+        });
+        sum.abs() / count.max(1.0)
+    };
+    along(row, rows, columns) + along(column, columns, 1)
+}
+
+/// Mean of values with weights whose sum is greater than 0.
+fn weighted_mean(values: &[f64], weights: &[f64]) -> f64 {
+    let products = values
+        .iter()
+        .zip(weights)
+        .map(|(value, weight)| value * weight);
+    products.sum::<f64>() / weights.iter().sum::<f64>()
+}
+
+/// A temperature with its difference from that on the coarse grid as error, and the error of the influence coefficients.
+fn estimate(fine: f64, coarse: f64) -> Result<Estimate, InvalidParameter> {
+    let value = finite("temperature rise", fine)?;
+    Ok(Estimate::new(value, (fine - coarse).abs()).widened(KERNEL_ERROR * value.abs()))
+}
+
+/// The wake length λ = 4D/v \[m], within which heat diffuses ahead as fast as it is left behind; infinite at rest.
+fn wake_length(
+    grid: &Grid,
+    conductor: &HeatConductor,
+    velocity: f64,
+) -> Result<f64, InvalidParameter> {
+    not_negative("velocity", velocity)?;
+    let wake_length = 4.0 * conductor.diffusivity() / velocity;
+    let peclet_number = grid.shape()[0] as f64 * grid.spacing()[0] / wake_length;
+    let holds = peclet_number <= MAX_PECLET_NUMBER;
+    in_range(
+        "Péclet number of the grid",
+        peclet_number,
+        holds,
+        "at most 1e10",
+    )?;
+    positive("ratio of the edges", grid.spacing()[1] / grid.spacing()[0])?;
+    Ok(wake_length)
+}
+
+/// A grid over the same area with half the number of elements, rounded up, along each axis.
+fn coarse_grid(grid: &Grid, spacing: [f64; 2]) -> Result<Grid, BemError> {
+    Grid::new(grid.shape().map(|n| n.div_ceil(2)), spacing)
+}
