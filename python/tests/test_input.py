@@ -41,6 +41,9 @@ WRONG: list[tuple[str, dict[str, Any]]] = [
     ("model", {"model": "line", "method": "bem-steady"}),
     ("indenter", {"body": "ball"}),
     ("indenter must be a Body of this package, but is 5e-06", {"body": 5e-6}),
+    ("interface must be an Interface of this package, but is '1e5'", {"interface": "1e5"}),
+    ("one-dimensional model", {"interface": vf.ConstantShear(1e5), "model": "line"}),
+    ("no-such-table", {"interface": vf.ShearFile("no-such-table.csv")}),
     ("no-such-file", {"material": vf.MaterialFile("no-such-file.toml")}),
     ("material", {"material": None}),
 ]
@@ -54,6 +57,8 @@ def test_wrong_input_is_named(name: str, change: dict[str, Any]) -> None:
 
 
 MAKERS: list[tuple[str, Callable[[], Any]]] = [
+    ("interface.constant.shear_strength must be finite and greater than 0, but is -1", lambda: vf.ConstantShear(-1.0)),
+    ("interface.bell.width must be finite and greater than 0, but is 0", lambda: vf.BellShear(1e5, 1e-3, width=0.0)),
     ("indenter.sphere.radius must be finite and greater than 0, but is -1", lambda: vf.Sphere(-1.0)),
     ("indenter.sphere.radius: invalid type: string \"large\"", lambda: vf.Sphere("large")),  # type: ignore[arg-type]
     ("indenter.cone.slope must be finite and greater than 0, but is 0", lambda: vf.Pyramid(0.0)),

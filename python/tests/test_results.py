@@ -26,6 +26,20 @@ def test_a_single_scene_reads_well_in_text_and_notebook() -> None:
     assert "<td>friction_coefficient</td><td>0.0891298 ± 0.0000073</td>" in answer._repr_html_()
 
 
+def test_friction_is_hysteresis_and_shear() -> None:
+    speeds = np.array([1e-3, 1e-2])
+    interface = vf.BellShear(1e5, 1e-3, width=2.0)
+    found = vf.slide(vf.Sphere(5e-3), SOLID, normal_force=1.0, velocity=speeds, interface=interface, relative_error=0.05)
+    assert found.friction_from_shear is not None and found.friction_from_hysteresis is not None
+    np.testing.assert_allclose(found.mu, found.friction_from_hysteresis + found.friction_from_shear, rtol=1e-14)
+    strength = 1e5 * np.exp(-((np.log10(speeds / 1e-3) / 2.0) ** 2))
+    np.testing.assert_allclose(found.friction_from_shear, strength * found.contact_area, rtol=1e-12)
+    scene = {"indenter": vf.Sphere(5e-3), "material": SOLID, "load": {"normal_force": 1.0, "velocity": 1e-2}}
+    alone = vf.solve(scene | {"interface": interface, "solve": {"relative_error": 0.05}})
+    assert alone.mu == found.mu[1]
+    assert vf.solve(scene | {"solve": {"relative_error": 0.05}}).friction_from_shear is None
+
+
 def test_every_printed_quantity_is_an_attribute() -> None:
     answer = vf.slide(vf.Cone(0.1), SOLID, normal_force=2.0, velocity=0.1, relative_error=0.1)
     printed = [line.split(":")[0].strip() for line in repr(answer).splitlines()[1:]]

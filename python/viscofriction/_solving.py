@@ -235,7 +235,8 @@ def read(scene: Scene) -> tuple[dict[str, Any], str, Any]:
         if isinstance(value, kind):
             table[key] = value._table()
         elif not isinstance(value, Mapping):
-            raise ValueError(f"{key} must be a {kind.__name__} of this package, but is {value!r}")
+            article = "an" if kind is Interface else "a"
+            raise ValueError(f"{key} must be {article} {kind.__name__} of this package, but is {value!r}")
     return table, "", heights
 
 

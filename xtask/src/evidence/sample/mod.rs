@@ -355,8 +355,10 @@ pub(super) fn sample(random: &mut Random, source: &Source, folder: &Path) -> Res
             break;
         }
     }
-    // Draw the shear of the contact last, so that all other numbers of a scene are those that it has without. Scenes that have no shear,
-    // such as those without sliding, stay without.
+    // Draw the shear of the contact last and from a copy of the generator, so that all other numbers of this scene and of the next
+    // ones are those that they have without shear. Scenes in which nothing slides at a constant velocity stay without.
+    let mut copied = sample.random.clone();
+    sample.random = &mut copied;
     let interface = sample.interface();
     if sample.random.uniform() < SHEAR_SHARE {
         case.scene.interface = Some(interface);
