@@ -162,7 +162,7 @@ fn with_load(scene: &Scene, points: &[FrictionPoint]) -> Result<Scene, FrictionF
     Ok(scene)
 }
 
-/// Rejects periodic surfaces, motions and histories, before a random surface is drawn or a file read.
+/// Rejects periodic surfaces, shear of the contact, motions and histories, before a random surface is drawn or a file read.
 fn check_scene(scene: &Scene) -> Result<(), SceneError> {
     let is_endless = match &scene.indenter {
         Indenter::SelfAffine(_) | Indenter::Spectrum(_) => true,
@@ -171,6 +171,9 @@ fn check_scene(scene: &Scene) -> Result<(), SceneError> {
     };
     if is_endless {
         return Err(SceneError::at("indenter", ENDLESS_SURFACE));
+    }
+    if scene.interface.is_some() {
+        return Err(SceneError::at("interface", WITHOUT_SHEAR));
     }
     let load = &scene.load;
     let moves = [
@@ -190,6 +193,9 @@ fn check_scene(scene: &Scene) -> Result<(), SceneError> {
 const ENDLESS_SURFACE: &str = "moduli are not fitted to the friction of a rough surface without end, of which every point is a computation \
      of minutes; take the moduli from fit-material, or fit them to the friction of a ball or a cylinder on the same material, and \
      compare the friction of this scene with the measured one by `viscofriction sweep` over load.velocity";
+/// Message if the scene has a shear strength, which the model of the fit does not contain.
+const WITHOUT_SHEAR: &str = "moduli are fitted to the friction from hysteresis alone; subtract the shear of the contact from the measured friction, \
+     and leave the interface out";
 /// Message if the scene has a motion or a history instead of sliding at constant speed.
 const STEADY_SLIDING: &str = "friction is fitted at constant speeds, which are those of the table; leave this out, and give normal_force \
      without a motion";

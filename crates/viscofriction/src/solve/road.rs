@@ -31,13 +31,18 @@ impl CutOff {
         self.known()?.persson
     }
 
-    /// Estimated friction of the omitted waves: their friction in Persson's theory (2006), scaled by the ratio of solved to
+    /// Estimated hysteresis of the omitted waves: their friction in Persson's theory (2006), scaled by the ratio of solved to
     /// theoretical friction of the remaining waves. The theory predicts the growth of friction better than its magnitude.
     /// `all` is the surface with all its waves.
     pub fn still_to_come(&self, all: &Self) -> Option<f64> {
         let theory = |one: &Self| one.persson().map(|one| one.friction_coefficient_2006);
         let (all, left) = (theory(all)?, theory(self)?);
-        let solved = self.known()?.friction_coefficient?.value;
+        // The theory is one of hysteresis: leave out the shear of the contact.
+        let known = self.known()?;
+        let hysteresis = known
+            .friction_from_hysteresis
+            .or(known.friction_coefficient);
+        let solved = hysteresis?.value;
         // If the remaining waves cause no friction, the ratio is not defined, and nothing is returned.
         (left > 0.0).then(|| (all - left) * solved / left)
     }

@@ -7,7 +7,7 @@ use measurements::friction::{FrictionNoise, FrictionPoint};
 use viscofriction::friction_fit::{
     FittedFriction, Free, FrictionFitError, FrictionFitOptions, FrictionPrior, fit_friction,
 };
-use viscofriction::scene::{MaterialTable, Shift, ShiftLaw, VerticalLaw};
+use viscofriction::scene::{Interface, MaterialTable, Shift, ShiftLaw, VerticalLaw};
 use viscofriction::{Problem, Scene, WrongInput, solve};
 
 const BALL: &str = "[indenter.sphere]\nradius = 5e-3\n[load]\nnormal_force = 1.0\nvelocity = 1.0\n";
@@ -295,11 +295,15 @@ fn what_cannot_be_fitted_is_refused_with_its_key() {
     let (moduli, shift) = (Free::Moduli, Free::Shift);
     let plain = || rubber(START, "", "");
     let (cold, warm) = (None, Some(20.0));
+    let shear_strength = 1e5;
+    let mut dry = plain();
+    dry.interface = Some(Interface::Constant { shear_strength });
     let cases = [
         (plain(), 3, cold, moduli, "at least 4 points"),
         (plain(), 0, cold, moduli, "at least 1 points"),
         (deep, 9, cold, moduli, "load.indentation_depth"),
         (elastic, 9, cold, moduli, "material.elastic"),
+        (dry, 9, cold, moduli, "interface: moduli are fitted"),
         (plain(), 9, cold, shift, "needs one to begin with"),
         (rubber(START, law, ""), 9, warm, shift, "other temperatures"),
         (plain(), 9, warm, moduli, "has no shift law"),
