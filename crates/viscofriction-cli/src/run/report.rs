@@ -212,7 +212,7 @@ fn moduli_figure(problem: &Problem, answer: &Answer) -> Option<Figure> {
     };
     let contact = answer.contact_box.as_ref()?;
     let middle = load.velocity() / (contact.x[1] - contact.x[0]);
-    let dissipates = answer.friction_coefficient?.value > 0.0;
+    let dissipates = answer.hysteresis()?.value > 0.0;
     let is_drawn = dissipates && middle > 0.0 && middle.is_finite();
     is_drawn.then(|| {
         let ends =

@@ -195,6 +195,10 @@ pub struct HistoryRow {
     pub indentation_depth_m: f64,
     /// Friction coefficient F_h/F_N at this step.
     pub friction_coefficient: f64,
+    /// Contact area over normal force at this step, \[1/Pa], with which shear is added to the friction; `None` in the one-dimensional
+    /// model.
+    #[serde(skip)]
+    pub(crate) area_over_force: Option<f64>,
 }
 
 /// A value with the absolute error `relative_error` times its size.
@@ -248,6 +252,11 @@ impl Answer {
         let (friction, force) = (self.friction_coefficient?, self.normal_force);
         let error = friction.error * force.value + friction.value.abs() * force.error;
         Some(Estimate::new(friction.value * force.value, error))
+    }
+
+    /// Friction coefficient from the dissipation in the bulk; `None` if nothing slides.
+    pub fn hysteresis(&self) -> Option<Estimate> {
+        self.friction_from_hysteresis.or(self.friction_coefficient)
     }
 
     /// Mean pressure F_N/A in the contact, \[Pa]; `None` without a contact area that is positive within its error.

@@ -178,6 +178,7 @@ pub(crate) fn answer_from_periodic_transient(
         time_s: row.time,
         indentation_depth_m: row.mean_depth,
         friction_coefficient: row.friction_coefficient,
+        area_over_force: Some(row.area_fraction / rough.mean_pressure),
     };
     answer.fields.history = rows.iter().map(row).collect();
     answer.under(estimate.finest.pressure)
@@ -289,6 +290,7 @@ pub(crate) fn answer_from_slide(estimate: SlideEstimate) -> Result<Answer> {
         time_s: row.time,
         indentation_depth_m: row.indentation_depth,
         friction_coefficient: row.friction_coefficient,
+        area_over_force: Some(row.contact_area / row.normal_force),
     };
     answer.fields.history = estimate.finest.rows.iter().map(row).collect();
     answer.fields.pressure = Some(estimate.finest.pressure);

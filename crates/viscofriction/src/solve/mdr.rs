@@ -61,6 +61,7 @@ pub(crate) fn answer_from_march(state: Sliding) -> Answer {
         time_s: step.time,
         indentation_depth_m: step.indentation_depth,
         friction_coefficient: step.friction_coefficient,
+        area_over_force: None,
     };
     answer.fields.history = state.steps.iter().map(row).collect();
     answer.fields.line_load = state.load;

@@ -38,11 +38,7 @@ impl CutOff {
         let theory = |one: &Self| one.persson().map(|one| one.friction_coefficient_2006);
         let (all, left) = (theory(all)?, theory(self)?);
         // The theory is one of hysteresis: leave out the shear of the contact.
-        let known = self.known()?;
-        let hysteresis = known
-            .friction_from_hysteresis
-            .or(known.friction_coefficient);
-        let solved = hysteresis?.value;
+        let solved = self.known()?.hysteresis()?.value;
         // If the remaining waves cause no friction, the ratio is not defined, and nothing is returned.
         (left > 0.0).then(|| (all - left) * solved / left)
     }

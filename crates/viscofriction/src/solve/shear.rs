@@ -110,14 +110,24 @@ impl Problem {
             without.friction_coefficient =
                 (without.friction_coefficient).map(|hysteresis| sum(hysteresis, shear));
         }
+        // The steps before the end have the shear of their own areas.
+        for row in &mut answer.fields.history {
+            row.friction_coefficient += strength * row.area_over_force.unwrap_or_default();
+        }
         Ok(answer)
     }
 }
 
-/// Quotient of a tangential and a normal force \[N], or of a mean stress and a mean pressure \[Pa].
+/// Quotient of a tangential and a normal force \[N], or of a mean stress and a mean pressure \[Pa]. The error is infinite if the normal
+/// one may vanish within its error.
 fn over_force(tangential: Estimate, normal: Estimate) -> Estimate {
     let ratio = tangential.value / normal.value;
-    let error = (tangential.error + ratio * normal.error) / (normal.value - normal.error);
+    let smallest = normal.value - normal.error;
+    let error = if smallest > 0.0 {
+        (tangential.error + ratio * normal.error) / smallest
+    } else {
+        f64::INFINITY
+    };
     Estimate::new(ratio, error)
 }
 

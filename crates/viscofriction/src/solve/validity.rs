@@ -123,10 +123,7 @@ pub(super) fn mean_slope(body: &Body, answer: &Answer) -> Option<f64> {
     let widest = curve.largest(RADIUS).max((curve.largest(AREA) / PI).sqrt());
     let ends = answer.contact_box.as_ref().map(|contact| contact.x);
     let Some(ends) = ends.or((widest > 0.0).then_some([-widest, widest])) else {
-        let hysteresis = answer
-            .friction_from_hysteresis
-            .or(answer.friction_coefficient);
-        return hysteresis.map(|friction| friction.value);
+        return answer.hysteresis().map(|friction| friction.value);
     };
     let radius = ends[0].abs().max(ends[1].abs()).max(widest);
     let height = match body {

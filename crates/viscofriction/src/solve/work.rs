@@ -42,6 +42,9 @@ const MOTION_OF_CYLINDER: Refusal = "it follows the motion of a body that ends o
      slides a cylinder at a constant load.velocity";
 /// Refusal of a cylinder by the time march on the half space.
 const PRESSED_CYLINDER: Refusal = "it takes bodies that end, and a cylinder does not; bem-steady slides it, and analytic presses it";
+/// Refusal of a shear strength by a closed form that gives friction alone.
+const NO_AREA: Refusal =
+    "the table of s(p) does not give the contact area, on which the shear of the interface acts";
 /// Refusal of sliding at a given depth.
 const UNDER_FORCE: Refusal = "it slides under a force, not at a depth";
 /// Refusal of a material with a range of valid frequencies.
@@ -504,5 +507,6 @@ fn closed_half_space<'a>(
     )?;
     require(load.sliding_distance().is_none(), STATIONARY)?;
     require(has_force(problem), UNDER_FORCE)?;
+    require(problem.shear().is_none(), NO_AREA)?;
     ready(move |_| analytic::viscous_half_space(profile, material, load))
 }

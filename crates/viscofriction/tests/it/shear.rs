@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use serde_json::Value;
+use viscofriction::Answer;
 
 use crate::sensitivities::{answered, of};
 use crate::support::{Folder, assert_close, number};
@@ -138,6 +139,34 @@ fn derivatives_of_the_sum_are_slopes_between_answers() {
     }
 }
 
+/// After a distance from first touch the steps before the end have shear too.
+#[test]
+fn steps_from_first_touch_have_shear() {
+    let folder = Folder::new("shear-steps");
+    let scene = format!("{BALL}[solve]\nsliding_distance = 5e-4\nrelative_error = 0.05\n");
+    let interface = "[interface.constant]\nshear_strength = 1e5\n";
+    folder.write("alone.toml", &scene);
+    folder.write("sum.toml", format!("{scene}{interface}"));
+    let [alone, sum] = ["alone.toml", "sum.toml"].map(|file| folder.solved(file).answer);
+    check_parts(&serde_json::to_value(&sum).expect("JSON"), 1e5);
+    let friction = sum.friction_coefficient.expect("friction");
+    let last = sum
+        .fields
+        .history
+        .last()
+        .expect("a step")
+        .friction_coefficient;
+    let off = (last - friction.value).abs();
+    assert!(off < friction.error, "{last} for {friction}");
+    let first = |answer: &Answer| answer.fields.history[0].friction_coefficient;
+    assert!(
+        first(&sum) > first(&alone) + 0.05,
+        "{} {}",
+        first(&sum),
+        first(&alone)
+    );
+}
+
 /// Cylinders, height maps and periodic surfaces have the shear of their areas; realisations that of each surface.
 #[test]
 fn every_kind_of_body_has_shear() {
@@ -147,6 +176,8 @@ fn every_kind_of_body_has_shear() {
     let rough = "[indenter.self-affine]\nperiod = [1e-3, 1e-3]\nhurst_exponent = 0.8\nrms_slope = 0.1\nlongest_wavelength = \
          1e-3\nshortest_wavelength = 2.5e-4\nseed = 1\n";
     let two = rough.replace("seed = 1", "seed = 1\nrealisations = 2");
+    // On a dashpot the closed form of the friction knows no area, and another method is chosen.
+    let dashpot = "[material.viscous]\nviscosity = 1e4\n";
     for (body, load) in [
         (
             "[indenter.cylinder]\nradius = 5e-3\n",
@@ -156,11 +187,17 @@ fn every_kind_of_body_has_shear() {
             "[indenter.height-map]\nfile = \"map.csv\"\nspacing = [1e-3, 1e-3]\nunit = \"um\"\nheights_are = \"gap\"\n",
             "normal_force = 2e-3",
         ),
+        ("[indenter.cone]\nslope = 0.1\n", "normal_force = 1.0"),
         (rough, "mean_pressure = 1e5"),
         (&two, "mean_pressure = 1e5"),
     ] {
+        let material = if body.contains("cone") {
+            dashpot
+        } else {
+            rubber
+        };
         let text = format!(
-            "{body}{rubber}[interface.constant]\nshear_strength = 2e4\n[load]\n{load}\nvelocity = 0.02\n[solve]\nrelative_error = 0.05\n"
+            "{body}{material}[interface.constant]\nshear_strength = 2e4\n[load]\n{load}\nvelocity = 0.02\n[solve]\nrelative_error = 0.05\n"
         );
         let answer = folder.answer(text);
         check_parts(&answer, 2e4);
