@@ -59,12 +59,16 @@ impl Scene {
 /// Only 1e-6 may be refused, and the number that the refusal carries is within its error too.
 #[test]
 fn a_cylinder_on_a_three_element_solid_is_hunters_within_the_error_bar() {
-    for gamma in [0.01, 0.1, 1.0] {
-        for z in [0.1, 0.3, 1.0, 3.0, 20.0] {
+    for (row, gamma) in [0.01, 0.1, 1.0].into_iter().enumerate() {
+        for (column, z) in [0.1, 0.3, 1.0, 3.0, 20.0].into_iter().enumerate() {
             let (scene, exact) = Scene::hunter(gamma, z);
             let expected = exact.friction_coefficient;
             for relative_error in [1e-2, 1e-3, 1e-4, 3e-5, 1e-5] {
                 scene.check((gamma, z), relative_error, expected);
+            }
+            // The finest in half of the cases, with each solid and at each speed.
+            if (row + column) % 2 == 1 {
+                continue;
             }
             let known = match scene.solve(1e-6) {
                 Err(BemError::NotReached { value, error, .. }) => Estimate::new(value, error),

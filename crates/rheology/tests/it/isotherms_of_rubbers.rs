@@ -133,7 +133,7 @@ fn at(temperature: f64, factor: Factor) -> RelaxationSpectrum {
 /// within a third of that.
 #[test]
 fn bands_hold_the_dissipation_of_rubbers() {
-    const SEEDS: u64 = 5;
+    const SEEDS: u64 = 3;
     let mut deviations = Vec::new();
     for (number, kind) in KINDS.iter().enumerate() {
         for seed in 0..SEEDS {

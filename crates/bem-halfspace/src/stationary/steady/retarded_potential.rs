@@ -462,8 +462,9 @@ mod tests {
             [-0.2, 1e4],
         ];
         let rows = [30, 80, 98, 120, 129, 130, 131, 160, 230];
-        for element in elements {
-            for decade in (-12..=12).step_by(3) {
+        // Neighbouring elements of the list take every second rate, and all rates between them.
+        for (first, element) in [-12, -9].into_iter().cycle().zip(elements) {
+            for decade in (first..=12).step_by(6) {
                 let scene = Scene::of_half_space(element, None);
                 check(10.0_f64.powi(decade), &scene, 130, &rows);
             }

@@ -446,7 +446,11 @@ fn derivatives_of_areas_are_those_of_counted_ones() {
     const WIDE: f64 = 1.5;
     let side = [-1.7, 1.7];
     let options = SteadyOptions::new([0.05; 2], Footprint { x: side, y: side });
-    for case in cases().iter().filter(|case| case.name != "flat cone") {
+    let cases = cases();
+    let cases = cases.iter().filter(|case| case.name != "flat cone");
+    // All cases have the derivative by the body; those by modulus and load take turns with those by time and velocity.
+    let turns = [&[0, 1, 5][..], &[0, 2, 6]];
+    for (case, indices) in cases.zip(turns.into_iter().cycle()) {
         let grids = |factor: f64| SteadyOptions {
             spacing: options.spacing.map(|spacing| factor * spacing),
             ..options
@@ -459,7 +463,7 @@ fn derivatives_of_areas_are_those_of_counted_ones() {
             let found = steady(&*body, &layer, &case.load(factors), 1e-3).expect("an answer");
             found.contact_area
         };
-        for index in [0, 1, 2, 5, 6] {
+        for &index in indices {
             let [fine, coarse] = [0, 1].map(|grid| changed(case, &states[grid], index));
             let got = EXTRAPOLATION
                 .limit_of_single(fine, coarse)
