@@ -72,6 +72,10 @@ impl Request {
         let mut scene = scene.clone();
         scene.solve.method = Some(self.method);
         scene.solve.model = Some(of_method.unwrap_or(self.model));
+        if scene.solve.model == Some(Model::Line) {
+            // The one-dimensional model knows no contact area, on which shear acts.
+            scene.interface = None;
+        }
         Ok(Problem::try_from(&scene)?.with_accuracy(self.accuracy))
     }
 

@@ -47,7 +47,10 @@ impl Shear {
 
 impl Problem {
     /// Shear strength of the contact, \[Pa]; `None` unless the scene has one and the body slides at a constant velocity.
-    pub(crate) fn shear_strength(&self) -> Result<Option<f64>, SceneError> {
+    ///
+    /// # Errors
+    /// [`SceneError`] for a velocity or a temperature outside the table of the interface.
+    pub fn shear_strength(&self) -> Result<Option<f64>, SceneError> {
         match (self.shear(), self.motion()) {
             (Some(shear), Motion::Sliding(load)) => shear.strength(load.velocity()).map(Some),
             _ => Ok(None),

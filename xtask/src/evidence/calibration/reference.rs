@@ -100,7 +100,10 @@ fn cylinder(scene: &scene::Scene) -> Result<Reference> {
     let missing = |logarithm| Ok::<_, FrictionError>(slide(logarithm)?.line_load.ln() - force.ln());
     let log_half_length = try_bracketed_root(missing, HALF_LENGTHS.map(f64::ln))?
         .context("no contact carries the force")?;
-    let friction = slide(log_half_length)?.friction_coefficient;
+    // The shear of the interface acts on the whole contact length.
+    let length = 2.0 * log_half_length.exp() * cylinder.radius();
+    let shear = problem.shear_strength()?.unwrap_or_default() * length / force;
+    let friction = slide(log_half_length)?.friction_coefficient + shear;
     let error = CYLINDER_ERROR * friction;
     Ok(Reference::new(friction, error, "Hunter's cylinder"))
 }

@@ -27,6 +27,7 @@ pub(super) struct Label {
     scene: usize,
     indenter: String,
     material: String,
+    interface: String,
     load: String,
     solve: String,
 }
@@ -51,6 +52,10 @@ impl Scene {
             scene: number,
             indenter: inline(&file.indenter)?,
             material: inline(&file.material)?,
+            interface: match &file.interface {
+                Some(interface) => inline(interface)?,
+                None => String::new(),
+            },
             load: inline(&file.load)?,
             solve: inline(&file.solve)?,
         };

@@ -15,6 +15,7 @@
 use indenters::{SlidingLoad, Surface};
 use numerics::{Estimate, Request, positive};
 
+use crate::elements::area::EXCESS_PER_EDGE;
 use crate::estimate::bars;
 use crate::estimate::plan::GridPlan;
 use crate::stationary::steady::body_estimate::resolution;
@@ -127,8 +128,8 @@ pub fn steady_line<'w>(
         let options = SteadyOptions::new([spacing, strip.length], plan.footprint);
         let state = solve(&strip, loading, &options, &mut Reuse::default())?;
         let mut on_grid = state.on_grid(&loading.creep, 0.0, options, None);
-        // A width of whole elements has an error of at least one element.
-        on_grid.area_uncertainty = spacing;
+        // Each end of a width of whole elements is off by up to half an element, and on average too far out by the excess.
+        on_grid.area_uncertainty = (1.0 + 2.0 * EXCESS_PER_EDGE) * spacing;
         Ok(on_grid)
     };
     bars::resolve(&resolution, solve, finish)
