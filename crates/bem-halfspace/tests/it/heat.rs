@@ -9,6 +9,7 @@ use bem_halfspace::heat::{
 use bem_halfspace::{BemError, Grid, InvalidParameter, influence};
 use numerics::{Estimate, integrate};
 
+#[cfg(feature = "rayon")]
 use crate::support::on_threads;
 
 /// Péclet number va/(2D), and largest and mean temperature over q a/k under a uniform disc and under a flux with the shape of the
