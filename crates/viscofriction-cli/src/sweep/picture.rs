@@ -182,6 +182,10 @@ fn figure(table: &RowTable, measured: Option<&Measured>, is_per_length: bool) ->
         of_material: values(&format!("{name}_material_error")),
         // Read the theory of the quantity, whose column only friction has.
         theory: values(&format!("persson_{name}_2006")),
+        hysteresis: match name {
+            FRICTION => values("friction_from_hysteresis"),
+            _ => Vec::new(),
+        },
     };
     let over = keys.remove(abscissa(&keys).context("no key that varies has numbers")?);
     let curves = Curves::new(&keys, table.rows.len(), is_per_length);
@@ -337,11 +341,13 @@ struct Drawn {
     of_material: Vec<Option<f64>>,
     /// Friction by Persson's theory (2006), if known.
     theory: Vec<Option<f64>>,
+    /// Part of the friction from hysteresis; unknown without an interface.
+    hysteresis: Vec<Option<f64>>,
 }
 
 impl Drawn {
-    /// Computed values and theory of the given rows, over their abscissae.
-    fn series(&self, rows: &[(f64, usize)]) -> [Series; 2] {
+    /// Computed values, theory and hysteresis of the given rows, over their abscissae.
+    fn series(&self, rows: &[(f64, usize)]) -> [Series; 3] {
         let at = |values: &[Option<f64>], row: usize| values.get(row).copied().flatten();
         let known = |values: &[Option<f64>]| -> Vec<(usize, [f64; 2])> {
             rows.iter()
@@ -366,9 +372,12 @@ impl Drawn {
             },
             ..Series::line(points, line(Dash::Solid), Colour::Blue)
         };
-        let theory = known(&self.theory).into_iter().map(|(_, point)| point);
-        let theory = Series::reference(theory.collect(), Dash::Dashed, Colour::Blue);
-        [computed, theory]
+        let curve = |values| -> Vec<[f64; 2]> {
+            known(values).into_iter().map(|(_, point)| point).collect()
+        };
+        let theory = Series::reference(curve(&self.theory), Dash::Dashed, Colour::Blue);
+        let hysteresis = Series::line(curve(&self.hysteresis), line(Dash::Dotted), Colour::Blue);
+        [computed, theory, hysteresis]
     }
 }
 
@@ -410,7 +419,8 @@ fn measured_series(measured: &Measured, keys: &[Key<'_>], curves: &Curves) -> Ve
 /// A chart of all curves over a key, and of measured points.
 fn chart(over: &Key, curves: &Curves, drawn: &Drawn, measured: Vec<Series>) -> Figure {
     let numbers = over.numbers();
-    let is_labelled = !measured.is_empty() || drawn.theory.iter().any(Option::is_some);
+    let mut others = drawn.theory.iter().chain(&drawn.hysteresis);
+    let is_labelled = !measured.is_empty() || others.any(Option::is_some);
     let mut series = Vec::new();
     for (curve, name) in curves.labels.iter().enumerate() {
         let mut rows: Vec<(f64, usize)> = (0..numbers.len())
@@ -419,9 +429,10 @@ fn chart(over: &Key, curves: &Curves, drawn: &Drawn, measured: Vec<Series>) -> F
             .collect();
         // Rows of shards and of several threads may be in any order.
         rows.sort_by(|(one, _), (other, _)| one.total_cmp(other));
-        let [mut computed, mut theory] = drawn.series(&rows);
+        let [mut computed, mut theory, mut hysteresis] = drawn.series(&rows);
         computed.colour = COLOURS[curve % COLOURS.len()];
         theory.colour = computed.colour;
+        hysteresis.colour = computed.colour;
         computed.marker = Some(Marker::filled(SHAPES[curve % SHAPES.len()]));
         computed.label = match &name[..] {
             "" => is_labelled.then(|| "computed".to_owned()),
@@ -429,8 +440,9 @@ fn chart(over: &Key, curves: &Curves, drawn: &Drawn, measured: Vec<Series>) -> F
         };
         let is_last = curve + 1 == curves.labels.len();
         theory.label = is_last.then(|| "theory, Persson (2006)".to_owned());
+        hysteresis.label = is_last.then(|| "hysteresis".to_owned());
         let is_seen = |one: &Series| one.points.len() > usize::from(one.marker.is_none());
-        series.extend([computed, theory].into_iter().filter(is_seen));
+        series.extend([computed, theory, hysteresis].into_iter().filter(is_seen));
     }
     let of_axis: Vec<f64> = series.iter().flat_map(abscissae).collect();
     let all = of_axis

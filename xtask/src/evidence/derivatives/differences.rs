@@ -191,6 +191,10 @@ impl Asked {
         let mut scene = scene.clone();
         scene.solve.method = Some(self.method);
         scene.solve.model = Some(self.model);
+        if self.model == Model::Line {
+            // The one-dimensional model knows no contact area, on which shear acts.
+            scene.interface = None;
+        }
         scene.solve.relative_error = Some(relative_error);
         if self.memory.is_some() {
             scene.solve.max_memory.clone_from(&self.memory);
