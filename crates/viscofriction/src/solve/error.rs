@@ -87,7 +87,8 @@ pub enum SolveError {
     },
     /// The contact area, on which shear acts, is not known.
     #[error(
-        "{} does not know the contact area, on which the shear of the interface acts; bem-steady does",
+        "{} has not found the contact area, on which the shear of the interface acts; give more solve.elements, or a smaller \
+         solve.relative_error",
         method.name()
     )]
     NoAreaForShear {

@@ -14,7 +14,7 @@ use super::error::{Result, SolveError};
 use super::plan::{Plan, plan};
 use super::problem::{Motion, Problem};
 use super::work::work;
-use crate::scene::{Accuracy, Model, SceneError};
+use crate::scene::{Accuracy, Method, Model, SceneError};
 
 /// Largest relative error that is requested of the friction from hysteresis. Chosen: the first solution only has to show which part
 /// of the friction is hysteresis.
@@ -72,8 +72,8 @@ impl Problem {
         }
         if shear.law.depends_on_temperature() && shear.temperature.is_none() {
             return refused(
-                "it depends on the temperature, and the scene gives none: give heat.ambient_temperature, or a material of a file with a \
-                 shift law",
+                "it depends on the temperature, which is that of the material, and the material has none: give one with a shift law, as \
+                 fit-material writes it",
             );
         }
         match self.motion() {
@@ -144,7 +144,7 @@ fn sum(a: Estimate, b: Estimate) -> Estimate {
 /// The methods control the relative error of the friction from hysteresis. It is requested coarsely at first, and then as finely as
 /// the sum needs: a small hysteresis beside a large shear need not be known well, and the error of the contact area adds to both.
 pub(super) fn solve(first: Plan, watch: &dyn Progress) -> Result<Answer> {
-    let problem = first.problem;
+    let (problem, method) = (first.problem, first.method);
     let (Accuracy::RelativeError(asked), Some(_)) = (problem.accuracy(), problem.shear()) else {
         return first.solve_once(watch);
     };
@@ -154,7 +154,7 @@ pub(super) fn solve(first: Plan, watch: &dyn Progress) -> Result<Answer> {
         let near = problem
             .clone()
             .with_accuracy(Accuracy::RelativeError(request));
-        let (answer, missed) = match plan_again(&near)?.solve_once(watch) {
+        let (answer, missed) = match plan_again(&near, method)?.solve_once(watch) {
             Ok(answer) => (answer, None),
             Err(SolveError::NotReached { answer, why }) => (*answer, Some(why)),
             Err(other) => return Err(other),
@@ -188,20 +188,27 @@ pub(super) fn solve(first: Plan, watch: &dyn Progress) -> Result<Answer> {
         }
         let [smallest, largest] = REQUEST_RATIOS;
         let ratio = AIMED_SHARE * allowed / friction.error;
-        request *= ratio.clamp(smallest, largest);
+        // The error of the area falls about with the square root of that of the hysteresis, for which the request is made.
+        let of_shear = answer.friction_from_shear.map_or(0.0, |shear| shear.error);
+        let power = if of_shear > 0.5 * friction.error {
+            2
+        } else {
+            1
+        };
+        request *= ratio.powi(power).clamp(smallest, largest);
     }
 }
 
-/// The plan of a problem with another accuracy. A closed form may meet a coarse request and refuse a finer one, for which another
-/// method is chosen unless the scene names one.
-fn plan_again(problem: &Problem) -> Result<Plan<'_>> {
-    let Some(method) = problem.method() else {
-        return Ok(plan(problem)?);
-    };
-    let work = work(problem, method).map_err(|why| SolveError::Refused { method, why })?;
-    Ok(Plan {
-        problem,
-        method,
-        work,
-    })
+/// The plan of a method for a problem with another accuracy. A closed form may refuse a finer request, for which another method is
+/// chosen unless the scene names one.
+fn plan_again(problem: &Problem, method: Method) -> Result<Plan<'_>> {
+    match work(problem, method) {
+        Ok(work) => Ok(Plan {
+            problem,
+            method,
+            work,
+        }),
+        Err(_) if problem.method().is_none() => Ok(plan(problem)?),
+        Err(why) => Err(SolveError::Refused { method, why }),
+    }
 }

@@ -3,7 +3,8 @@
 use std::f64::consts::PI;
 
 use serde_json::Value;
-use viscofriction::Answer;
+use viscofriction::solve::plan;
+use viscofriction::{Answer, Problem, Scene, solve};
 
 use crate::sensitivities::{answered, of};
 use crate::support::{Folder, assert_close, number};
@@ -165,6 +166,20 @@ fn steps_from_first_touch_have_shear() {
         first(&sum),
         first(&alone)
     );
+}
+
+/// The planned method answers, also where another would meet a coarser request for the hysteresis beside a large shear.
+#[test]
+fn the_planned_method_answers() {
+    for velocity in ["1e-4", "3e-4", "1e-3", "3e-3"] {
+        let ball = BALL.replace("velocity = 0.01", &format!("velocity = {velocity}"));
+        let asked = "[solve]\nrelative_error = 0.01\n[interface.constant]\nshear_strength = 1e7\n";
+        let scene: Scene = format!("{ball}{asked}").parse().expect("a scene");
+        let problem = Problem::try_from(&scene).expect("a problem");
+        let planned = plan(&problem).expect("a plan").method();
+        let answer = solve(&problem).expect("an answer");
+        assert_eq!(answer.method, planned, "at {velocity} m/s");
+    }
 }
 
 /// Cylinders, height maps and periodic surfaces have the shear of their areas; realisations that of each surface.
