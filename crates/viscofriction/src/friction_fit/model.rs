@@ -315,7 +315,8 @@ impl<'a> Model<'a> {
         let grid = self.coarse_solution(&*materials.own, load)?;
         let friction = grid.friction_coefficient();
         let relative = |ends: [&dyn Material; 2], velocities: [f64; 2]| -> Result<f64> {
-            Ok(grid.between_materials(ends, velocities)? / (2.0 * step * friction))
+            let change = grid.between_materials(ends, velocities)?;
+            Ok(change.friction_coefficient / (2.0 * step * friction))
         };
         let slopes = materials
             .beside

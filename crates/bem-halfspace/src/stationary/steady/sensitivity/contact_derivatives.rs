@@ -37,6 +37,8 @@ pub(super) struct ContactDerivatives {
     control: Control,
     /// Normal force, \[N]; in plane strain per length, \[N/m].
     pub(super) normal_force: f64,
+    /// Contact area as the pressure weights it, \[m²]; in plane strain a width, \[m].
+    pub(super) effective_area: f64,
     /// Indentation depth, \[m].
     depth: f64,
     /// Number of unknown pressures.
@@ -115,6 +117,8 @@ impl ContactDerivatives {
             compliance: loading.creep.compliance(options.spacing[0])?,
             contact: &contact,
         };
+        let squared_loads = dot(&contact.weighted_by_images(&contact.loads), &contact.loads);
+        let element = options.spacing[0] * options.spacing[1] / loading.strip.unwrap_or(1.0);
         // Form the gradients on fixed elements. The friction also depends on the body and the kernel explicitly.
         let has_depth = loading.creep.fluidity() <= 0.0 && loading.strip.is_none();
         let mut gradients = Change {
@@ -143,6 +147,7 @@ impl ContactDerivatives {
                 .map(|[_, weight]| system.measure_gradient(&adjoint[3], weight)),
             control: loading.control,
             normal_force: system.force_per_load * contact.total,
+            effective_area: element * contact.total.powi(2) / squared_loads,
             depth: loading.depth_scale * solution.depth,
             n_unknowns: contact.n_touching,
             dilation: None,

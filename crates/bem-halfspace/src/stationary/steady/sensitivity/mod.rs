@@ -41,6 +41,7 @@ use indenters::{Control, SlidingLoad, Surface};
 use numerics::{Estimate, in_range};
 use rheology::Material;
 
+use crate::parallel::reductions::mean;
 use crate::stationary::change;
 pub use crate::stationary::change::{ByModuli, Change};
 use crate::stationary::steady::line::strip_on_grid;
@@ -370,11 +371,28 @@ impl SensitivityOnGrid {
 
     /// The mean friction coefficient of the grids.
     pub fn friction_coefficient(&self) -> f64 {
-        let all = self.contacts.iter().map(|state| state.friction_coefficient);
-        all.sum::<f64>() / self.contacts.len() as f64
+        self.mean_over_grids(|contact| contact.friction_coefficient)
     }
 
-    /// The change of the friction coefficient, see [`SteadySensitivity::between_materials`].
+    /// The mean normal force of the grids, \[N]; in plane strain per length, \[N/m].
+    pub fn normal_force(&self) -> f64 {
+        self.mean_over_grids(|contact| contact.normal_force)
+    }
+
+    /// The contact area as the pressure weights it, (∫ p dA)²/∫ p² dA, \[m²]; in plane strain a width, \[m].
+    ///
+    /// It is 8/9 of the area under Hertz's pressure. It changes continuously with load and material, unlike the number of elements
+    /// in contact.
+    pub fn effective_area(&self) -> f64 {
+        self.mean_over_grids(|contact| contact.effective_area)
+    }
+
+    /// The mean of a quantity over the shifted grids.
+    fn mean_over_grids(&self, quantity: impl Fn(&ContactDerivatives) -> f64) -> f64 {
+        mean(&self.contacts.iter().map(quantity).collect::<Vec<_>>())
+    }
+
+    /// The change of all quantities, see [`SteadySensitivity::between_materials`].
     ///
     /// # Errors
     /// As for [`SteadySensitivity::between_materials`].
@@ -382,9 +400,9 @@ impl SensitivityOnGrid {
         &self,
         materials: [&dyn Material; 2],
         velocities: [f64; 2],
-    ) -> Result<f64, BemError> {
+    ) -> Result<Change<f64>, BemError> {
         let changes = self.between_creeps(&creeps(materials, velocities)?)?;
-        Ok(mean_over_shifts(changes).friction_coefficient.mean)
+        Ok(mean_over_shifts(changes).map(|over_shifts| over_shifts.mean))
     }
 
     /// The change on each grid; `on_fixed_elements(gradient)` is that of one quantity on fixed elements under a constant force.

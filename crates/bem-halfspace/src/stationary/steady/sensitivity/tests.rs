@@ -3,10 +3,12 @@
 use std::f64::consts::PI;
 
 use indenters::{Cylinder, FlatCone, PowerProfile, Surface};
-use rheology::{Compressible, Prony, RelaxationBranch, RelaxationSpectrum, Viscous};
+use rheology::{Compressible, Elastic, Prony, RelaxationBranch, RelaxationSpectrum, Viscous};
 
 use super::*;
-use crate::stationary::steady::{SteadySliding, steady, steady_line};
+use crate::stationary::steady::{
+    SteadySliding, steady, steady_grid, steady_line, steady_line_grid,
+};
 use crate::{Footprint, Layer};
 
 /// Relative step of the differences.
@@ -489,5 +491,33 @@ fn derivatives_of_areas_are_those_of_counted_ones() {
                 case.name, NAMES[index]
             );
         }
+    }
+}
+
+/// Under Hertz's pressure the effective area is 8/9 of π a², with a³ = 3 F R/(16 G), and in plane strain 3 π²/16 a, with
+/// a² = F R/(π G).
+#[test]
+fn effective_areas_are_those_of_hertz() {
+    let rubber = Elastic::new(1.0).expect("a material");
+    let load = SlidingLoad::new(0.1, 1.0).expect("a load");
+    let ball = PowerProfile::paraboloid(0.5).expect("a body");
+    let options = steady_grid(&ball, &rubber, &load, 24).expect("a grid");
+    let state = SensitivityOnGrid::new(&ball, &rubber, &load, &options).expect("a state");
+    let radius = (3.0 * 0.1 / 16.0_f64).cbrt();
+    let roll = Cylinder::new(1.0).expect("a body");
+    let options = steady_line_grid(&roll, &rubber, &load, 48).expect("a grid");
+    let line = SensitivityOnGrid::of_line(&roll, &rubber, &load, &options).expect("a state");
+    let half_width = (0.1 / PI).sqrt();
+    for (state, expected) in [
+        (state, 8.0 / 9.0 * PI * radius * radius),
+        (line, 3.0 * PI * PI / 16.0 * half_width),
+    ] {
+        let found = state.effective_area();
+        assert!(
+            (found / expected - 1.0).abs() < 0.01,
+            "{found} for {expected}"
+        );
+        let force = state.normal_force();
+        assert!((force / 0.1 - 1.0).abs() < 1e-9, "{force}");
     }
 }
