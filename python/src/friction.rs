@@ -1,4 +1,4 @@
-//! Fit of the moduli of a scene's material to measured friction.
+//! Fit of the moduli of a scene's material, and of its interface, to measured friction.
 
 use std::path::PathBuf;
 
@@ -25,7 +25,7 @@ pub(crate) struct Measured<'py> {
     /// \[°C] and normal forces.
     file: Option<PathBuf>,
     columns: Option<[Option<PyReadonlyArray1<'py, f64>>; 5]>,
-    free: String,
+    free: Vec<String>,
     noise: String,
     prior: String,
     track_radius: Option<f64>,
@@ -72,13 +72,13 @@ impl Measured<'_> {
 
     /// The options of the fit; an error names an unknown word.
     fn options(&self) -> PyResult<FrictionFitOptions> {
-        let free = match &self.free[..] {
-            "moduli" => Free::Moduli,
-            "shift" => Free::Shift,
-            "both" => Free::Both,
+        let free = |word: &String| match &word[..] {
+            "moduli" => Ok(Free::Moduli),
+            "shift" => Ok(Free::Shift),
+            "interface" => Ok(Free::Interface),
             other => {
-                let allowed = "\"moduli\", \"shift\" or \"both\"";
-                return Err(wrong(format!("free must be {allowed}, but is {other:?}")));
+                let allowed = "\"moduli\", \"shift\", \"interface\", or a list of them";
+                Err(wrong(format!("free must be {allowed}, but is {other:?}")))
             }
         };
         let noise = match &self.noise[..] {
@@ -90,7 +90,7 @@ impl Measured<'_> {
             }
         };
         Ok(FrictionFitOptions {
-            free,
+            free: self.free.iter().map(free).collect::<PyResult<_>>()?,
             noise,
             prior: self.prior.parse().map_err(wrong)?,
         })

@@ -1,4 +1,4 @@
-"""The moduli behind measured friction."""
+"""The moduli and shear strengths behind measured friction."""
 
 from __future__ import annotations
 
@@ -42,6 +42,19 @@ def test_moduli_come_back_and_the_result_is_plain() -> None:
     assert again.mu == pytest.approx(np.interp(0.01, SPEEDS, mu), rel=0.2)
 
 
+def test_a_shear_strength_comes_back() -> None:
+    speeds = np.logspace(-3, -1, 3)
+    body, rubber, load = vf.Cylinder(5e-3), vf.KelvinVoigt(1e6, 1e3), {"normal_force": 100.0}
+    known = {"indenter": body, "material": rubber, "interface": vf.ConstantShear(3e4), "solve": {"elements": 512}}
+    dry = np.array([vf.solve({**known, "load": {**load, "velocity": v}}).mu for v in speeds.tolist()])
+    start = {"indenter": body, "material": rubber, "interface": vf.ConstantShear(1e5), "load": load}
+    fit = vf.fit_friction(speeds, dry, scene=start, standard_error=0.02 * dry)
+    assert fit.free == ("interface",)
+    assert fit.interface is not None
+    assert fit.interface["constant"]["shear_strength"] == pytest.approx(3e4, rel=5e-3)
+    assert list(fit.findings) == ["interface.constant.shear_strength"]
+
+
 def test_a_table_is_what_the_program_fits(program: Callable[..., str], tmp_path: Path) -> None:
     file = tmp_path / "scene.toml"
     file.write_text(
@@ -66,6 +79,7 @@ def test_a_table_is_what_the_program_fits(program: Callable[..., str], tmp_path:
         ({"mu": -np.ones(8)}, "mu must be greater than 0"),
         ({"mu": np.ones(7)}, "as many values"),
         ({"free": "times"}, "free must be"),
+        ({"free": "interface"}, "to find the shear strength"),
         ({"noise": "none"}, "noise must be"),
         ({"prior": 0.0}, "prior must be"),
         ({"prior": "known"}, "prior must be covariance, none"),

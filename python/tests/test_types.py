@@ -25,7 +25,7 @@ print(table["friction_coefficient"].max())
 fit = vf.fit_material("table.csv", wlf=(8.86, 101.6), temperature=20.0, vertical="entropic", deformation="shear")
 print(fit.material.equilibrium_modulus, fit.max_relative_error)
 curve = vf.fit_indentation("curve.csv", body=vf.Sphere(1e-6), material="power-law", thickness="fit")
-found = vf.fit_friction([1.0, 2.0], [0.1, 0.2], scene="scene.toml", free="both", noise="absolute", prior="none")
+found = vf.fit_friction([1.0, 2.0], [0.1, 0.2], scene="scene.toml", free=("moduli", "shift"), noise="absolute", prior="none")
 bump = vf.HeightMap(np.ones((3, 3)), 1e-6, edges="mirrored", unit="um", heights_are="gap")
 answer = vf.solve("scene.toml")
 """

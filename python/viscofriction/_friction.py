@@ -1,10 +1,10 @@
-"""Friction as a rheometer: the moduli of a material from measured friction over speed and temperature."""
+"""Friction as a rheometer: moduli of a material and shear strengths from measured friction over speed and temperature."""
 
 from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, fields
 from typing import Any, Literal
 
@@ -17,18 +17,24 @@ from ._indentation import Finding
 from ._solving import Scene, given, read
 
 Numbers = NDArray[np.float64]
+Free = Literal["moduli", "shift", "interface"]
 
 __all__ = ["FrictionFit", "fit_friction"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class FrictionFit(Compared):
-    """The material behind measured friction."""
+    """The material behind measured friction, and the shear strength of its contact."""
 
-    #: By the path of each number below ``material``: "prony.branches[0].modulus"; of a shift law "C1" and "C2", or "E_a".
+    #: By the path of each number below ``material``: "prony.branches[0].modulus"; of a shift law "C1" and "C2", or "E_a"; of an
+    #: interface the whole path: "interface.bell.velocity".
     findings: Mapping[str, Finding]
+    #: What was sought: "moduli", "shift", "interface".
+    free: tuple[Free, ...]
     #: The material that was found, as a table for scenes: ``vf.solve({"material": fit.material, …})``.
     material: Mapping[str, Any]
+    #: The interface that was found, as a table for scenes; None where the scene has none.
+    interface: Mapping[str, Any] | None
     #: Speeds [m/s] as measured, and at the temperature of the material.
     velocity: Numbers
     shifted_velocity: Numbers
@@ -84,19 +90,21 @@ def fit_friction(
     standard_error: ArrayLike | None = None,
     temperature: ArrayLike | None = None,
     normal_force: ArrayLike | None = None,
-    free: Literal["moduli", "shift", "both"] = "moduli",
+    free: Free | Sequence[Free] = (),
     noise: Literal["relative", "absolute"] = "relative",
     prior: float | Literal["covariance", "none"] = "covariance",
     track_radius: float | None = None,
     run_in: float | None = None,
 ) -> FrictionFit:
-    """The moduli of a scene's material from friction coefficients ``mu`` over speed [m/s], with 95 % intervals.
+    """The moduli of a scene's material, or the shear strength of its interface, from friction coefficients ``mu`` over speed [m/s],
+    with 95 % intervals.
 
-    The scene is a file or a dictionary, as of ``vf.solve``: a body, its load, and a material with the moduli to begin with; its
-    speed does not matter. Instead of arrays the name of a table will do, whose columns and units are found. Beside the friction
+    The scene is a file or a dictionary, as of ``vf.solve``: a body, its load, a material with the moduli to begin with, and perhaps
+    an interface; its speed does not matter. Instead of arrays the name of a table will do, whose columns and units are found. Beside the friction
     there may be its ``standard_error``, the ``temperature`` [°C] and the ``normal_force`` [N] of each point.
 
-    ``free`` is what is sought: "moduli", the constants of the material's "shift" law, or "both". Without standard errors ``noise``
+    ``free`` is what is sought, one or several of "moduli", the constants of the material's "shift" law, and the numbers of the
+    "interface"; unless given, the interface, or the moduli in a scene without one. Without standard errors ``noise``
     is "relative" to the friction or "absolute". ``prior`` is what is known of the moduli before the fit: the "covariance" of the
     material, as ``fit_material`` finds it (nothing where it has none), one relative standard deviation of all moduli that relax
     within its valid frequencies, or "none".
@@ -115,7 +123,7 @@ def fit_friction(
         "folder": folder,
         "file": None,
         "columns": None,
-        "free": free,
+        "free": [free] if isinstance(free, str) else list(free),
         "noise": noise,
         "prior": str(prior),
         "track_radius": track_radius,
@@ -150,7 +158,9 @@ def _fit(found: dict[str, Any]) -> FrictionFit:
     errors = [point["standard_error"] for point in points]
     return FrictionFit(
         findings,
+        tuple(found["free"]),
         found["material"],
+        found["interface"],
         np.array([point["velocity"] for point in points]),
         np.array(found["shifted_velocities"]),
         np.array([point["friction_coefficient"] for point in points]),

@@ -257,7 +257,7 @@ impl<'a> FrictionFitting<'a> {
         if n_unfinished > 0 {
             flags.push(format!(
                 "{n_unfinished} ends of intervals were not found in {MAX_COMPUTATIONS} computations of the friction each, and are left \
-                 open: give fewer branches, more points, or a prior"
+                 open: let fewer parameters be free, give more points, or a prior"
             ));
         }
         Ok(FrictionFit {

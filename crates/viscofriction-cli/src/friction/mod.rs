@@ -1,4 +1,4 @@
-//! `fit-friction`: fit of the moduli of a scene's material to measured friction.
+//! `fit-friction`: fit of the moduli of a scene's material, and of its interface, to measured friction.
 
 mod picture;
 
@@ -31,11 +31,12 @@ pub(crate) struct FitFriction {
     /// Table with a line of names: v (or rpm) and mu (or friction force and normal force), and perhaps t, T, normal force, track
     /// radius and standard error, in any order, with units in the names or in the line below.
     table: PathBuf,
-    /// The scene: the body, its load, and a material with the moduli to begin with. Speeds are those of the table.
+    /// The scene: the body, its load, a material with the moduli to begin with, and perhaps an interface. Speeds are those of the
+    /// table.
     scene: PathBuf,
-    /// What of the material is sought.
-    #[arg(long, value_enum, default_value_t)]
-    free: Free,
+    /// What is sought, one or several as moduli,interface [default: interface, or moduli in a scene without an interface].
+    #[arg(long, value_enum, value_delimiter = ',')]
+    free: Vec<Free>,
     /// Errors of friction where the table gives no standard errors.
     #[arg(long, value_enum, default_value_t)]
     noise: FrictionNoise,
@@ -52,7 +53,7 @@ pub(crate) struct FitFriction {
     /// How the result is printed.
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
-    /// Where findings.csv, fit.csv, fit.svg, fit.png and material.toml are written [default: a table on the standard output].
+    /// Where findings.csv, fit.csv, fit.svg, fit.png, material.toml and, with shear, interface.toml are written [default: a table on the standard output].
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Replace the answer that is in the folder already, all of its files at once.
@@ -61,7 +62,7 @@ pub(crate) struct FitFriction {
 }
 
 /// Names of the files that the command may write.
-const NAMES: &str = "findings.csv fit.csv fit.svg fit.png material.toml";
+const NAMES: &str = "findings.csv fit.csv fit.svg fit.png interface.toml material.toml";
 
 /// Runs the command: reads table and scene, fits, and writes the findings.
 pub(crate) fn fit(options: &FitFriction) -> Result<()> {
@@ -75,7 +76,7 @@ pub(crate) fn fit(options: &FitFriction) -> Result<()> {
     let open = |out: &PathBuf| OutputFolder::new(out, options.overwrite, NAMES);
     let out = options.out.as_ref().map(open).transpose()?;
     let sought = FrictionFitOptions {
-        free: options.free,
+        free: options.free.clone(),
         noise: options.noise,
         prior: options.prior,
     };
@@ -163,8 +164,12 @@ impl FitFriction {
         // Write the material file last, so that its presence implies the others. Flags and findings precede the numbers as
         // comments.
         let findings = self.table(found, notes).replace('\n', "\n# ");
-        let material = found.material_file()?;
-        let material = format!("# {}\n#\n# {findings}\n{material}", self.table.display());
+        let with_findings =
+            |table: String| format!("# {}\n#\n# {findings}\n{table}", self.table.display());
+        if let Some(interface) = found.interface_file()? {
+            out.write("interface.toml", with_findings(interface).as_bytes())?;
+        }
+        let material = with_findings(found.material_file()?);
         out.write("material.toml", material.as_bytes())?;
         out.finish()
     }
@@ -194,15 +199,17 @@ impl FitFriction {
             fit.freedom,
             fit.residual,
             found.solver_error,
-            prior_in_words(found.prior),
+            known_in_words(found),
             flags.collect::<String>()
         )
     }
 }
 
-/// Line of the output that states the prior of the moduli.
-fn prior_in_words(prior: FrictionPrior) -> String {
-    match prior {
+/// Line of the output that states what of the scene is known or kept.
+fn known_in_words(found: &FittedFriction) -> String {
+    let is_kept = |free: Free| !found.free.contains(&free);
+    let known = match found.prior {
+        _ if is_kept(Free::Moduli) => "known before: the moduli of the scene".to_owned(),
         FrictionPrior::Covariance => {
             "known before: the moduli of the scene, with the covariance of its material (--prior none leaves that out)".to_owned()
         }
@@ -210,5 +217,10 @@ fn prior_in_words(prior: FrictionPrior) -> String {
             format!("known before: the moduli of the scene, each to {} %", 100.0 * spread)
         }
         FrictionPrior::None => "known before: nothing".to_owned(),
+    };
+    if found.interface.is_some() && is_kept(Free::Interface) {
+        format!("{known}; its shear strength is kept")
+    } else {
+        known
     }
 }

@@ -361,6 +361,85 @@ fn the_covariance_of_the_material_is_known_before_the_fit() {
     assert!(said.contains(expected), "{said}");
 }
 
+/// Accuracy of scenes with a shear strength.
+const ELEMENTS: &str = "elements = 512\n";
+
+/// A cylinder on a solid, with a shear strength of the contact.
+fn dry_cylinder(interface: &str, solve: &str) -> String {
+    format!(
+        "[indenter.cylinder]\nradius = 5e-3\n[load]\nnormal_force = 100.0\nvelocity = 1.0\n[material.kelvin-voigt]\n\
+         shear_modulus = 1e6\nviscosity = 1e3\n{interface}[solve]\n{solve}"
+    )
+}
+
+#[test]
+fn a_shear_strength_is_written_for_scenes() {
+    let folder = Folder::new("dry-friction");
+    let constant = |strength: &str| format!("[interface.constant]\nshear_strength = {strength}\n");
+    folder.write("true.toml", dry_cylinder(&constant("3e4"), ELEMENTS));
+    folder.done("sweep true.toml --vary load.velocity=1e-3:1e-1:3:log --out true.csv");
+    let table = folder.text("true.csv");
+    let [speeds, friction] = ["load.velocity", "friction_coefficient"].map(|column| {
+        let mut names = table.lines().next().unwrap_or_default().split(',');
+        let place = names.position(|name| name == column);
+        folder.column("true.csv", place.expect("a column"))
+    });
+    let rows = speeds.iter().zip(&friction);
+    let rows = rows.map(|(v, mu)| format!("{v},{mu},{}\n", 0.02 * mu));
+    let rows = rows.collect::<String>();
+    folder.write("dry.csv", format!("v (m/s),mu,standard error\n{rows}"));
+    folder.write("dry.toml", dry_cylinder(&constant("1e5"), ""));
+    let printed = folder
+        .done("fit-friction dry.csv dry.toml --out out")
+        .stdout;
+    for expected in [
+        "interface.constant.shear_strength",
+        "known before: the moduli of the scene",
+    ] {
+        assert!(printed.contains(expected), "no {expected} in {printed}");
+    }
+    let found = folder.column("out/findings.csv", 2);
+    assert_close("shear strength", found[0], 3e4, 5e-3);
+    // The answer of the scene with the written interface is the measured friction.
+    let interface = folder.text("out/interface.toml");
+    assert!(interface.starts_with("# dry.csv\n"), "{interface}");
+    let again = dry_cylinder(&interface, ELEMENTS)
+        .replace("velocity = 1.0", &format!("velocity = {}", speeds[1]));
+    folder.write("again.toml", again);
+    let computed = number(&folder.json("again.toml"), "friction_coefficient");
+    assert_close("friction", computed, friction[1], 5e-3);
+    // Moduli alone, with the shear strength of the scene.
+    let printed = folder
+        .done("fit-friction dry.csv true.toml --free moduli")
+        .stdout;
+    assert!(printed.contains("its shear strength is kept"), "{printed}");
+    folder.write(
+        "table.csv",
+        "velocity_m_per_s,shear_strength_pa\n1e-3,3e4\n1e-1,3e4\n",
+    );
+    for (interface, options, expected) in [
+        (constant("-3e4"), "", "interface.constant.shear_strength"),
+        (
+            "[interface.table]\nfile = \"table.csv\"\n".to_owned(),
+            "",
+            "a table has no parameters",
+        ),
+        (
+            String::new(),
+            "--free moduli,interface",
+            "[interface.constant] or [interface.bell]",
+        ),
+        (constant("3e4"), "--free both", "invalid value 'both'"),
+    ] {
+        folder.write("wrong.toml", dry_cylinder(&interface, ""));
+        folder.ends(
+            &format!("fit-friction dry.csv wrong.toml {options}"),
+            2,
+            expected,
+        );
+    }
+}
+
 #[test]
 fn scenes_whose_friction_is_not_fitted_say_what_to_do() {
     let folder = Folder::new("friction-of-a-road");

@@ -1,4 +1,4 @@
-//! The family of materials that is fitted: the material of the scene with free moduli, a free shift law, or both.
+//! The family of scenes that is fitted: the scene with free moduli, a free shift law, a free shear strength, or several of them.
 
 use std::f64::consts::LN_10;
 
@@ -8,11 +8,13 @@ use rheology::{
     ArrheniusShift, KELVIN_AT_ZERO_CELSIUS, Material, RheologyError, Shift, ShiftLaw, WlfShift,
 };
 
+use super::shear::{Shear, Strength};
 use super::{Free, FrictionFitError, FrictionPrior};
 use crate::files::{Files, ReadFile};
-use crate::scene::{Covariance, MaterialTable, Scene, SceneError};
+use crate::scene::{Covariance, EnergyUnit, Interface, MaterialTable, Scene, SceneError};
 use crate::solve::half_space::{half_space, read_material_file};
 use crate::solve::sensitivity::{Number, Numbers};
+use crate::solve::shear::NO_TEMPERATURE;
 
 /// Keys of moduli, viscosities and coefficients, all proportional to a stress.
 const STRESSES: [&str; 6] = [
@@ -27,6 +29,12 @@ const STRESSES: [&str; 6] = [
 const EXPONENT: &str = "exponent";
 /// Key in the scene of the relaxation time of a power-law material.
 const TIME: &str = "relaxation_time";
+/// Key in the scene of the velocity v_0 of the largest shear strength.
+pub(super) const PEAK_VELOCITY: &str = "velocity";
+/// Key in the scene of the width w of a bell.
+pub(super) const WIDTH: &str = "width";
+/// Key in the scene of the activation energy of a bell.
+pub(super) const ACTIVATION_ENERGY: &str = "activation_energy";
 /// Lower and upper bound of the ratio of a modulus or viscosity to the sum of the start values of all free parameters of the same
 /// unit. Chosen. A parameter that the points do not determine runs into a bound, and its interval is left open there.
 const MODULUS_BOUNDS: [f64; 2] = [1e-5, 1e3];
@@ -47,11 +55,19 @@ const MIN_C2_OVER_DISTANCE: f64 = 1.01;
 /// the accuracy of measured friction. Without it a combination of moduli of zero variance would have infinite weight in the
 /// prior.
 const MIN_RELATIVE_DEVIATION: f64 = 1e-3;
+/// Lower and upper bound of the ratio of the shear strength τ_0 to its start value. Chosen: four decades either way, more than the
+/// ratio of the strengths of dry and lubricated contacts.
+const STRENGTH_BOUNDS: [f64; 2] = [1e-4, 1e4];
+/// Lower and upper bound of the ratio of the velocity v_0 to its start value. Chosen: eight decades either way, more than the
+/// speeds of any experiment extend over.
+const PEAK_VELOCITY_BOUNDS: [f64; 2] = [1e-8, 1e8];
+/// Lower and upper bound of the ratio of the width of a bell, and of its activation energy, to the start value. Chosen.
+const SHAPE_BOUNDS: [f64; 2] = [0.03, 30.0];
 /// Largest change of the natural logarithm of a parameter in one step of the least squares: the parameter changes by a factor of
 /// at most 7.4. Chosen.
 const MAX_LOG_STEP: f64 = 2.0;
 
-/// A scene whose material has free parameters, and the map from these to the material.
+/// A scene with free parameters, and the map from these to its material and its interface.
 pub(super) struct Family<'a> {
     /// The scene with the file of its material resolved.
     pub(super) scene: Scene,
@@ -63,12 +79,14 @@ pub(super) struct Family<'a> {
     /// Covariance of the moduli of the scene; `None` if the material has none.
     covariance: Option<Covariance>,
     /// The free numbers of the material. The vector of parameters holds their logarithms, then those of the free constants of
-    /// the shift law.
+    /// the shift law, then those of the free numbers of the interface.
     moduli: Vec<Number>,
     /// The shift law of the material of the scene; `None` if it has none.
     shift: Option<Shift>,
     /// True if the constants of the shift law are parameters of the fit.
     shift_is_free: bool,
+    /// The free numbers of the interface.
+    strengths: Vec<Number>,
 }
 
 /// A free constant of the shift law: name and unit, and start and bounds in this unit.
@@ -80,25 +98,28 @@ struct Constant {
 }
 
 impl<'a> Family<'a> {
-    /// Reads the material of a scene and lists its free parameters. Refuses an elastic material, which has no friction, and a
-    /// free shift law of a material without one.
+    /// Reads the material of a scene and lists the `free` parameters. Refuses free moduli of an elastic material, which has no
+    /// friction, a free shift law of a material without one, and a free shear strength without an interface that has numbers.
     pub(super) fn new(
         scene: &Scene,
         (folder, read): (&'a std::path::Path, ReadFile),
-        free: Free,
+        free: &[Free],
+        points: &[FrictionPoint],
     ) -> Result<Self, FrictionFitError> {
         let files = Files::of(scene, folder, read)?;
         let (mut scene, temperature) = with_material(scene, &files)?;
         let covariance = scene.material.covariance().cloned();
-        if free != Free::Shift {
+        let moduli_are_free = free.contains(&Free::Moduli);
+        if moduli_are_free {
             scene.material = scene.material.without_covariance();
         }
         let numbers = Numbers::new(&scene, folder, read)?;
-        let moduli = match free {
-            Free::Shift => Vec::new(),
-            Free::Moduli | Free::Both => free_numbers(&numbers, &scene.material),
+        let moduli = if moduli_are_free {
+            free_numbers(&numbers, &scene.material)
+        } else {
+            Vec::new()
         };
-        let shift_is_free = free != Free::Moduli;
+        let shift_is_free = free.contains(&Free::Shift);
         let key = scene.material.key();
         let shift = scene.material.shift().cloned();
         if shift_is_free && shift.is_none() {
@@ -106,12 +127,12 @@ impl<'a> Family<'a> {
                            temperature_range, law = { wlf = [C1, C2] } or { arrhenius = E } } of a prony series";
             return Err(SceneError::at(key, problem).into());
         }
-        if moduli.is_empty() && !shift_is_free {
+        if moduli_are_free && moduli.is_empty() {
             let problem =
                 "an elastic material has no friction, from which its modulus could be found";
             return Err(SceneError::at(key, problem).into());
         }
-        Ok(Self {
+        let mut family = Self {
             scene,
             temperature,
             numbers,
@@ -120,7 +141,39 @@ impl<'a> Family<'a> {
             moduli,
             shift,
             shift_is_free,
-        })
+            strengths: Vec::new(),
+        };
+        if free.contains(&Free::Interface) {
+            family.strengths = family.free_strengths(points)?;
+        }
+        Ok(family)
+    }
+
+    /// The numbers of the interface that are sought; the activation energy only from points at several temperatures. Refuses a
+    /// scene without an interface, and a table, which has no such numbers.
+    fn free_strengths(&self, points: &[FrictionPoint]) -> Result<Vec<Number>, SceneError> {
+        let problem = match self.scene.interface {
+            Some(Interface::Table { .. }) => Some(
+                "a table has no parameters to be found: give interface.bell or interface.constant with values to begin with, or keep \
+                 the table and let the moduli be free",
+            ),
+            None => Some(
+                "to find the shear strength the scene needs one to begin with: [interface.constant] or [interface.bell]",
+            ),
+            Some(_) => None,
+        };
+        if let Some(problem) = problem {
+            return Err(SceneError::at("interface", problem));
+        }
+        let mut temperatures = points.iter().map(|point| self.contact_temperature(point));
+        let first = temperatures.next();
+        let has_several = temperatures.any(|other| Some(other) != first);
+        let mut sought = self.numbers.all();
+        sought.retain(|number| {
+            let [table, key] = number.ends();
+            table == "interface" && (key != ACTIVATION_ENERGY || has_several)
+        });
+        Ok(sought)
     }
 
     /// The free parameters with their bounds, and the logarithms of their start values; the points bound C₂ from below.
@@ -143,7 +196,16 @@ impl<'a> Family<'a> {
             };
             (parameter, constant.start.ln())
         });
-        of_material.chain(of_law).unzip()
+        let of_interface = self.strengths.iter().map(|number| {
+            let bounds = strength_bounds(number).map(|factor| factor * number.value);
+            let parameter = FreeParameter {
+                name: number.path(),
+                unit: self.strength_unit(number),
+                range: log_range(bounds),
+            };
+            (parameter, number.value.ln())
+        });
+        of_material.chain(of_law).chain(of_interface).unzip()
     }
 
     /// Gaussian prior of the logarithms of the parameters, with the mean `start`; `None` without prior knowledge, or if its
@@ -230,9 +292,50 @@ impl<'a> Family<'a> {
         self.moduli.len()
     }
 
-    /// True if the parameter is proportional to a stress.
-    pub(super) fn is_stress(&self, parameter: usize) -> bool {
-        self.moduli.get(parameter).is_some_and(is_stress)
+    /// Unit of a number of the interface in the scene.
+    fn strength_unit(&self, number: &Number) -> &'static str {
+        let [_, key] = number.ends();
+        match (key, &self.scene.interface) {
+            (
+                ACTIVATION_ENERGY,
+                Some(Interface::Bell {
+                    activation_energy_unit: EnergyUnit::Electronvolt,
+                    ..
+                }),
+            ) => "eV",
+            (ACTIVATION_ENERGY, _) => "J/mol",
+            (PEAK_VELOCITY, _) => "m/s",
+            (WIDTH, _) => "decades",
+            _ => "Pa",
+        }
+    }
+
+    /// True if the first search multiplies the start value of a parameter by powers of ten: of all moduli; if none is free, of the
+    /// constants of the shift law; if these are not free either, of the velocity of the largest shear strength.
+    pub(super) fn is_scaled_at_start(&self, parameter: usize) -> bool {
+        if self.is_material_fixed() {
+            let [_, key] = self.strengths[parameter].ends();
+            return key == PEAK_VELOCITY;
+        }
+        match self.moduli.get(parameter) {
+            Some(number) => is_stress(number),
+            None => self.moduli.is_empty() && parameter < self.law(0.0).len(),
+        }
+    }
+
+    /// True if neither moduli nor the shift law are free, so that the contacts of the points do not depend on the parameters.
+    pub(super) const fn is_material_fixed(&self) -> bool {
+        self.moduli.is_empty() && !self.shift_is_free
+    }
+
+    /// True if shear adds to the friction.
+    pub(super) const fn has_shear(&self) -> bool {
+        self.scene.interface.is_some()
+    }
+
+    /// Part of the logarithms of the parameters: the constants of the shift law.
+    fn constants<'l>(&self, logs: &'l [f64]) -> &'l [f64] {
+        &logs[self.moduli.len()..logs.len() - self.strengths.len()]
     }
 
     /// True if the constants of the shift law are free.
@@ -304,6 +407,13 @@ impl<'a> Family<'a> {
         temperatures.fold(0.0, |most, temperature| most.max(reference - temperature))
     }
 
+    /// Temperature of the contact at a point, \[°C]: its own, that of the scene, or the reference temperature of the material.
+    /// `None` if there is none of them.
+    fn contact_temperature(&self, point: &FrictionPoint) -> Option<f64> {
+        let reference = self.shift.as_ref().map(|shift| shift.temperature);
+        self.temperature_of(point).or(reference)
+    }
+
     /// Temperature of a point, \[°C]; that of the scene if the point has none, `None` if the scene has none either.
     fn temperature_of(&self, point: &FrictionPoint) -> Option<f64> {
         point.temperature.or(self.temperature)
@@ -317,12 +427,42 @@ impl<'a> Family<'a> {
 
     /// The material table for given logarithms of the parameters.
     fn table(&self, logs: &[f64]) -> Result<MaterialTable, SceneError> {
-        let values = self
-            .moduli
-            .iter()
-            .zip(logs)
-            .map(|(number, log)| (number, log.exp()));
-        Ok(self.numbers.scene_with_all(values)?.material)
+        Ok(self.scene_with(&self.moduli, logs)?.material)
+    }
+
+    /// The interface for given logarithms of the parameters; `None` if the scene has none.
+    pub(super) fn interface(&self, logs: &[f64]) -> Result<Option<Interface>, SceneError> {
+        if self.strengths.is_empty() {
+            return Ok(self.scene.interface.clone());
+        }
+        let own = &logs[logs.len() - self.strengths.len()..];
+        Ok(self.scene_with(&self.strengths, own)?.interface)
+    }
+
+    /// The scene with other values of some numbers, given by their logarithms.
+    fn scene_with(&self, numbers: &[Number], logs: &[f64]) -> Result<Scene, SceneError> {
+        let values = numbers.iter().zip(logs.iter().map(|log| log.exp()));
+        self.numbers.scene_with_all(values)
+    }
+
+    /// The shear strengths at the points, \[Pa]; 0 without an interface. An error at a point without the temperature that the
+    /// strength depends on.
+    pub(super) fn strengths(
+        &self,
+        points: &[FrictionPoint],
+        logs: &[f64],
+    ) -> Result<Vec<Strength>, SceneError> {
+        let Some(interface) = self.interface(logs)? else {
+            return Ok(points.iter().map(|_| Strength::default()).collect());
+        };
+        let shear = Shear::new(interface, &self.strengths, &self.files)?;
+        let of_point = |point: &FrictionPoint| match self.contact_temperature(point) {
+            None if shear.depends_on_temperature() => {
+                Err(SceneError::at("interface", NO_TEMPERATURE))
+            }
+            temperature => shear.at(point.velocity, temperature),
+        };
+        points.iter().map(of_point).collect()
     }
 
     /// ln a_T at the temperature of a point, and its derivatives by the logarithms of the free constants of the law: with ln
@@ -334,17 +474,14 @@ impl<'a> Family<'a> {
         logs: &[f64],
     ) -> Result<(f64, Vec<f64>), RheologyError> {
         let (Some(shift), Some(temperature)) = (&self.shift, self.temperature_of(point)) else {
-            return Ok((0.0, vec![0.0; logs.len() - self.moduli.len()]));
+            return Ok((0.0, vec![0.0; self.constants(logs).len()]));
         };
         if !self.shift_is_free {
             return Ok((LN_10 * shift.log10_factor(temperature)?, Vec::new()));
         }
         let above = temperature - shift.temperature;
         let kelvin = |celsius: f64| celsius + KELVIN_AT_ZERO_CELSIUS;
-        let constants: Vec<f64> = logs[self.moduli.len()..]
-            .iter()
-            .map(|log| log.exp())
-            .collect();
+        let constants: Vec<f64> = self.constants(logs).iter().map(|log| log.exp()).collect();
         match constants[..] {
             [c1, c2] => {
                 let law = WlfShift::new(c1, c2, shift.temperature)?;
@@ -388,10 +525,7 @@ impl<'a> Family<'a> {
         points: &[FrictionPoint],
     ) -> Result<MaterialTable, SceneError> {
         let mut table = self.table(logs)?;
-        let constants: Vec<f64> = logs[self.moduli.len()..]
-            .iter()
-            .map(|log| log.exp())
-            .collect();
+        let constants: Vec<f64> = self.constants(logs).iter().map(|log| log.exp()).collect();
         if let (
             MaterialTable::Prony {
                 shift: Some(shift), ..
@@ -462,6 +596,15 @@ fn branch_of(number: &Number) -> Option<usize> {
     let path = number.path();
     let (_, branch) = path.strip_suffix("].modulus")?.rsplit_once("branches[")?;
     branch.parse().ok()
+}
+
+/// Lower and upper bound of the ratio of a number of the interface to its start value.
+fn strength_bounds(number: &Number) -> [f64; 2] {
+    match number.ends() {
+        [_, "shear_strength"] => STRENGTH_BOUNDS,
+        [_, PEAK_VELOCITY] => PEAK_VELOCITY_BOUNDS,
+        _ => SHAPE_BOUNDS,
+    }
 }
 
 /// Unit of a number of the material; empty for an exponent.

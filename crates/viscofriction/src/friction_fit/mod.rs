@@ -1,63 +1,68 @@
-//! Fit of the moduli of a material to friction measured over speed and temperature.
+//! Fit of the moduli of a material, and of the shear strength of its contact, to friction measured over speed and temperature.
 
 mod error;
 mod family;
 mod model;
 mod prior;
 mod progress;
+mod shear;
 
 use std::path::Path;
 use std::sync::PoisonError;
 
-use measurements::MeasurementError;
 use measurements::friction::{
     FreeParameter, FrictionFit, FrictionFitting, FrictionMinimum, FrictionNoise, FrictionPoint,
 };
+use measurements::{Finding, MeasurementError};
 use numerics::positive;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 pub use error::FrictionFitError;
 pub use prior::FrictionPrior;
 pub use progress::{FitProgress, FitStage};
 
 use crate::files::ReadFile;
-use crate::scene::{Edges, Indenter, MaterialTable, Scene, SceneError};
+use crate::scene::{Edges, Indenter, Interface, MaterialTable, Scene, SceneError};
 use crate::solve::Problem;
 use family::Family;
 use model::Model;
 
-/// What of the material is sought.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+/// Parameters of a scene that may be sought together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "kebab-case")]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 pub enum Free {
     /// Moduli and viscosities, and of power laws exponent and time; the times of a Prony series stay.
-    #[default]
     Moduli,
     /// The constants of the shift law.
     Shift,
-    /// All of these.
-    Both,
+    /// The numbers of the interface: its shear strength, and of a bell velocity, width and activation energy.
+    Interface,
 }
 
 /// Options of the fit.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct FrictionFitOptions {
-    /// The free parameters.
-    pub free: Free,
+    /// The free parameters. If it is empty, they are those of the interface, or the moduli in a scene without one.
+    pub free: Vec<Free>,
     /// Noise model of points without a standard error.
     pub noise: FrictionNoise,
     /// Prior of the moduli.
     pub prior: FrictionPrior,
 }
 
-/// A material fitted to friction.
+/// A scene fitted to friction.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[must_use]
 pub struct FittedFriction {
     /// Fitted parameters with their statistics.
     pub fit: FrictionFit,
+    /// The parameters that were sought.
+    pub free: Vec<Free>,
     /// The fitted material, with its shift law.
     pub material: MaterialTable,
+    /// The fitted interface; `None` if the scene has none.
+    pub interface: Option<Interface>,
     /// The measured points.
     pub points: Vec<FrictionPoint>,
     /// Reduced velocity a_T v of each point, at the reference temperature, \[m/s].
@@ -72,7 +77,7 @@ pub struct FittedFriction {
 /// values only.
 const FIRST_SEARCH_POINTS: usize = 8;
 /// Powers of ten by which all moduli are multiplied at the starts of the first search. If no modulus is free, they multiply
-/// the constants of the shift law. Chosen: steps of a factor of 3 up to 32 either way, more than the error of a modulus from
+/// the constants of the shift law, and if these are not free either, the velocity of the largest shear strength. Chosen: steps of a factor of 3 up to 32 either way, more than the error of a modulus from
 /// another sample of the material.
 const START_DECADES: [f64; 7] = [0.0, -0.5, 0.5, -1.0, 1.0, -1.5, 1.5];
 /// Largest number of starts from which the first search follows the sum of squares to a minimum: the start of the scene and
@@ -87,7 +92,7 @@ const MAX_CORRECTIONS: usize = 4;
 /// the friction.
 const CORRECTION_REACH: f64 = 0.2;
 
-/// Fits the free parameters of the material of a scene to measured friction of its body. Velocities, and forces and temperatures
+/// Fits the free parameters of the material and the interface of a scene to measured friction of its body. Velocities, and forces and temperatures
 /// if stated, are those of the points. `watch` receives the progress.
 ///
 /// # Errors
@@ -105,15 +110,32 @@ pub fn fit_friction(
     }
     FrictionPoint::check_all(points).map_err(MeasurementError::from)?;
     let scene = with_load(scene, points)?;
-    let family = Family::new(&scene, (folder, read), options.free)?;
+    let free = match (&options.free[..], &scene.interface) {
+        ([], Some(_)) => vec![Free::Interface],
+        ([], None) => vec![Free::Moduli],
+        (given, _) => given.to_vec(),
+    };
+    let family = Family::new(&scene, (folder, read), &free, points)?;
     family.check_temperatures(points)?;
-    let problem = Problem::new(&family.scene, folder, read)?;
+    // The problem is that of hysteresis. The family adds the shear of each point at its own temperature.
+    let interface = None;
+    let without_shear = Scene {
+        interface,
+        ..family.scene.clone()
+    };
+    let problem = Problem::new(&without_shear, folder, read)?;
     let mut model = Model::new(&family, &problem, points)?;
     // Set up the least squares: the free parameters with their start values, and what is known of them before the fit as a prior.
     let (parameters, start) = family.parameters(points);
     let known = family.known(options.prior);
     let prior = family.prior(known, &start);
     let fitting = FrictionFitting::new(points, &parameters, prior.as_ref(), options.noise)?;
+    family.strengths(points, &start)?;
+    if family.is_material_fixed() {
+        let (stage, residual) = (FitStage::Contacts, None);
+        watch(&FitProgress { stage, residual });
+        model.correct(&start)?;
+    }
     // Fit a part of the points on coarse grids for the start values, then all points on grids corrected by fine solutions.
     let start = first_search(&model, &family, (&fitting, &parameters), &start, watch)?;
     let (found, solver_error) = corrected(&mut model, &fitting, start, watch)?;
@@ -134,14 +156,32 @@ pub fn fit_friction(
         let stage = FitStage::Intervals { done, of };
         watch(&FitProgress { stage, residual });
     };
+    let mut fit = fitting.fit(&model, &found, &intervals)?;
+    fit.flags.extend(undetermined_shear(&fit));
     Ok(FittedFriction {
-        fit: fitting.fit(&model, &found, &intervals)?,
+        fit,
+        free,
         material: family.fitted_table(logs, points)?,
+        interface: family.interface(logs)?,
         points: points.to_vec(),
         shifted_velocities: shifted
             .map_err(|error| SceneError::at("material", error.to_string()))?,
         solver_error,
         prior: known,
+    })
+}
+
+/// Warning if the points do not determine some number of the interface.
+fn undetermined_shear(fit: &FrictionFit) -> Option<String> {
+    let findings = fit.findings.iter();
+    let is_open =
+        |finding: &&Finding| finding.estimate.is_none() && finding.name.starts_with("interface.");
+    let open: Vec<&str> = findings.filter(is_open).map(|one| &one.name[..]).collect();
+    (!open.is_empty()).then(|| {
+        format!(
+            "the points do not determine {}: the shear strength of the fit holds at their speeds and temperatures only",
+            open.join(", ")
+        )
     })
 }
 
@@ -162,7 +202,7 @@ fn with_load(scene: &Scene, points: &[FrictionPoint]) -> Result<Scene, FrictionF
     Ok(scene)
 }
 
-/// Rejects periodic surfaces, shear of the contact, motions and histories, before a random surface is drawn or a file read.
+/// Rejects periodic surfaces, motions and histories, before a random surface is drawn or a file read.
 fn check_scene(scene: &Scene) -> Result<(), SceneError> {
     let is_endless = match &scene.indenter {
         Indenter::SelfAffine(_) | Indenter::Spectrum(_) => true,
@@ -171,9 +211,6 @@ fn check_scene(scene: &Scene) -> Result<(), SceneError> {
     };
     if is_endless {
         return Err(SceneError::at("indenter", ENDLESS_SURFACE));
-    }
-    if scene.interface.is_some() {
-        return Err(SceneError::at("interface", WITHOUT_SHEAR));
     }
     let load = &scene.load;
     let moves = [
@@ -193,14 +230,11 @@ fn check_scene(scene: &Scene) -> Result<(), SceneError> {
 const ENDLESS_SURFACE: &str = "moduli are not fitted to the friction of a rough surface without end, of which every point is a computation \
      of minutes; take the moduli from fit-material, or fit them to the friction of a ball or a cylinder on the same material, and \
      compare the friction of this scene with the measured one by `viscofriction sweep` over load.velocity";
-/// Message if the scene has a shear strength, which the model of the fit does not contain.
-const WITHOUT_SHEAR: &str = "moduli are fitted to the friction from hysteresis alone; subtract the shear of the contact from the measured friction, \
-     and leave the interface out";
 /// Message if the scene has a motion or a history instead of sliding at constant speed.
 const STEADY_SLIDING: &str = "friction is fitted at constant speeds, which are those of the table; leave this out, and give normal_force \
      without a motion";
 
-/// Least squares of at most [`FIRST_SEARCH_POINTS`] points on coarser grids. The starts are `start` itself, then its multiples
+/// Least squares of at most [`FIRST_SEARCH_POINTS`] points on coarser grids, or of all points if their contacts are solved already. The starts are `start` itself, then its multiples
 /// by [`START_DECADES`] in order of their sum of squares. Returns the logarithms of the parameters at the first minimum that
 /// noise explains, else at the lowest minimum.
 fn first_search(
@@ -210,7 +244,12 @@ fn first_search(
     start: &[f64],
     watch: &(dyn Fn(&FitProgress) + Sync),
 ) -> Result<Vec<f64>, FrictionFitError> {
-    let few = model.every_nth_point(model.points.len().div_ceil(FIRST_SEARCH_POINTS));
+    let step = if family.is_material_fixed() {
+        1
+    } else {
+        model.points.len().div_ceil(FIRST_SEARCH_POINTS)
+    };
+    let few = model.every_nth_point(step);
     let points = few.points.clone();
     let of_few = fitting.of(&points);
     let scaled = |decades: f64| -> Vec<f64> {
@@ -218,8 +257,11 @@ fn first_search(
         let values = start.iter().zip(parameters).enumerate();
         let moved = values.map(|(k, (value, parameter))| {
             let [lowest, highest] = parameter.range.bounds;
-            let is_scaled = family.is_stress(k) || family.n_of_material() == 0;
-            let by = if is_scaled { shift } else { 0.0 };
+            let by = if family.is_scaled_at_start(k) {
+                shift
+            } else {
+                0.0
+            };
             (value + by).clamp(lowest, highest)
         });
         moved.collect()
@@ -302,16 +344,18 @@ const N_CURVE: usize = 40;
 const CURVE_ERROR: f64 = 5e-3;
 
 impl FittedFriction {
-    /// Friction of the fitted material over the reduced velocity \[m/s], at equal factors over the range of the points; `scene` and
+    /// Friction of the fitted scene over the reduced velocity \[m/s], at equal factors over the range of the points; `scene` and
     /// `files` are those of the fit.
     ///
-    /// It is empty if the points have several forces, because friction is then no function of the reduced velocity. Velocities at
-    /// which the scene has no answer are left out.
+    /// It is empty if the points have several forces, or shear at another than the reference temperature, because friction is then no
+    /// function of the reduced velocity. Velocities at which the scene has no answer are left out.
     pub fn curve(&self, scene: &Scene, (folder, read): (&Path, ReadFile)) -> Vec<[f64; 2]> {
         let has_one_force = self
             .points
             .windows(2)
             .all(|pair| pair[0].normal_force == pair[1].normal_force);
+        let mut pairs = self.points.iter().zip(&self.shifted_velocities);
+        let has_no_shift = pairs.all(|(point, shifted)| point.velocity.total_cmp(shifted).is_eq());
         let range = self.shifted_velocities.iter();
         let [low, high] = range.fold([f64::INFINITY, 0.0_f64], |[low, high], velocity| {
             [low.min(*velocity), high.max(*velocity)]
@@ -319,10 +363,12 @@ impl FittedFriction {
         let Ok(mut scene) = with_load(scene, &self.points) else {
             return Vec::new();
         };
-        if !has_one_force || high <= low {
+        let is_function = has_one_force && (has_no_shift || self.interface.is_none());
+        if !is_function || high <= low {
             return Vec::new();
         }
         scene.material = self.material.clone();
+        scene.interface.clone_from(&self.interface);
         scene.solve.relative_error = Some(CURVE_ERROR);
         scene.solve.elements = None;
         let point = |index: usize| {
@@ -342,9 +388,23 @@ impl FittedFriction {
     /// # Errors
     /// If the material cannot be written as TOML.
     pub fn material_file(&self) -> Result<String, toml::ser::Error> {
-        toml::to_string(&toml::Table::from_iter([(
-            "material".to_owned(),
-            toml::Value::try_from(&self.material)?,
-        )]))
+        table_file("material", &self.material)
     }
+
+    /// The interface as TOML for scenes; `None` if the scene has none.
+    ///
+    /// # Errors
+    /// If the interface cannot be written as TOML.
+    pub fn interface_file(&self) -> Result<Option<String>, toml::ser::Error> {
+        let interface = self.interface.as_ref();
+        interface
+            .map(|table| table_file("interface", table))
+            .transpose()
+    }
+}
+
+/// TOML with one table.
+fn table_file(name: &str, table: &impl Serialize) -> Result<String, toml::ser::Error> {
+    let value = toml::Value::try_from(table)?;
+    toml::to_string(&toml::Table::from_iter([(name.to_owned(), value)]))
 }

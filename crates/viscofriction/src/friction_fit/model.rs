@@ -1,7 +1,11 @@
-//! Friction of the measured points as a function of the material parameters, with derivatives.
+//! Friction of the measured points as a function of the parameters, with derivatives.
 //!
-//! On the half space each point is solved on one coarse grid. Its friction is multiplied by the ratio to a solution with an error
-//! estimate at nearby parameters, because this ratio depends on them only weakly.
+//! ```text
+//! μ = μ_hysteresis + τ_f A/F_N
+//! ```
+//! On the half space the contact of each point is solved on one coarse grid. Its hysteresis and its area are multiplied by the
+//! ratios to a solution with error estimates at nearby parameters, because these ratios depend on them only weakly. If the
+//! parameters are those of the shear strength τ_f alone, the contacts do not depend on them, and are solved once.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -10,17 +14,19 @@ use bem_halfspace::steady::sensitivity::SensitivityOnGrid;
 use bem_halfspace::steady::{steady, steady_grid, steady_line, steady_line_grid};
 use indenters::{Control, Cylinder, SlidingLoad, Surface};
 use measurements::friction::{FrictionModel, FrictionPoint, ModelledPoint};
-use numerics::{Estimate, SilentProgress};
+use numerics::{Accuracy, Estimate, SilentProgress};
 #[cfg(feature = "rayon")]
 use rayon::prelude::*;
 use rheology::Material;
 
 use super::FrictionFitError;
 use super::family::Family;
+use super::shear::Strength;
 use crate::scene::{Method, Model as Dimensions, SceneError};
 use crate::solve::body::{Body, Revolution};
 use crate::solve::half_space::simple;
 use crate::solve::mdr;
+use crate::solve::shear::NO_AREA_ON_LINE;
 use crate::solve::work::closed_line;
 use crate::solve::{Motion, Problem, Result, SolveError};
 
@@ -29,9 +35,15 @@ use crate::solve::{Motion, Problem, Result, SolveError};
 const COARSE_ELEMENTS: usize = 8;
 /// Number of elements along the contact in the first search. Chosen: the search only has to find the right one of several minima.
 const FIRST_SEARCH_ELEMENTS: usize = 5;
-/// Relative error of friction requested of the fine solutions that correct the coarse ones. Chosen, below the scatter of measured
+/// Relative error requested of the friction of the fine solutions that correct the coarse ones. Chosen, below the scatter of measured
 /// friction.
 const CORRECTION_ERROR: f64 = 5e-3;
+/// Number of elements along the contact of a body with which its area, on which shear acts, is solved if that of the fine solution
+/// has a larger error than [`CORRECTION_ERROR`]. Chosen: the area of a ball then has an error of 0.3 %.
+const AREA_ELEMENTS: usize = 64;
+/// Number of elements along the width of a contact in plane strain, for the same purpose. Chosen: the width then has an error of one
+/// to two elements, 0.1 to 0.2 %.
+const WIDTH_ELEMENTS: usize = 1024;
 /// Relative error of friction requested of the one-dimensional model. Chosen, so small that differences of friction give
 /// derivatives.
 const LINE_ERROR: f64 = 1e-9;
@@ -53,7 +65,23 @@ enum Forward<'a> {
     Line(&'a Revolution),
 }
 
-/// Friction of all points as a function of the parameters of a family of materials.
+/// The parts of a friction μ = hysteresis + τ_f `area_over_force`, or a number of each of them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Parts<T> {
+    /// Friction coefficient from hysteresis.
+    hysteresis: T,
+    /// Contact area over normal force, \[1/Pa]; 0 in the one-dimensional model, which has no area.
+    area_over_force: T,
+}
+
+/// The contact of a point.
+struct Contact {
+    parts: Parts<f64>,
+    /// Derivatives of the logarithms of the parts by those of the free parameters of the material and of the shift law.
+    slopes: Vec<Parts<f64>>,
+}
+
+/// Friction of all points as a function of the parameters of a family of scenes.
 pub(super) struct Model<'a> {
     family: &'a Family<'a>,
     forward: Forward<'a>,
@@ -67,11 +95,19 @@ pub(super) struct Model<'a> {
     /// correction removes, and its logarithmic derivatives by up to 5 % (measured, docs/fit-friction.md).
     elements: usize,
     pub(super) points: Vec<FrictionPoint>,
-    /// Ratio of the friction of the fine solution to that of the coarse one, for each point; 1 before the first correction.
-    corrections: Vec<f64>,
+    /// Fine solution of each point at the parameters of the last correction; none before the first.
+    fine: Vec<Parts<Estimate>>,
+    /// Ratio of the fine to the coarse solution of each point; 1 before the first correction.
+    corrections: Vec<Parts<f64>>,
     /// The last error of the model; `None` if there was none.
     pub(super) refused: Mutex<Option<FrictionFitError>>,
 }
+
+/// Ratio of the fine to the coarse solution of a point before the first correction.
+const NOT_CORRECTED: Parts<f64> = Parts {
+    hysteresis: 1.0,
+    area_over_force: 1.0,
+};
 
 /// The material at the parameters, and the pairs of materials with one parameter of the material decreased and increased by the
 /// step of its logarithm.
@@ -101,15 +137,20 @@ impl<'a> Model<'a> {
                            not tell them; give normal_force";
             return Err(SceneError::at("load.indentation_depth", problem).into());
         }
+        let forward = forward(problem)?;
+        if family.has_shear() && matches!(forward, Forward::Line(_)) {
+            return Err(SceneError::at("interface", NO_AREA_ON_LINE).into());
+        }
         Ok(Self {
-            forward: forward(problem)?,
+            forward,
             family,
             thickness: problem.thickness(),
             track: problem.track(),
             control,
             elements: COARSE_ELEMENTS,
             points: points.to_vec(),
-            corrections: vec![1.0; points.len()],
+            fine: Vec::new(),
+            corrections: vec![NOT_CORRECTED; points.len()],
             refused: Mutex::new(None),
         })
     }
@@ -125,6 +166,9 @@ impl<'a> Model<'a> {
                 Forward::Line(body) => Forward::Line(body),
             },
             points: places().map(|index| self.points[index]).collect(),
+            fine: places()
+                .filter_map(|index| self.fine.get(index).copied())
+                .collect(),
             corrections: places().map(|index| self.corrections[index]).collect(),
             elements: FIRST_SEARCH_ELEMENTS,
             refused: Mutex::new(None),
@@ -132,8 +176,9 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// Computes the ratio of fine to coarse friction of every point at these logarithms of the parameters. Returns the largest
-    /// relative error of a fine solution, that of the corrected friction. The one-dimensional model needs no correction.
+    /// Computes the ratio of fine to coarse solution of every point at these logarithms of the parameters; of a fixed material only
+    /// the fine solutions, once. Returns the largest relative error of the corrected friction. The one-dimensional model needs no
+    /// correction.
     pub(super) fn correct(
         &mut self,
         parameters: &[f64],
@@ -141,29 +186,39 @@ impl<'a> Model<'a> {
         if let Forward::Line(_) = self.forward {
             return Ok(LINE_ERROR);
         }
-        let materials = self.materials(parameters, false)?;
-        let of_point = |point: &FrictionPoint| {
-            let load = self.reduced_load(point, parameters)?;
-            let coarse = self
-                .coarse_solution(&*materials.own, &load)?
-                .friction_coefficient();
-            let fine = self.refined_friction(&*materials.own, &load)?;
-            Ok((fine.value / coarse, fine.error / fine.value))
-        };
-        let found = self.at_all_points(of_point)?;
-        let worst = found.iter().map(|(_, error)| *error).fold(0.0, f64::max);
-        self.corrections = found.into_iter().map(|(ratio, _)| ratio).collect();
-        Ok(worst)
+        if !self.family.is_material_fixed() || self.fine.is_empty() {
+            let material = self.materials(parameters, false)?.own;
+            let of_point = |_, point: &FrictionPoint| {
+                let load = self.reduced_load(point, parameters)?;
+                let fine = self.fine_solution(&*material, point, &load)?;
+                if self.family.is_material_fixed() {
+                    return Ok((fine, NOT_CORRECTED));
+                }
+                let coarse = self.coarse_parts(point, &self.coarse_solution(&*material, &load)?)?;
+                let correction = Parts {
+                    hysteresis: fine.hysteresis.value / coarse.hysteresis,
+                    area_over_force: fine.area_over_force.value / coarse.area_over_force,
+                };
+                Ok((fine, correction))
+            };
+            (self.fine, self.corrections) = self.at_all_points(of_point)?.into_iter().unzip();
+        }
+        let strengths = self.family.strengths(&self.points, parameters)?;
+        let errors = self.fine.iter().zip(strengths).map(|(fine, strength)| {
+            let friction = fine.hysteresis + fine.area_over_force * strength.value;
+            friction.error / friction.value
+        });
+        Ok(errors.fold(0.0, f64::max))
     }
 
-    /// Applies a function to all points, in parallel; results are in the order of the points. The error is that of the first
+    /// Applies a function to all points and their indices, in parallel; results are in the order of the points. The error is that of the first
     /// point that has one.
     fn at_all_points<T: Send>(
         &self,
-        of_point: impl Fn(&FrictionPoint) -> Result<T> + Sync,
+        of_point: impl Fn(usize, &FrictionPoint) -> Result<T> + Sync,
     ) -> std::result::Result<Vec<T>, FrictionFitError> {
         let numbered = |(index, point): (usize, &FrictionPoint)| {
-            of_point(point).map_err(|why| FrictionFitError::NotSolved {
+            of_point(index, point).map_err(|why| FrictionFitError::NotSolved {
                 point: index + 1,
                 velocity: point.velocity,
                 why,
@@ -252,18 +307,47 @@ impl<'a> Model<'a> {
         })
     }
 
-    /// Friction coefficient with an error estimate, to the relative error [`CORRECTION_ERROR`]; that of the one-dimensional
-    /// model counts as exact.
-    fn refined_friction(&self, material: &dyn Material, load: &SlidingLoad) -> Result<Estimate> {
+    /// The parts of the friction of a point on a coarse grid; see [`SensitivityOnGrid::effective_area`] for its area.
+    fn coarse_parts(&self, point: &FrictionPoint, grid: &SensitivityOnGrid) -> Result<Parts<f64>> {
+        // At the temperature of the point the force is larger by the factor of the moduli, for the same area.
+        let force = grid.normal_force() * self.family.modulus_factor_of(point)?;
+        Ok(Parts {
+            hysteresis: grid.friction_coefficient(),
+            area_over_force: grid.effective_area() / force,
+        })
+    }
+
+    /// The parts of the friction of a point with error estimates, hysteresis to the relative error [`CORRECTION_ERROR`].
+    fn fine_solution(
+        &self,
+        material: &dyn Material,
+        point: &FrictionPoint,
+        load: &SlidingLoad,
+    ) -> Result<Parts<Estimate>> {
         let layer = Layer::new(material, self.thickness).map_err(bem_halfspace::BemError::from)?;
-        Ok(match self.forward {
-            Forward::Cylinder(cylinder) => {
-                steady_line(cylinder, &layer, load, CORRECTION_ERROR)?.friction_coefficient
-            }
-            Forward::Surface(surface) => {
-                steady(surface, &layer, load, CORRECTION_ERROR)?.friction_coefficient
-            }
-            Forward::Line(body) => Estimate::exact(self.line_friction(body, material, load)?),
+        let solve = |accuracy: Accuracy| match self.forward {
+            Forward::Cylinder(cylinder) => Ok(steady_line(cylinder, &layer, load, accuracy)?),
+            Forward::Surface(surface) => Ok(steady(surface, &layer, load, accuracy)?),
+            Forward::Line(_) => Err(no_derivatives(Method::MdrSteady)),
+        };
+        let elements = match self.forward {
+            Forward::Cylinder(_) => WIDTH_ELEMENTS,
+            _ => AREA_ELEMENTS,
+        };
+        // The request is for the error of hysteresis. That of the area may be larger, and falls as the elements become shorter.
+        let found = solve(Accuracy::RelativeError(CORRECTION_ERROR))?;
+        let of_area = if self.family.has_shear() && !found.contact_area.is_within(CORRECTION_ERROR)
+        {
+            solve(Accuracy::Elements(elements))?
+        } else {
+            found.clone()
+        };
+        let (area, force) = (of_area.contact_area, of_area.normal_force);
+        let ratio = area.value / (force.value * self.family.modulus_factor_of(point)?);
+        let relative_error = area.relative_error() + force.relative_error();
+        Ok(Parts {
+            hysteresis: found.friction_coefficient,
+            area_over_force: Estimate::new(ratio, ratio * relative_error),
         })
     }
 
@@ -284,74 +368,123 @@ impl<'a> Model<'a> {
         friction.ok_or_else(|| no_derivatives(answer.method))
     }
 
-    /// Uncorrected friction μ; its derivatives ∂ ln μ/∂ ln θ by the free numbers θ of the material; and ∂ ln μ/∂ ln v, which is
-    /// 0 unless the shift law is free.
-    fn with_derivatives(
+    /// The uncorrected contact of a point, with derivatives by the free numbers of the material and the constants of the shift law.
+    /// The latter follow from the velocity a_T v: (∂ ln μ/∂ ln v)(∂ ln a_T/∂ ln C).
+    fn contact(
         &self,
         materials: &Materials,
-        load: &SlidingLoad,
-    ) -> Result<(f64, Vec<f64>, f64)> {
+        point: &FrictionPoint,
+        parameters: &[f64],
+    ) -> Result<Contact> {
+        let load = self.reduced_load(point, parameters)?;
         let (velocity, step) = (load.velocity(), self.step());
         let faster = [-1.0, 1.0].map(|side: f64| velocity * (side * step).exp());
+        let (_, by_law) = self.family.shift_of(point, parameters)?;
+        let own = &*materials.own;
+        let per_log = |change: f64| change / (2.0 * step);
         // The one-dimensional model is so cheap and accurate that central differences of ln μ serve as derivatives.
         if let Forward::Line(body) = self.forward {
             let of = |material: &dyn Material, load: &SlidingLoad| {
                 Ok::<f64, SolveError>(self.line_friction(body, material, load)?.ln())
             };
-            let log = of(&*materials.own, load)?;
+            let hysteresis = |hysteresis: f64| Parts {
+                hysteresis,
+                area_over_force: 0.0,
+            };
             let slope = |[below, above]: &[Box<dyn Material>; 2]| {
-                Ok((of(&**above, load)? - of(&**below, load)?) / (2.0 * step))
+                let change = of(&**above, &load)? - of(&**below, &load)?;
+                Ok(hysteresis(per_log(change)))
             };
-            let slopes = materials.beside.iter().map(slope).collect::<Result<_>>()?;
-            let at = |velocity: f64| of(&*materials.own, &self.at_speed(load.control(), velocity)?);
-            let by_speed = if self.family.shift_is_free() {
-                (at(faster[1])? - at(faster[0])?) / (2.0 * step)
-            } else {
-                0.0
-            };
-            return Ok((log.exp(), slopes, by_speed));
+            let mut slopes: Vec<_> = materials.beside.iter().map(slope).collect::<Result<_>>()?;
+            if self.family.shift_is_free() {
+                let at = |velocity: f64| of(own, &self.at_speed(load.control(), velocity)?);
+                let by_speed = per_log(at(faster[1])? - at(faster[0])?);
+                slopes.extend(by_law.iter().map(|slope| hysteresis(by_speed * slope)));
+            }
+            return Ok(Contact {
+                parts: hysteresis(of(own, &load)?.exp()),
+                slopes,
+            });
         }
         // On the half space one solution and its adjoint give the change between any two materials or speeds.
-        let grid = self.coarse_solution(&*materials.own, load)?;
-        let friction = grid.friction_coefficient();
-        let relative = |ends: [&dyn Material; 2], velocities: [f64; 2]| -> Result<f64> {
+        let grid = self.coarse_solution(own, &load)?;
+        let parts = self.coarse_parts(point, &grid)?;
+        let between = |ends: [&dyn Material; 2], velocities: [f64; 2]| -> Result<Parts<f64>> {
             let change = grid.between_materials(ends, velocities)?;
-            Ok(change.friction_coefficient / (2.0 * step * friction))
+            let area = match change.contact_area {
+                None if self.family.has_shear() => return Err(SolveError::NoAreaDerivative),
+                area => area.unwrap_or_default(),
+            };
+            let force = change.normal_force.unwrap_or_default() / grid.normal_force();
+            Ok(Parts {
+                hysteresis: per_log(change.friction_coefficient / parts.hysteresis),
+                area_over_force: per_log(area - force),
+            })
         };
-        let slopes = materials
+        let mut slopes: Vec<_> = materials
             .beside
             .iter()
-            .map(|[below, above]| relative([&**below, &**above], [velocity; 2]))
+            .map(|[below, above]| between([&**below, &**above], [velocity; 2]))
             .collect::<Result<_>>()?;
-        let by_speed = if self.family.shift_is_free() {
-            relative([&*materials.own; 2], faster)?
-        } else {
-            0.0
-        };
-        Ok((friction, slopes, by_speed))
+        if self.family.shift_is_free() {
+            let by_speed = between([own; 2], faster)?;
+            slopes.extend(by_law.iter().map(|slope| Parts {
+                hysteresis: by_speed.hysteresis * slope,
+                area_over_force: by_speed.area_over_force * slope,
+            }));
+        }
+        Ok(Contact { parts, slopes })
     }
 
-    /// Corrected friction of all points, with derivatives ∂ ln μ by the logarithms of all parameters. Those by the constants of
-    /// the shift law follow from the velocity a_T v: (∂ ln μ/∂ ln v)(∂ ln a_T/∂ ln C).
+    /// The corrected contacts of all points, which are the fine solutions if the material is fixed.
+    fn contacts(&self, parameters: &[f64]) -> std::result::Result<Vec<Contact>, FrictionFitError> {
+        if self.family.is_material_fixed() {
+            let value = |fine: &Parts<Estimate>| Contact {
+                parts: Parts {
+                    hysteresis: fine.hysteresis.value,
+                    area_over_force: fine.area_over_force.value,
+                },
+                slopes: Vec::new(),
+            };
+            return Ok(self.fine.iter().map(value).collect());
+        }
+        let materials = self.materials(parameters, true)?;
+        self.at_all_points(|index, point| {
+            let mut contact = self.contact(&materials, point, parameters)?;
+            contact.parts.hysteresis *= self.corrections[index].hysteresis;
+            contact.parts.area_over_force *= self.corrections[index].area_over_force;
+            Ok(contact)
+        })
+    }
+
+    /// Corrected friction of all points, with derivatives ∂ ln μ by the logarithms of all parameters.
     fn corrected_friction(
         &self,
         parameters: &[f64],
     ) -> std::result::Result<Vec<ModelledPoint>, FrictionFitError> {
-        let materials = self.materials(parameters, true)?;
-        let mut modelled = self.at_all_points(|point| {
-            let load = self.reduced_load(point, parameters)?;
-            let (friction, mut slopes, by_speed) = self.with_derivatives(&materials, &load)?;
-            let (_, by_law) = self.family.shift_of(point, parameters)?;
-            slopes.extend(by_law.iter().map(|slope| by_speed * slope));
-            Ok(ModelledPoint {
-                friction_coefficient: friction,
-                slopes,
-            })
-        })?;
-        for (point, correction) in modelled.iter_mut().zip(&self.corrections) {
-            point.friction_coefficient *= correction;
+        let strengths = self.family.strengths(&self.points, parameters)?;
+        let contacts = self.contacts(parameters)?;
+        let sheared = contacts.into_iter().zip(strengths);
+        Ok(sheared
+            .map(|(contact, strength)| contact.with_shear(&strength))
+            .collect())
+    }
+}
+
+impl Contact {
+    /// The sum of hysteresis and shear, with derivatives by all parameters: those of the contact, then those of the shear strength.
+    fn with_shear(&self, strength: &Strength) -> ModelledPoint {
+        let hysteresis = self.parts.hysteresis;
+        let shear = strength.value * self.parts.area_over_force;
+        let friction = hysteresis + shear;
+        let by_contact = self.slopes.iter().map(|slopes| {
+            (hysteresis * slopes.hysteresis + shear * slopes.area_over_force) / friction
+        });
+        let by_strength = strength.slopes.iter().map(|slope| shear * slope / friction);
+        ModelledPoint {
+            friction_coefficient: friction,
+            slopes: by_contact.chain(by_strength).collect(),
         }
-        Ok(modelled)
     }
 }
 

@@ -16,6 +16,8 @@ pub struct FitProgress {
 /// A stage of the fit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FitStage {
+    /// Contacts of all points, if the material is fixed.
+    Contacts,
     /// Least squares of some of the points from successive starts, until one is consistent with the noise.
     Starts {
         /// Number of completed starts.
@@ -42,7 +44,7 @@ impl FitProgress {
     pub fn part(&self) -> f64 {
         match self.stage {
             FitStage::Intervals { done, of } => (1.0 + 2.0 * done as f64 / of.max(1) as f64) / 3.0,
-            FitStage::Starts { .. } | FitStage::LeastSquares { .. } => 0.0,
+            FitStage::Contacts | FitStage::Starts { .. } | FitStage::LeastSquares { .. } => 0.0,
         }
     }
 }
@@ -50,6 +52,7 @@ impl FitProgress {
 impl fmt::Display for FitProgress {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.stage {
+            FitStage::Contacts => write!(formatter, "contacts of the points")?,
             FitStage::Starts { done, of } => write!(formatter, "start {} of {of}", done + 1)?,
             FitStage::LeastSquares { done } => {
                 write!(formatter, "least squares, round {}", done + 1)?;

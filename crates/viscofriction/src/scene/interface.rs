@@ -63,6 +63,16 @@ pub enum EnergyUnit {
     Electronvolt,
 }
 
+impl EnergyUnit {
+    /// The unit in \[J/mol].
+    pub(crate) const fn joule_per_mole(self) -> f64 {
+        match self {
+            Self::JoulePerMole => 1.0,
+            Self::Electronvolt => ELECTRONVOLT,
+        }
+    }
+}
+
 /// One electronvolt per particle, [J/mol]: the product of elementary charge and Avogadro constant, exact in the SI of 2019.
 const ELECTRONVOLT: f64 = 96_485.332_123_310_02;
 
@@ -107,10 +117,7 @@ impl Interface {
                 activation_energy_unit,
                 reference_temperature,
             } => {
-                let unit = match activation_energy_unit {
-                    EnergyUnit::JoulePerMole => 1.0,
-                    EnergyUnit::Electronvolt => ELECTRONVOLT,
-                };
+                let unit = activation_energy_unit.joule_per_mole();
                 let parameters = BellParameters {
                     shear_strength: *shear_strength,
                     velocity: *velocity,

@@ -95,6 +95,12 @@ pub enum SolveError {
         /// The method of the answer.
         method: Method,
     },
+    /// The derivatives of the contact area, on which shear acts, are not known.
+    #[error(
+        "the derivatives of the contact area, on which the shear of the interface acts, are not known under a body with edges; keep \
+         the moduli and the shift law of the scene, and let the interface be free alone"
+    )]
+    NoAreaDerivative,
     /// The mean over the random surfaces does not have the requested standard error.
     #[error(
         "the relative standard error {} of the mean was not reached: it is {:.1e} after {surfaces} surfaces; give a larger \

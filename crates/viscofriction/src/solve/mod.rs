@@ -25,7 +25,7 @@ mod realisations;
 mod road;
 pub(crate) mod sensitivity;
 mod shared_memory;
-mod shear;
+pub(crate) mod shear;
 mod validity;
 mod warning;
 mod with_fields;

@@ -28,6 +28,12 @@ const REQUEST_RATIOS: [f64; 2] = [0.01, 0.7];
 /// falls by a factor of 0.7⁹ = 1/25, and with the smallest far below rounding.
 const MAX_SOLUTIONS: usize = 10;
 
+/// Refusal of a shear strength in the one-dimensional model.
+pub(crate) const NO_AREA_ON_LINE: &str = "the scene asks for the one-dimensional model, which does not know the contact area that shear acts on; boundary elements do";
+/// Refusal of a shear strength that depends on the temperature without one.
+pub(crate) const NO_TEMPERATURE: &str = "it depends on the temperature, which is that of the material, and the material has none: give one with a shift law, as \
+     fit-material writes it";
+
 /// Shear strength of the contact at the temperature of the elastomer.
 #[derive(Debug, Clone)]
 pub(crate) struct Shear {
@@ -65,16 +71,10 @@ impl Problem {
         };
         let refused = |problem: &str| Err(SceneError::at("interface", problem));
         if self.model() == Model::Line {
-            return refused(
-                "the scene asks for the one-dimensional model, which does not know the contact area that shear acts on; boundary \
-                 elements do",
-            );
+            return refused(NO_AREA_ON_LINE);
         }
         if shear.law.depends_on_temperature() && shear.temperature.is_none() {
-            return refused(
-                "it depends on the temperature, which is that of the material, and the material has none: give one with a shift law, as \
-                 fit-material writes it",
-            );
+            return refused(NO_TEMPERATURE);
         }
         match self.motion() {
             Motion::Sliding(_) => self.shear_strength().map(drop),

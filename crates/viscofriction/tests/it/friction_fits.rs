@@ -1,4 +1,5 @@
-//! Moduli and shift laws come back from friction that was computed with them, with intervals that say what is not determined.
+//! Moduli, shift laws and shear strengths come back from friction that was computed with them, with intervals that say what is not
+//! determined.
 
 use std::path::Path;
 
@@ -7,7 +8,7 @@ use measurements::friction::{FrictionNoise, FrictionPoint};
 use viscofriction::friction_fit::{
     FittedFriction, Free, FrictionFitError, FrictionFitOptions, FrictionPrior, fit_friction,
 };
-use viscofriction::scene::{Interface, MaterialTable, Shift, ShiftLaw, VerticalLaw};
+use viscofriction::scene::{EnergyUnit, Interface, MaterialTable, Shift, ShiftLaw, VerticalLaw};
 use viscofriction::{Problem, Scene, WrongInput, solve};
 
 const BALL: &str = "[indenter.sphere]\nradius = 5e-3\n[load]\nnormal_force = 1.0\nvelocity = 1.0\n";
@@ -216,7 +217,7 @@ fn shift_laws_come_back_from_several_temperatures() {
             });
         }
         let options = FrictionFitOptions {
-            free: Free::Shift,
+            free: vec![Free::Shift],
             ..FrictionFitOptions::default()
         };
         let found = fit(&scene, &points, options).expect("a fit");
@@ -241,6 +242,184 @@ fn shift_laws_come_back_from_several_temperatures() {
             "what is written is what was found"
         );
     }
+}
+
+/// A bell of the shear strength with a_T = 1 at 20 °C.
+fn bell(
+    shear_strength: f64,
+    velocity: f64,
+    width: f64,
+    activation_energy: Option<f64>,
+) -> Interface {
+    Interface::Bell {
+        shear_strength,
+        velocity,
+        width,
+        activation_energy,
+        activation_energy_unit: EnergyUnit::JoulePerMole,
+        reference_temperature: 20.0,
+    }
+}
+
+/// A cylinder of 5 mm radius under 100 N/m on a rubber whose moduli shift with the temperature.
+fn dry_cylinder(interface: Option<Interface>) -> Scene {
+    let mut scene: Scene = "[indenter.cylinder]\nradius = 5e-3\n[load]\nnormal_force = 100.0\nvelocity = 1.0\n[material.prony]\n\
+         equilibrium_modulus = 1e6\nbranches = [{ modulus = 2e6, relaxation_time = 1e-4 }, { modulus = 1e6, relaxation_time = \
+         1e-2 }]\nshift = { temperature = 20.0, temperature_range = [0.0, 40.0], law = { wlf = [8.86, 101.6] }, vertical = \"entropic\" }\n[solve]\n\
+         elements = 1024\n"
+        .parse()
+        .expect("a scene");
+    scene.interface = interface;
+    scene
+}
+
+/// Dry friction of [`dry_cylinder`] at these speeds and temperatures \[°C] with the shear strength τ_f(v, T): hysteresis and area
+/// at the speed v a_T and under the force over b_T = T/T_0, shear at the speed v. Errors are 3 %, with these numbers of standard deviations.
+fn dry_friction(
+    speeds: &[f64],
+    temperatures: &[f64],
+    strength: impl Fn(f64, f64) -> f64,
+    mut deviations: impl Iterator<Item = f64>,
+) -> Vec<FrictionPoint> {
+    let mut points = Vec::new();
+    for &celsius in temperatures {
+        for &velocity in speeds {
+            let log_shift = -8.86 * (celsius - 20.0) / (101.6 + celsius - 20.0);
+            let mut scene = dry_cylinder(None);
+            scene.load.velocity = Some(velocity * 10_f64.powf(log_shift));
+            scene.load.normal_force = Some(100.0 / ((celsius + 273.15) / 293.15));
+            let answer = solve(&Problem::try_from(&scene).expect("a problem")).expect("an answer");
+            let [hysteresis, area] = [answer.friction_coefficient, answer.contact_area];
+            let shear = strength(velocity, celsius) * area.expect("an area").value / 100.0;
+            let friction = hysteresis.expect("a friction").value + shear;
+            let deviation = deviations.next().expect("endless");
+            points.push(FrictionPoint {
+                velocity,
+                friction_coefficient: friction * (1.0 + 0.03 * deviation),
+                standard_error: Some(0.03 * friction),
+                temperature: Some(celsius),
+                normal_force: None,
+            });
+        }
+    }
+    points
+}
+
+/// τ_0 = 50 kPa, v_0 = 5 mm/s, w = 2 and ε = 80 kJ/mol, with R = 8.314 J/(mol K).
+fn bell_strength(velocity: f64, celsius: f64) -> f64 {
+    let log_shift = 8e4 / 8.314_462_618 * (1.0 / (celsius + 273.15) - 1.0 / 293.15);
+    let decades = ((velocity / 5e-3).ln() + log_shift) / std::f64::consts::LN_10;
+    5e4 * (-(decades / 2.0).powi(2)).exp()
+}
+
+/// Numbers from −√3 to √3 with mean 0 and variance 1: multiples of the golden ratio.
+fn scatter() -> impl Iterator<Item = f64> {
+    let golden = 0.5 * (5_f64.sqrt() - 1.0);
+    (1..).map(move |n: i32| 12_f64.sqrt() * ((golden * f64::from(n)).fract() - 0.5))
+}
+
+/// Keys of the bell, its numbers and their relative standard errors from 24 points of 3 %: those of linear least squares of ln τ_f.
+const BELL: [(&str, f64, f64); 4] = [
+    ("activation_energy", 8e4, 0.0154),
+    ("shear_strength", 5e4, 0.0081),
+    ("velocity", 5e-3, 0.0259),
+    ("width", 2.0, 0.0071),
+];
+
+/// The material is kept, and the contact of each point is solved once. The intervals contain the true values.
+#[test]
+fn a_bell_comes_back_from_dry_friction_at_three_temperatures() {
+    let start = dry_cylinder(Some(bell(2e4, 1e-3, 3.0, Some(1.2e5))));
+    let temperatures = [0.0, 20.0, 40.0];
+    let points = dry_friction(
+        &speeds(1e-5, 1e-1, 8),
+        &temperatures,
+        bell_strength,
+        scatter(),
+    );
+    let found = fit(&start, &points, FrictionFitOptions::default()).expect("a fit");
+    assert_eq!(
+        found.free,
+        [Free::Interface],
+        "of a scene with an interface"
+    );
+    assert_eq!(found.material, start.material, "it is kept");
+    assert!(found.fit.flags.is_empty(), "{:?}", found.fit.flags);
+    assert!(found.solver_error < 5e-3, "{}", found.solver_error);
+    for (finding, (key, truth, error)) in found.fit.findings.iter().zip(BELL) {
+        assert_eq!(finding.name, format!("interface.bell.{key}"), "the order");
+        assert_near(finding, truth, 1.96);
+        let found = finding.estimate.expect("determined").error / truth;
+        assert!(
+            (0.85..1.15).contains(&(found / error)),
+            "{key}: {found} for {error}"
+        );
+    }
+    let written = found.interface_file().expect("TOML").expect("an interface");
+    let written: toml::Table = written.parse().expect("TOML");
+    let again = Interface::try_from(written).expect("an interface");
+    assert_eq!(
+        Some(again),
+        found.interface,
+        "what is written is what was found"
+    );
+}
+
+/// Below the speed v_0 the bell is as well a stronger one at a higher speed.
+#[test]
+fn a_bell_on_one_side_of_its_peak_is_not_determined() {
+    let start = dry_cylinder(Some(bell(5e4, 5e-3, 2.0, None)));
+    let points = dry_friction(&speeds(1e-7, 3e-7, 8), &[20.0], bell_strength, scatter());
+    let found = fit(&start, &points, FrictionFitOptions::default()).expect("a fit");
+    for finding in &found.fit.findings {
+        assert_eq!(finding.estimate, None, "{finding:?}");
+    }
+    let said = found.fit.flags.join("\n");
+    let expected = "do not determine interface.bell.shear_strength, interface.bell.velocity";
+    assert!(said.contains(expected), "{said}");
+}
+
+/// Moduli and a constant shear strength together, on the half space.
+#[test]
+fn moduli_and_a_shear_strength_come_back_together() {
+    let strength = 2e4;
+    let constant = |shear_strength| Some(Interface::Constant { shear_strength });
+    let points = dry_friction(
+        &speeds(1e-3, 3.0, 8),
+        &[20.0],
+        |_, _| strength,
+        std::iter::repeat(0.0),
+    );
+    let mut start = dry_cylinder(constant(5e4));
+    if let MaterialTable::Prony { branches, .. } = &mut start.material {
+        branches.iter_mut().for_each(|branch| branch.modulus *= 0.7);
+    }
+    let options = FrictionFitOptions {
+        free: vec![Free::Moduli, Free::Interface],
+        ..FrictionFitOptions::default()
+    };
+    let found = fit(&start, &points, options).expect("a fit");
+    let truth = [2e6, 1e6, 1e6, strength];
+    assert_eq!(
+        found.fit.findings.len(),
+        truth.len(),
+        "{:?}",
+        found.fit.findings
+    );
+    for (finding, truth) in found.fit.findings.iter().zip(truth) {
+        assert_near(finding, truth, 0.3);
+    }
+    // A strength that is kept is part of the model.
+    let kept = dry_cylinder(constant(strength));
+    let options = FrictionFitOptions {
+        free: vec![Free::Moduli],
+        ..FrictionFitOptions::default()
+    };
+    let found = fit(&kept, &points, options).expect("a fit");
+    for (finding, truth) in found.fit.findings.iter().zip(truth) {
+        assert_near(finding, truth, 0.3);
+    }
+    assert_eq!(found.interface, kept.interface, "it is kept");
 }
 
 /// The law of fractional elements is found as a whole.
@@ -292,18 +471,55 @@ fn what_cannot_be_fitted_is_refused_with_its_key() {
     let elastic = format!("{BALL}[material.elastic]\nshear_modulus = 1e6\n");
     let elastic: Scene = elastic.parse().expect("a scene");
     let law = "shift = { temperature = 20.0, temperature_range = [0.0, 40.0], law = { arrhenius = 1e5 } }";
-    let (moduli, shift) = (Free::Moduli, Free::Shift);
+    let (moduli, shift, shear) = (Free::Moduli, Free::Shift, Free::Interface);
     let plain = || rubber(START, "", "");
     let (cold, warm) = (None, Some(20.0));
     let shear_strength = 1e5;
-    let mut dry = plain();
+    let mut dry = rubber(START, "", LINE);
     dry.interface = Some(Interface::Constant { shear_strength });
+    let mut weak = plain();
+    weak.interface = Some(Interface::Constant {
+        shear_strength: -shear_strength,
+    });
+    let mut table = plain();
+    let file = "shear.csv".into();
+    table.interface = Some(Interface::Table { file });
+    let mut no_temperature = plain();
+    no_temperature.interface = Some(bell(1e5, 1e-3, 2.0, Some(8e4)));
     let cases = [
         (plain(), 3, cold, moduli, "at least 4 points"),
         (plain(), 0, cold, moduli, "at least 1 points"),
         (deep, 9, cold, moduli, "load.indentation_depth"),
         (elastic, 9, cold, moduli, "material.elastic"),
-        (dry, 9, cold, moduli, "interface: moduli are fitted"),
+        (
+            dry,
+            9,
+            cold,
+            shear,
+            "interface: the scene asks for the one-dimensional model",
+        ),
+        (weak, 9, cold, shear, "interface.constant.shear_strength"),
+        (
+            table,
+            9,
+            cold,
+            shear,
+            "interface: a table has no parameters",
+        ),
+        (
+            plain(),
+            9,
+            cold,
+            shear,
+            "[interface.constant] or [interface.bell]",
+        ),
+        (
+            no_temperature,
+            9,
+            cold,
+            shear,
+            "interface: it depends on the temperature",
+        ),
         (plain(), 9, cold, shift, "needs one to begin with"),
         (rubber(START, law, ""), 9, warm, shift, "other temperatures"),
         (plain(), 9, warm, moduli, "has no shift law"),
@@ -316,7 +532,7 @@ fn what_cannot_be_fitted_is_refused_with_its_key() {
             ..FrictionPoint::default()
         };
         let options = FrictionFitOptions {
-            free,
+            free: vec![free],
             ..FrictionFitOptions::default()
         };
         let refused = fit(&scene, &vec![point; n_points], options).expect_err(expected);
