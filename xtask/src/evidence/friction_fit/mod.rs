@@ -1,6 +1,6 @@
-//! Do the intervals of moduli from friction hold?
+//! Do the intervals of moduli and shear strengths from friction hold?
 //!
-//! Friction is computed with the material of each case, gets random errors, and is fitted from moduli that are off by a random
+//! Friction is computed with the scene of each case, gets random errors, and is fitted from parameters that are off by a random
 //! factor each.
 
 use std::path::Path;
@@ -8,10 +8,11 @@ use std::path::Path;
 use anyhow::{Context, Result};
 use measurements::Finding;
 use measurements::friction::FrictionPoint;
+use rheology::{BellParameters, ShearStrength};
 use serde::{Deserialize, Serialize};
 use toml::Value;
-use viscofriction::friction_fit::{FrictionFitOptions, fit_friction};
-use viscofriction::scene::{Method, Model, Scene};
+use viscofriction::friction_fit::{Free, FrictionFitOptions, fit_friction};
+use viscofriction::scene::{Accuracy, Interface, Method, Model, Scene};
 
 use super::request::{Request, no_file, number_at};
 use super::{Report, Share};
@@ -25,8 +26,11 @@ const TRUTH_ERROR: f64 = 1e-3;
 /// Relative error of the friction in the one-dimensional model before random errors are added. Chosen: it is negligible, and
 /// costs little in this model.
 const TRUTH_ERROR_ON_LINE: f64 = 1e-9;
-/// Largest |x| of the factor 10^x by which the moduli of a start deviate from the true ones. Chosen: a factor of three, as from a
-/// data sheet.
+/// Number of elements along the contact of scenes with shear before random errors are added. Chosen: the contact area then has an
+/// error of 0.1 % in plane strain, far below the random errors.
+const TRUTH_ELEMENTS_WITH_SHEAR: usize = 2048;
+/// Largest |x| of the factor 10^x by which the parameters of a start deviate from the true ones. Chosen: a factor of three, as from
+/// a data sheet.
 const START_DECADES: f64 = 0.5;
 /// Smallest and largest percentage of the experiments in which an interval that claims 95 % may hold. Chosen: the number of
 /// experiments scatters the percentage, and 95 % hold only for models that are linear in their parameters.
@@ -56,7 +60,13 @@ struct Case {
     noise: f64,
     /// Whether the fit is given the standard errors; otherwise it estimates them from the residuals.
     is_known: bool,
-    /// The scene with the true material; its speed is replaced.
+    /// Temperatures at which every speed is measured, \[°C]; none for the temperature of the material.
+    #[serde(default)]
+    temperatures: Vec<f64>,
+    /// The parameters that are sought; empty for those that the fit chooses by itself.
+    #[serde(default)]
+    free: Vec<Free>,
+    /// The scene with the true material and interface; its speed is replaced.
     scene: Scene,
 }
 
@@ -66,7 +76,7 @@ struct Row {
     case: String,
     experiments: usize,
     quantity: String,
-    /// The modulus or the viscosity with which friction was computed, in SI.
+    /// The number with which friction was computed, in SI.
     truth: f64,
     /// Percentage of the experiments whose interval contains `truth`.
     holds_percent: f64,
@@ -130,7 +140,10 @@ impl Case {
             .with_context(|| format!("{}: no experiment has a fit", self.name))?;
         let quantities = first.iter().enumerate();
         let row = |(k, finding): (usize, &Finding)| -> Result<Row> {
-            let path = format!("material.{}", finding.name);
+            let path = match finding.name.split_once('.') {
+                Some(("interface", _)) => finding.name.clone(),
+                _ => format!("material.{}", finding.name),
+            };
             let value = number_at(&mut scene, &path)
                 .copied()
                 .with_context(|| format!("{path} is not in the scene"))?;
@@ -158,31 +171,71 @@ impl Case {
         quantities.map(row).collect()
     }
 
-    /// Friction at all speeds with the true material, to an error far below the random ones that are added later.
+    /// Friction at all speeds and temperatures with the true scene, to an error far below the random ones that are added later.
     fn truth(&self) -> Result<Vec<FrictionPoint>> {
         let [slowest, fastest] = self.speeds;
-        let numbers: Vec<usize> = (0..self.points).collect();
-        in_parallel("truth", &numbers, |number| {
-            let place = *number as f64 / (self.points - 1) as f64;
-            let velocity = slowest * (fastest / slowest).powf(place);
-            let mut scene = self.scene.clone();
-            scene.load.velocity = Some(velocity);
-            let request = match scene.solve.model {
-                Some(Model::Line) => {
-                    Request::to_error(Model::Line, Method::MdrSteady, TRUTH_ERROR_ON_LINE)
-                }
-                _ => Request::to_error(Model::HalfSpace, Method::BemSteady, TRUTH_ERROR),
-            };
-            let answer = request.solve(&scene)?;
+        let temperatures = if self.temperatures.is_empty() {
+            vec![None]
+        } else {
+            self.temperatures.iter().copied().map(Some).collect()
+        };
+        let speed = |number: usize| {
+            let place = number as f64 / (self.points - 1) as f64;
+            slowest * (fastest / slowest).powf(place)
+        };
+        let points: Vec<FrictionPoint> = temperatures
+            .into_iter()
+            .flat_map(|temperature| {
+                (0..self.points).map(move |number| FrictionPoint {
+                    velocity: speed(number),
+                    temperature,
+                    ..FrictionPoint::default()
+                })
+            })
+            .collect();
+        in_parallel("truth", &points, |point| {
+            let friction_coefficient = self.friction(point)?;
             Ok(FrictionPoint {
-                velocity,
-                friction_coefficient: answer.requested_quantity().value,
-                ..FrictionPoint::default()
+                friction_coefficient,
+                ..*point
             })
         })
     }
 
-    /// What the fit finds in the experiment of this number: friction gets normally distributed errors, and moduli start from
+    /// Friction with the true scene at the speed and the temperature of a point: hysteresis and area at the speed reduced to the
+    /// reference temperature of the material, shear at the speed itself.
+    fn friction(&self, point: &FrictionPoint) -> Result<f64> {
+        let mut scene = self.scene.clone();
+        let shift = scene.material.shift().cloned();
+        let decades = match (shift, point.temperature) {
+            (Some(shift), Some(temperature)) => shift.log10_factor(temperature)?,
+            _ => 0.0,
+        };
+        scene.load.velocity = Some(point.velocity * 10_f64.powf(decades));
+        let interface = scene.interface.take();
+        let request = match (scene.solve.model, &interface) {
+            (Some(Model::Line), _) => {
+                Request::to_error(Model::Line, Method::MdrSteady, TRUTH_ERROR_ON_LINE)
+            }
+            (_, None) => Request::to_error(Model::HalfSpace, Method::BemSteady, TRUTH_ERROR),
+            (_, Some(_)) => {
+                let accuracy = Accuracy::Elements(TRUTH_ELEMENTS_WITH_SHEAR);
+                Request::new(Model::HalfSpace, Method::BemSteady, accuracy)
+            }
+        };
+        let answer = request.solve(&scene)?;
+        let shear = match (interface, answer.contact_area) {
+            (Some(interface), Some(area)) => {
+                let strength = law(&interface)?.at(point.velocity, point.temperature)?;
+                strength * area.value / answer.normal_force.value
+            }
+            (Some(_), None) => anyhow::bail!("{}: no contact area", self.name),
+            (None, _) => 0.0,
+        };
+        Ok(answer.requested_quantity().value + shear)
+    }
+
+    /// What the fit finds in the experiment of this number: friction gets normally distributed errors, and parameters start from
     /// wrong values, both from a generator of this seed.
     fn findings(&self, truth: &[FrictionPoint], number: u64) -> Result<Vec<Finding>> {
         // Draw the errors of each experiment with its own seed; neighbouring seeds give numbers that have nothing in common.
@@ -199,31 +252,68 @@ impl Case {
             })
             .collect();
         let mut scene = self.scene.clone();
-        let mut material = Value::try_from(&scene.material)?;
-        move_moduli(&mut material, &mut random);
-        scene.material = material.try_into()?;
-        let options = FrictionFitOptions::default();
+        if self.scene.interface.is_none() || self.free.contains(&Free::Moduli) {
+            let mut material = Value::try_from(&scene.material)?;
+            move_numbers(&mut material, &mut random, &|key| {
+                key.contains("modulus") || key == "viscosity"
+            });
+            scene.material = material.try_into()?;
+        }
+        if let Some(interface) = &mut scene.interface {
+            let mut moved = Value::try_from(&*interface)?;
+            move_numbers(&mut moved, &mut random, &|key| {
+                key != "reference_temperature"
+            });
+            *interface = moved.try_into()?;
+        }
+        let options = FrictionFitOptions {
+            free: self.free.clone(),
+            ..FrictionFitOptions::default()
+        };
         let fit = fit_friction(&scene, (Path::new(""), no_file), &points, &options, &|_| ())?;
         Ok(fit.fit.findings)
     }
 }
 
-/// Multiplies all positive moduli and viscosities within `value`, a table of a scene, by random factors of up to
-/// [`START_DECADES`].
-fn move_moduli(value: &mut Value, random: &mut Random) {
+/// The law of an interface with numbers in SI.
+fn law(interface: &Interface) -> Result<ShearStrength> {
+    Ok(match *interface {
+        Interface::Constant { shear_strength } => ShearStrength::constant(shear_strength)?,
+        Interface::Bell {
+            shear_strength,
+            velocity,
+            width,
+            activation_energy,
+            reference_temperature,
+            ..
+        } => ShearStrength::bell(BellParameters {
+            shear_strength,
+            velocity,
+            width,
+            activation_energy,
+            reference_temperature,
+        })?,
+        Interface::Table { .. } => anyhow::bail!("a table has no parameters"),
+    })
+}
+
+/// Multiplies all positive numbers within `value`, a table of a scene, whose keys are chosen by `is_moved`, by random factors of up
+/// to [`START_DECADES`].
+fn move_numbers(value: &mut Value, random: &mut Random, is_moved: &dyn Fn(&str) -> bool) {
     match value {
         Value::Table(table) => {
             for (key, value) in table.iter_mut() {
-                let is_moved = key.contains("modulus") || key == "viscosity";
                 match value {
-                    Value::Float(number) if is_moved && *number > 0.0 => {
+                    Value::Float(number) if is_moved(key) && *number > 0.0 => {
                         *number *= random.decades(START_DECADES);
                     }
-                    other => move_moduli(other, random),
+                    other => move_numbers(other, random, is_moved),
                 }
             }
         }
-        Value::Array(list) => list.iter_mut().for_each(|one| move_moduli(one, random)),
+        Value::Array(list) => list
+            .iter_mut()
+            .for_each(|one| move_numbers(one, random, is_moved)),
         _ => {}
     }
 }
