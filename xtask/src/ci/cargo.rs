@@ -1,4 +1,4 @@
-//! Calls of cargo and other programs, and the count of the tests that cargo ran.
+//! Calls of cargo and other programs, what they print, and the count of the tests that cargo ran.
 
 use std::fmt;
 use std::io::{BufRead, BufReader};
@@ -38,45 +38,88 @@ pub(crate) fn output(command: &mut Command) -> Result<String> {
     Ok(String::from_utf8(output.stdout)?)
 }
 
-/// Cargo, with the number of tests that have passed and failed under it.
+/// What the programs of some steps print, with the number of tests that have passed and failed.
 #[derive(Debug, Default)]
-pub(super) struct Cargo {
+pub(super) struct Transcript {
+    pub(super) tests: TestCount,
+    /// Lines that are not shown yet, of steps that run beside others; `None` if every line is shown at once.
+    held: Option<String>,
+}
+
+/// Number of tests.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct TestCount {
     passed: u64,
     failed: u64,
 }
 
-impl Cargo {
-    /// Runs cargo, shows what it prints to both outputs, and counts the tests that it reports.
-    pub(super) fn run(&mut self, arguments: &str) -> Result<()> {
+impl Transcript {
+    /// A transcript whose lines are shown together, when [`Self::show`] is called.
+    pub(super) fn held() -> Self {
+        Self {
+            held: Some(String::new()),
+            ..Self::default()
+        }
+    }
+
+    /// Adds a line.
+    pub(super) fn add(&mut self, line: &str) {
+        match &mut self.held {
+            Some(held) => *held += &format!("{line}\n"),
+            None => println!("{line}"),
+        }
+    }
+
+    /// Shows the lines that are held.
+    pub(super) fn show(&mut self) {
+        if let Some(held) = &mut self.held {
+            // One call of the macro, because no other thread prints between its lines then.
+            print!("{held}");
+            held.clear();
+        }
+    }
+
+    /// Runs cargo, see [`Self::run`].
+    pub(super) fn cargo(&mut self, arguments: &str) -> Result<()> {
+        self.run(cargo(arguments))
+    }
+
+    /// Runs a program, adds what it prints to both outputs, and counts the tests that it reports. Fails unless it succeeds.
+    pub(super) fn run(&mut self, mut command: Command) -> Result<()> {
+        let call = call(&command);
+        self.add(&call);
         let (output, input) = std::io::pipe()?;
-        let mut command = cargo(arguments);
         command.stdout(input.try_clone()?).stderr(input);
-        let mut child = command.spawn().context("calling cargo")?;
+        let mut child = command.spawn().with_context(|| call.clone())?;
         // Drop the command, and with it our ends of the pipe, which then closes when the child ends.
         drop(command);
         for bytes in BufReader::new(output).split(b'\n') {
             let bytes = bytes?;
             let line = String::from_utf8_lossy(&bytes);
-            println!("{line}");
-            self.count(&line);
+            self.add(&line);
+            self.tests.count(&line);
         }
         let status = child.wait()?;
-        ensure!(status.success(), "cargo {arguments}: {status}");
+        ensure!(status.success(), "{call}: {status}");
         Ok(())
     }
+}
 
-    /// Runs all tests of a `scope`, arguments of cargo such as `--workspace`: by nextest and then those in the documentation,
-    /// which nextest does not run, or, where nextest is not installed, all by cargo itself.
-    pub(super) fn test(&mut self, scope: &str) -> Result<()> {
-        let scope = format!("--no-fail-fast {scope}");
-        if output(&mut cargo("nextest --version")).is_err() {
-            return self.run(&format!("test --profile ci {scope}"));
+/// A program, without its folder, and its arguments.
+fn call(command: &Command) -> String {
+    let program = Path::new(command.get_program()).file_stem();
+    let words = program.into_iter().chain(command.get_args());
+    let words: Vec<_> = words.map(|word| word.to_string_lossy()).collect();
+    words.join(" ")
+}
+
+impl TestCount {
+    /// The tests of two transcripts together.
+    pub(super) fn plus(self, other: Self) -> Self {
+        Self {
+            passed: self.passed + other.passed,
+            failed: self.failed + other.failed,
         }
-        let nextest = self.run(&format!(
-            "nextest run --cargo-profile ci --no-tests pass {scope}"
-        ));
-        self.run(&format!("test --profile ci --doc {scope}"))?;
-        nextest
     }
 
     /// Adds the tests passed and failed if `line` is the closing line of a run of cargo or nextest; ignores other lines.
@@ -97,7 +140,7 @@ impl Cargo {
     }
 }
 
-impl fmt::Display for Cargo {
+impl fmt::Display for TestCount {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(formatter, "{} passed, {} failed", self.passed, self.failed)
     }
@@ -105,11 +148,11 @@ impl fmt::Display for Cargo {
 
 #[cfg(test)]
 mod tests {
-    use super::Cargo;
+    use super::TestCount;
 
     #[test]
     fn the_last_line_is_the_sum_over_all_runs() {
-        let mut cargo = Cargo::default();
+        let mut tests = TestCount::default();
         for line in [
             "running 3 tests",
             "test result: ok. 12 passed; 0 failed; 1 ignored; 0 measured; 0 filtered out; finished in 0.10s",
@@ -118,8 +161,8 @@ mod tests {
             "    test result: FAILED. 0 passed; 1 failed; 0 ignored; 0 measured; 9 filtered out; finished in 0.10s",
             "99 passed; this is no result",
         ] {
-            cargo.count(line);
+            tests.count(line);
         }
-        assert_eq!(cargo.to_string(), "22 passed, 4 failed", "{cargo:?}");
+        assert_eq!(tests.to_string(), "22 passed, 4 failed", "{tests:?}");
     }
 }

@@ -1,6 +1,7 @@
-//! `ci`: everything that CI checks, one step after the other.
+//! `ci`: everything that CI checks.
 //!
-//! All builds use the profile `ci`, so that everything is compiled once.
+//! All builds use the profile `ci`, so that everything is compiled once. What is printed by checks that run beside the tests is
+//! shown step by step.
 
 mod book;
 mod cargo;
@@ -9,12 +10,13 @@ mod release;
 mod workspace;
 
 use std::process::Command;
+use std::thread;
 use std::time::Instant;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, anyhow};
 
 use crate::figures;
-use cargo::{Cargo, run as run_program};
+use cargo::Transcript;
 pub(crate) use cargo::{cargo, output, workspace_root};
 pub(crate) use dependencies::{Dependencies, write as write_dependencies};
 pub(crate) use release::release;
@@ -23,56 +25,98 @@ use workspace::Workspace;
 /// Arguments of cargo that select what is published on crates.io.
 const PACKAGES: &str = "--workspace --exclude xtask --exclude benches --exclude casebook --exclude viscofriction-python";
 
-/// Runs all steps up to the first that fails; the last line printed counts the tests.
+/// Arguments of cargo with which everything is compiled, once for all steps.
+const ALL: &str = "--profile ci --workspace --all-features";
+
+/// Runs all steps; the last line printed counts the tests.
 pub(crate) fn run() -> Result<()> {
-    let mut cargo = Cargo::default();
-    let result = steps(&mut cargo);
-    println!("{cargo}");
+    let mut transcripts = [Transcript::default(), Transcript::held()];
+    let result = steps(&mut transcripts);
+    let [tests, checks] = transcripts.map(|transcript| transcript.tests);
+    println!("{}", tests.plus(checks));
     result
 }
 
-/// Runs one step after the other, up to the first that fails.
-fn steps(cargo: &mut Cargo) -> Result<()> {
+/// Compiles everything, then runs the tests and, at the same time, the other checks. Each of the two ends at its first step that
+/// fails. The transcripts are those of the tests and of the other checks.
+fn steps([shown, held]: &mut [Transcript; 2]) -> Result<()> {
     let workspace = Workspace::read()?;
-    let all = "--profile ci --workspace --all-features";
-    step("format", || cargo.run("fmt --all --check"))?;
-    step("dependencies", || dependencies::check(&workspace))?;
-    step("clippy", || {
+    compile(shown, &workspace)?;
+    // Most of the other checks compile crate after crate on one core, and at the end few tests are left.
+    let [tests, checks] = thread::scope(|scope| {
+        let checks = scope.spawn(|| other_checks(held, &workspace));
+        let tests = tests(shown);
+        let panicked = |_| Err(anyhow!("a check panicked"));
+        [tests, checks.join().unwrap_or_else(panicked)]
+    });
+    match (tests, checks) {
+        (Err(tests), Err(checks)) => Err(anyhow!("{tests:#}; {checks:#}")),
+        (tests, checks) => tests.and(checks),
+    }
+}
+
+/// Checks the format and the dependencies, and compiles and lints what all later steps need.
+fn compile(transcript: &mut Transcript, workspace: &Workspace) -> Result<()> {
+    step(transcript, "format", |transcript| {
+        transcript.cargo("fmt --all --check")
+    })?;
+    step(transcript, "dependencies", |_| {
+        dependencies::check(workspace)
+    })?;
+    step(transcript, "clippy", |transcript| {
         if lints_while_compiling() {
             // What the tests need is compiled anyway, and checked on the way.
-            cargo.run(&format!("build {all} --all-targets"))
+            transcript.cargo(&format!("build {ALL} --all-targets"))
         } else {
-            cargo.run(&format!("clippy {all} --all-targets -- --deny=warnings"))
+            transcript.cargo(&format!("clippy {ALL} --all-targets -- --deny=warnings"))
+        }
+    })
+}
+
+/// Runs the tests but those of the documentation, by nextest if it is installed; and recomputes figures.
+fn tests(transcript: &mut Transcript) -> Result<()> {
+    step(transcript, "tests", |transcript| {
+        let scope = "--no-fail-fast --workspace --all-features";
+        if output(&mut cargo("nextest --version")).is_ok() {
+            transcript.cargo(&format!("nextest run --cargo-profile ci {scope}"))
+        } else {
+            transcript.cargo(&format!("test --profile ci --tests {scope}"))
         }
     })?;
-    step("tests", || cargo.test("--workspace --all-features"))?;
-    step("benchmarks, once each", || {
-        cargo.run(&format!("test {all} --bench=*"))
+    step(transcript, "figures", |_| figures::check())
+}
+
+/// Runs the steps that compile more than the tests need.
+fn other_checks(transcript: &mut Transcript, workspace: &Workspace) -> Result<()> {
+    step(transcript, "tests of the documentation", |transcript| {
+        transcript.cargo(&format!("test {ALL} --no-fail-fast --doc"))
     })?;
-    step("examples", || {
-        cargo.run(&format!("build {all} --examples"))?;
+    step(transcript, "benchmarks, once each", |transcript| {
+        transcript.cargo(&format!("test {ALL} --bench=*"))
+    })?;
+    step(transcript, "examples", |transcript| {
+        transcript.cargo(&format!("build {ALL} --examples"))?;
         let mut programs = workspace.example_files().map(Command::new);
-        programs.try_for_each(|mut program| run_program(&mut program))
+        programs.try_for_each(|program| transcript.run(program))
     })?;
-    step("crates alone, without features", || {
+    step(transcript, "crates alone, without features", |transcript| {
         // Check each library alone, because crates that are built together unite their features.
         workspace.libraries().try_for_each(|library| {
-            cargo.run(&format!(
+            transcript.cargo(&format!(
                 "check --profile ci --no-default-features --all-targets --package {library}"
             ))
         })
     })?;
-    step("documentation", || {
+    step(transcript, "documentation", |transcript| {
         let deny = "--config=build.rustdocflags=[\"--deny=warnings\"]";
-        cargo.run(&format!("doc {all} --no-deps {deny}"))
+        transcript.cargo(&format!("doc {ALL} --no-deps {deny}"))
     })?;
-    step("packages", || {
+    step(transcript, "packages", |transcript| {
         // Pack what would be published, without compiling it once more.
-        cargo.run(&format!(
+        transcript.cargo(&format!(
             "package {PACKAGES} --no-verify --allow-dirty --offline"
         ))
-    })?;
-    step("figures", figures::check)
+    })
 }
 
 /// True if every build lints, because cargo calls clippy's compiler for the crates of the workspace (`.ci/run`).
@@ -81,10 +125,16 @@ fn lints_while_compiling() -> bool {
 }
 
 /// Announces a step, runs it, and says how long it took.
-fn step(name: &str, check: impl FnOnce() -> Result<()>) -> Result<()> {
-    println!("\n=== {name}");
+fn step(
+    transcript: &mut Transcript,
+    name: &str,
+    check: impl FnOnce(&mut Transcript) -> Result<()>,
+) -> Result<()> {
+    transcript.add(&format!("\n=== {name}"));
     let start = Instant::now();
-    check().with_context(|| format!("the step `{name}` failed"))?;
-    println!("=== {name}: {:.1} s", start.elapsed().as_secs_f64());
-    Ok(())
+    let result = check(transcript).with_context(|| format!("the step `{name}` failed"));
+    let seconds = start.elapsed().as_secs_f64();
+    transcript.add(&format!("=== {name}: {seconds:.1} s"));
+    transcript.show();
+    result
 }

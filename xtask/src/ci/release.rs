@@ -7,7 +7,7 @@ use std::process::Command;
 
 use anyhow::{Context, Result, ensure};
 
-use super::cargo::{Cargo, cargo, run, workspace_root};
+use super::cargo::{Transcript, cargo, run, workspace_root};
 use super::workspace::{Package, Workspace};
 use super::{PACKAGES, book, step};
 
@@ -24,10 +24,15 @@ pub(crate) fn release(out: &Path) -> Result<()> {
         workspace: Workspace::read()?,
         out: out.canonicalize()?,
     };
-    step("crates", || release.pack())?;
-    step("their examples", || release.compile_examples())?;
-    step("Python", || release.python())?;
-    step("book", || release.book())
+    let mut transcript = Transcript::default();
+    step(&mut transcript, "crates", |transcript| {
+        release.pack(transcript)
+    })?;
+    step(&mut transcript, "their examples", |_| {
+        release.compile_examples()
+    })?;
+    step(&mut transcript, "Python", |_| release.python())?;
+    step(&mut transcript, "book", |_| release.book())
 }
 
 /// A release in the making.
@@ -40,8 +45,8 @@ struct Release {
 
 impl Release {
     /// Packs and compiles each crate, copies the packed files to `crates`, and unpacks them in `trial`.
-    fn pack(&self) -> Result<()> {
-        Cargo::default().run(&format!("package {PACKAGES} --no-verify"))?;
+    fn pack(&self, transcript: &mut Transcript) -> Result<()> {
+        transcript.cargo(&format!("package {PACKAGES} --no-verify"))?;
         let (packed, trial) = (self.out.join("crates"), self.out.join("trial"));
         fs::create_dir_all(&packed)?;
         fs::create_dir_all(&trial)?;
