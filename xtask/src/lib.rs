@@ -91,6 +91,9 @@ enum Command {
 
 /// Parses the command line and runs its command; the exit code is 0 if it succeeds.
 pub fn execute() -> ExitCode {
+    if let Some(code) = ci::as_rustdoc() {
+        return code;
+    }
     let outcome = match CommandLine::parse().command {
         Command::ReproduceFigures { check: true, .. } => figures::check(),
         Command::ReproduceFigures { out, .. } => figures::reproduce(&out),

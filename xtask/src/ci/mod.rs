@@ -6,6 +6,7 @@
 mod book;
 mod cargo;
 mod dependencies;
+mod documentation;
 mod release;
 mod workspace;
 
@@ -19,6 +20,7 @@ use crate::figures;
 use cargo::Transcript;
 pub(crate) use cargo::{cargo, output, workspace_root};
 pub(crate) use dependencies::{Dependencies, write as write_dependencies};
+pub(crate) use documentation::as_rustdoc;
 pub(crate) use release::release;
 use workspace::Workspace;
 
@@ -88,8 +90,8 @@ fn tests(transcript: &mut Transcript) -> Result<()> {
 
 /// Runs the steps that compile more than the tests need.
 fn other_checks(transcript: &mut Transcript, workspace: &Workspace) -> Result<()> {
-    step(transcript, "tests of the documentation", |transcript| {
-        transcript.cargo(&format!("test {ALL} --no-fail-fast --doc"))
+    step(transcript, "documentation", |transcript| {
+        transcript.run(documentation::command(ALL, workspace)?)
     })?;
     step(transcript, "benchmarks, once each", |transcript| {
         transcript.cargo(&format!("test {ALL} --bench=*"))
@@ -106,10 +108,6 @@ fn other_checks(transcript: &mut Transcript, workspace: &Workspace) -> Result<()
                 "check --profile ci --no-default-features --all-targets --package {library}"
             ))
         })
-    })?;
-    step(transcript, "documentation", |transcript| {
-        let deny = "--config=build.rustdocflags=[\"--deny=warnings\"]";
-        transcript.cargo(&format!("doc {ALL} --no-deps {deny}"))
     })?;
     step(transcript, "packages", |transcript| {
         // Pack what would be published, without compiling it once more.

@@ -7,10 +7,10 @@ use serde::Deserialize;
 
 use super::cargo::{cargo, output};
 
-/// The published crates of the workspace, as cargo knows them.
+/// Crates of the workspace, as cargo knows them.
 #[derive(Debug, Deserialize)]
 pub(super) struct Workspace {
-    /// The crates that may be published.
+    /// The crates: those that may be published, or all.
     pub(super) packages: Vec<Package>,
     /// The folder where cargo builds.
     pub(super) target_directory: PathBuf,
@@ -33,6 +33,8 @@ pub(super) struct Package {
 #[derive(Debug, Deserialize)]
 struct Dependency {
     name: String,
+    /// The name by which the crate calls it, if that is another one.
+    rename: Option<String>,
     /// `dev` or `build`; none for one that the library itself needs.
     kind: Option<String>,
     optional: bool,
@@ -51,11 +53,26 @@ struct Target {
 impl Workspace {
     /// Asks cargo; crates whose manifest restricts where they may be published are left out.
     pub(super) fn read() -> Result<Self> {
-        let text = output(&mut cargo("metadata --no-deps --format-version 1"))?;
-        let mut workspace: Self = serde_json::from_str(&text)?;
+        let mut workspace = Self::read_all()?;
         let packages = &mut workspace.packages;
         packages.retain(|package| package.publish.is_none());
         Ok(workspace)
+    }
+
+    /// Asks cargo for all crates.
+    pub(super) fn read_all() -> Result<Self> {
+        let text = output(&mut cargo("metadata --no-deps --format-version 1"))?;
+        Ok(serde_json::from_str(&text)?)
+    }
+
+    /// Names by which the library of the given name calls its dependencies, without those of its tests.
+    pub(super) fn dependencies_of_library(&self, library: &str) -> Vec<String> {
+        let is_library = |package: &&Package| package.targets("lib").any(|name| name == library);
+        let packages = self.packages.iter().filter(is_library);
+        let dependencies = packages.flat_map(|package| &package.dependencies);
+        let needed = dependencies.filter(|dependency| dependency.kind.is_none());
+        let names = needed.map(|own| own.rename.as_ref().unwrap_or(&own.name));
+        names.map(|name| name.replace('-', "_")).collect()
     }
 
     /// Names of the crates without a program.
