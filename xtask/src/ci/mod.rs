@@ -10,6 +10,7 @@ mod documentation;
 mod release;
 mod workspace;
 
+use std::path::Path;
 use std::process::Command;
 use std::thread;
 use std::time::Instant;
@@ -119,7 +120,8 @@ fn other_checks(transcript: &mut Transcript, workspace: &Workspace) -> Result<()
 
 /// True if every build lints, because cargo calls clippy's compiler for the crates of the workspace (`.ci/run`).
 fn lints_while_compiling() -> bool {
-    std::env::var_os("RUSTC_WORKSPACE_WRAPPER").is_some_and(|compiler| compiler == "clippy-driver")
+    let compiler = std::env::var_os("RUSTC_WORKSPACE_WRAPPER");
+    compiler.is_some_and(|path| Path::new(&path).file_name() == Some("clippy-driver".as_ref()))
 }
 
 /// Announces a step, runs it, and says how long it took.
