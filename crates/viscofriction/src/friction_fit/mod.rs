@@ -77,8 +77,8 @@ pub struct FittedFriction {
 /// values only.
 const FIRST_SEARCH_POINTS: usize = 8;
 /// Powers of ten by which all moduli are multiplied at the starts of the first search. If no modulus is free, they multiply
-/// the constants of the shift law, and if these are not free either, the velocity of the largest shear strength. Chosen: steps of a factor of 3 up to 32 either way, more than the error of a modulus from
-/// another sample of the material.
+/// the constants of the shift law, and if these are not free either, the velocity of the largest shear strength. Chosen: steps of
+/// a factor of 3 up to 32 either way, more than the error of a modulus from another sample of the material.
 const START_DECADES: [f64; 7] = [0.0, -0.5, 0.5, -1.0, 1.0, -1.5, 1.5];
 /// Largest number of starts from which the first search follows the sum of squares to a minimum: the start of the scene and
 /// those with the smallest sums. Chosen: about half of the scaled starts, as a bound of the time.
@@ -92,8 +92,8 @@ const MAX_CORRECTIONS: usize = 4;
 /// the friction.
 const CORRECTION_REACH: f64 = 0.2;
 
-/// Fits the free parameters of the material and the interface of a scene to measured friction of its body. Velocities, and forces and temperatures
-/// if stated, are those of the points. `watch` receives the progress.
+/// Fits the free parameters of the material and the interface of a scene to measured friction of its body. Velocities, and forces
+/// and temperatures if stated, are those of the points. `watch` receives the progress.
 ///
 /// # Errors
 /// [`FrictionFitError`] with the reason.
@@ -234,9 +234,9 @@ const ENDLESS_SURFACE: &str = "moduli are not fitted to the friction of a rough 
 const STEADY_SLIDING: &str = "friction is fitted at constant speeds, which are those of the table; leave this out, and give normal_force \
      without a motion";
 
-/// Least squares of at most [`FIRST_SEARCH_POINTS`] points on coarser grids, or of all points if their contacts are solved already. The starts are `start` itself, then its multiples
-/// by [`START_DECADES`] in order of their sum of squares. Returns the logarithms of the parameters at the first minimum that
-/// noise explains, else at the lowest minimum.
+/// Least squares of at most [`FIRST_SEARCH_POINTS`] points on coarser grids, or of all points if their contacts are solved already.
+/// The starts are `start` itself, then its multiples by [`START_DECADES`] in order of their sum of squares. Returns the logarithms
+/// of the parameters at the first minimum that noise explains, else at the lowest minimum.
 fn first_search(
     model: &Model,
     family: &Family,

@@ -211,8 +211,8 @@ impl<'a> Model<'a> {
         Ok(errors.fold(0.0, f64::max))
     }
 
-    /// Applies a function to all points and their indices, in parallel; results are in the order of the points. The error is that of the first
-    /// point that has one.
+    /// Applies a function to all points and their indices, in parallel; results are in the order of the points. The error is that
+    /// of the first point that has one.
     fn at_all_points<T: Send>(
         &self,
         of_point: impl Fn(usize, &FrictionPoint) -> Result<T> + Sync,
