@@ -41,7 +41,7 @@ impl Shear {
     ) -> Result<Self, SceneError> {
         let key = |number: &Number| number.ends()[1].to_owned();
         Ok(Self {
-            law: interface.law(files)?,
+            law: interface.law(files)?.strength,
             interface,
             free: free.iter().map(key).collect(),
         })

@@ -6,11 +6,12 @@ use csv::{ErrorKind, ReaderBuilder, StringRecord, Trim};
 use encoding_rs::UTF_8;
 use indenters::rough::TabulatedSpectrum;
 use indenters::{IndenterError, PiecewiseLinearProfile};
-use numerics::{InvalidParameter, MessageNumber, not_negative, positive};
+use numerics::{InvalidParameter, MessageNumber, in_range, not_negative, positive};
 use rheology::{RheologyError, ShearStrength, ShearStrengthPoint};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
+use super::interface::ShearLaw;
 use super::load::{LoadPoint, MotionPoint};
 use crate::text::{RecordLines, line_of};
 
@@ -73,18 +74,20 @@ pub fn spectrum(file: &Path, contents: &[u8], factor: f64) -> Result<TabulatedSp
         .map_err(|error| wrong((last, error.to_string())))
 }
 
-/// A row of a table of shear strengths: velocity \[m/s], shear strength \[Pa], and optionally temperature \[°C].
+/// A row of a table of shear strengths: velocity \[m/s], shear strength \[Pa], and optionally temperature \[°C] and standard error
+/// \[Pa].
 #[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ShearStrengthRow {
     velocity_m_per_s: f64,
     shear_strength_pa: f64,
     temperature_c: Option<f64>,
+    shear_strength_error_pa: Option<f64>,
 }
 
 /// Shear strengths from the contents of a CSV file with the columns `velocity_m_per_s` and `shear_strength_pa`, and optionally
-/// `temperature_c`; the error is a message with file and line.
-pub(super) fn shear_strengths(file: &Path, contents: &[u8]) -> Result<ShearStrength, String> {
+/// `temperature_c` and `shear_strength_error_pa`; the error is a message with file and line.
+pub(super) fn shear_strengths(file: &Path, contents: &[u8]) -> Result<ShearLaw, String> {
     let wrong = |(line, problem): (usize, String)| located(file, line, &problem);
     let rows = rows::<ShearStrengthRow>(contents).map_err(wrong)?;
     let point = |(_, row): &(usize, ShearStrengthRow)| ShearStrengthPoint {
@@ -93,12 +96,34 @@ pub(super) fn shear_strengths(file: &Path, contents: &[u8]) -> Result<ShearStren
         temperature: row.temperature_c,
     };
     let points: Vec<ShearStrengthPoint> = rows.iter().map(point).collect();
-    ShearStrength::table(&points).map_err(|error| {
+    let strength = ShearStrength::table(&points).map_err(|error| {
         let row = match &error {
             RheologyError::InvalidElement { index, .. } => rows.get(*index),
             _ => rows.last(),
         };
         wrong((row.map_or(1, |(line, _)| *line), error.to_string()))
+    })?;
+    // Either all rows have a standard error, or none.
+    let has_errors = rows
+        .first()
+        .is_some_and(|(_, row)| row.shear_strength_error_pa.is_some());
+    let relative_error = |(line, row): &(usize, ShearStrengthRow)| {
+        let error = row.shear_strength_error_pa.unwrap_or(f64::NAN);
+        let holds = row.shear_strength_error_pa.is_some() == has_errors
+            && (!has_errors || (0.0..f64::INFINITY).contains(&error));
+        let allowed = "finite and at least 0 in all rows, or left out in all";
+        in_range("shear_strength_error_pa", error, holds, allowed)
+            .map_err(|refused| wrong((*line, refused.to_string())))?;
+        Ok(error / row.shear_strength_pa)
+    };
+    let relative_errors: Vec<f64> = rows
+        .iter()
+        .map(relative_error)
+        .collect::<Result<_, String>>()?;
+    let uncertain = points.into_iter().zip(relative_errors);
+    Ok(ShearLaw {
+        strength,
+        uncertain_rows: uncertain.filter(|_| has_errors).collect(),
     })
 }
 

@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
-use rheology::{BellParameters, DEFAULT_BELL_WIDTH, RheologyError, ShearStrength};
+use rheology::{
+    BellParameters, DEFAULT_BELL_WIDTH, RheologyError, ShearStrength, ShearStrengthPoint,
+};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use strum::IntoStaticStr;
@@ -46,7 +48,7 @@ pub enum Interface {
     },
     /// Measured shear strengths, interpolated on logarithmic scales and never extrapolated.
     Table {
-        /// A CSV file beside the scene file with the columns velocity_m_per_s and shear_strength_pa, and optionally temperature_c.
+        /// A CSV file beside the scene file with the columns velocity_m_per_s and shear_strength_pa, and optionally temperature_c and the standard error shear_strength_error_pa.
         file: PathBuf,
     },
 }
@@ -102,12 +104,13 @@ impl Interface {
     }
 
     /// The shear strength, checked; reads the file of a table.
-    pub(crate) fn law(&self, files: &Files<'_>) -> Result<ShearStrength, SceneError> {
+    pub(crate) fn law(&self, files: &Files<'_>) -> Result<ShearLaw, SceneError> {
         self.check()?;
         let refused = |error: RheologyError| SceneError::at(self.key(), error.to_string());
         match self {
             Self::Constant { shear_strength } => {
-                ShearStrength::constant(*shear_strength).map_err(refused)
+                let strength = ShearStrength::constant(*shear_strength);
+                strength.map(ShearLaw::exact).map_err(refused)
             }
             Self::Bell {
                 shear_strength,
@@ -125,7 +128,8 @@ impl Interface {
                     activation_energy: activation_energy.map(|energy| unit * energy),
                     reference_temperature: *reference_temperature,
                 };
-                ShearStrength::bell(parameters).map_err(refused)
+                let strength = ShearStrength::bell(parameters);
+                strength.map(ShearLaw::exact).map_err(refused)
             }
             Self::Table { file } => {
                 let at_file = |WrongInput(problem)| SceneError::at("interface.table.file", problem);
@@ -134,6 +138,49 @@ impl Interface {
                     .map_err(|problem| SceneError::at("interface.table.file", problem))
             }
         }
+    }
+}
+
+/// A shear strength, and how well the rows of its table are known.
+#[derive(Debug, Clone)]
+pub(crate) struct ShearLaw {
+    /// The law over velocity and temperature.
+    pub(crate) strength: ShearStrength,
+    /// Rows of the table with the independent standard errors of their shear strengths, relative to these; none without errors.
+    pub(crate) uncertain_rows: Vec<(ShearStrengthPoint, f64)>,
+}
+
+impl ShearLaw {
+    /// A law without uncertain rows.
+    const fn exact(strength: ShearStrength) -> Self {
+        Self {
+            strength,
+            uncertain_rows: Vec::new(),
+        }
+    }
+
+    /// Relative standard uncertainty of the shear strength at a velocity \[m/s] and a temperature \[°C], from the errors of the rows;
+    /// 0 without them.
+    pub(crate) fn relative_uncertainty(
+        &self,
+        velocity: f64,
+        temperature: Option<f64>,
+    ) -> Result<f64, RheologyError> {
+        let own = self.strength.at(velocity, temperature)?;
+        let mut points: Vec<ShearStrengthPoint> = self
+            .uncertain_rows
+            .iter()
+            .map(|(point, _)| *point)
+            .collect();
+        let mut square = 0.0;
+        for (index, (point, error)) in self.uncertain_rows.iter().enumerate() {
+            // ln τ_f is linear in the logarithms of all rows, so that it changes by the weight of the row when the row doubles.
+            points[index].shear_strength = 2.0 * point.shear_strength;
+            let doubled = ShearStrength::table(&points)?.at(velocity, temperature)?;
+            points[index] = *point;
+            square += ((doubled / own).log2() * error).powi(2);
+        }
+        Ok(square.sqrt())
     }
 }
 

@@ -32,6 +32,7 @@ pub use indenter::{
     Edges, Indenter, IndenterKind, SelfAffineSurface, SpectrumConvention, SpectrumSurface, Term,
 };
 pub use indenters::Control;
+pub(crate) use interface::ShearLaw;
 pub use interface::{EnergyUnit, Interface};
 pub use load::{Load, LoadPoint, MotionPoint, StrokeShape};
 pub use material::{Approximation, Branch, MaterialKind, MaterialTable};

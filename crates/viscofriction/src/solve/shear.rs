@@ -7,14 +7,13 @@
 //! Theory: docs/theory/shear.md.
 
 use numerics::{ErrorParts, Estimate, Progress};
-use rheology::ShearStrength;
 
 use super::answer::Answer;
 use super::error::{Result, SolveError};
 use super::plan::{Plan, plan};
 use super::problem::{Motion, Problem};
 use super::work::work;
-use crate::scene::{Accuracy, Method, Model, SceneError};
+use crate::scene::{Accuracy, Method, Model, SceneError, ShearLaw};
 
 /// Largest relative error that is requested of the friction from hysteresis. Chosen: the first solution only has to show which part
 /// of the friction is hysteresis.
@@ -29,7 +28,8 @@ const REQUEST_RATIOS: [f64; 2] = [0.01, 0.7];
 const MAX_SOLUTIONS: usize = 10;
 
 /// Refusal of a shear strength in the one-dimensional model.
-pub(crate) const NO_AREA_ON_LINE: &str = "the scene asks for the one-dimensional model, which does not know the contact area that shear acts on; boundary elements do";
+pub(crate) const NO_AREA_ON_LINE: &str = "the scene asks for the one-dimensional model, which does not know the contact area that shear acts on; boundary \
+     elements do";
 /// Refusal of a shear strength that depends on the temperature without one.
 pub(crate) const NO_TEMPERATURE: &str = "it depends on the temperature, which is that of the material, and the material has none: give one with a shift law, as \
      fit-material writes it";
@@ -38,7 +38,7 @@ pub(crate) const NO_TEMPERATURE: &str = "it depends on the temperature, which is
 #[derive(Debug, Clone)]
 pub(crate) struct Shear {
     /// The law over velocity and temperature.
-    pub(crate) law: ShearStrength,
+    pub(crate) law: ShearLaw,
     /// Temperature of the contact, \[°C]; `None` if the scene gives none.
     pub(crate) temperature: Option<f64>,
 }
@@ -46,7 +46,7 @@ pub(crate) struct Shear {
 impl Shear {
     /// Shear strength at a velocity \[m/s], \[Pa]; the error names the table of the scene.
     pub(crate) fn strength(&self, velocity: f64) -> Result<f64, SceneError> {
-        let strength = self.law.at(velocity, self.temperature);
+        let strength = self.law.strength.at(velocity, self.temperature);
         strength.map_err(|error| SceneError::at("interface", error.to_string()))
     }
 }
@@ -63,6 +63,17 @@ impl Problem {
         }
     }
 
+    /// Relative standard uncertainty of the shear strength, from the errors of a table; 0 without errors, and unless the scene has a
+    /// shear strength and the body slides at a constant velocity.
+    pub(super) fn shear_strength_uncertainty(&self) -> Result<f64, SceneError> {
+        match (self.shear(), self.motion()) {
+            (Some(Shear { law, temperature }), Motion::Sliding(load)) => law
+                .relative_uncertainty(load.velocity(), *temperature)
+                .map_err(|error| SceneError::at("interface", error.to_string())),
+            _ => Ok(0.0),
+        }
+    }
+
     /// Rejects a shear strength where nothing slides, in the one-dimensional model, without the temperature that it needs, and at a
     /// velocity outside its table.
     pub(super) fn check_interface(&self) -> Result<(), SceneError> {
@@ -73,7 +84,7 @@ impl Problem {
         if self.model() == Model::Line {
             return refused(NO_AREA_ON_LINE);
         }
-        if shear.law.depends_on_temperature() && shear.temperature.is_none() {
+        if shear.law.strength.depends_on_temperature() && shear.temperature.is_none() {
             return refused(NO_TEMPERATURE);
         }
         match self.motion() {

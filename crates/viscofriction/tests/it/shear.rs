@@ -1,10 +1,12 @@
 //! Shear of the real contact: its part of the friction is τ_f A/F_N, with the error of the area.
 
 use std::f64::consts::PI;
+use std::path::Path;
 
+use numerics::SilentProgress;
 use serde_json::Value;
-use viscofriction::solve::plan;
-use viscofriction::{Answer, Problem, Scene, solve};
+use viscofriction::solve::{Source, plan, sampled, with_sensitivity};
+use viscofriction::{Answer, Problem, Scene, WrongInput, solve};
 
 use crate::sensitivities::{answered, of};
 use crate::support::{Folder, assert_close, number};
@@ -140,6 +142,44 @@ fn derivatives_of_the_sum_are_slopes_between_answers() {
     }
 }
 
+/// A table of shear strengths, known to 10 and to 20 %.
+#[expect(
+    clippy::unnecessary_wraps,
+    reason = "the signature of functions that read files"
+)]
+fn uncertain_table(_: &Path, _: u64) -> Result<Vec<u8>, WrongInput> {
+    let rows = "velocity_m_per_s,shear_strength_pa,shear_strength_error_pa\n1e-3,1e5,1e4\n1e-1,4e5,8e4\n1.0,1e5,1e5\n";
+    Ok(rows.as_bytes().to_vec())
+}
+
+/// At 10 mm/s ln τ_f is the mean of two rows of the table: its uncertainty is √(0.1² + 0.2²)/2 = 0.112.
+#[test]
+fn errors_of_a_table_enter_the_budget() {
+    let asked = "[solve]\nrelative_error = 0.01\n[interface.table]\nfile = \"table.csv\"\n";
+    let scene: Scene = format!("{BALL}{asked}").parse().expect("a scene");
+    let files = (Path::new(""), uncertain_table as _);
+    let problem = Problem::new(&scene, files.0, files.1).expect("a problem");
+    let answer = solve(&problem).expect("an answer");
+    let answer = with_sensitivity(&scene, files, &problem, answer, &SilentProgress);
+    let answer = answer.expect("derivatives");
+    let (source, known) = &answer.budget.entries[1];
+    assert_eq!(*source, Source::ShearTable, "beside the numerics");
+    let shear = answer.friction_from_shear.expect("shear").value;
+    let expected = 0.5 * 0.1_f64.hypot(0.2) * shear;
+    for (key, expected) in [
+        ("friction_coefficient", expected),
+        ("friction_from_shear", expected),
+        ("friction_from_hysteresis", 0.0),
+    ] {
+        let found = known.of(key).expect("an uncertainty");
+        let off = (found - expected).abs();
+        assert!(off <= 1e-12 * shear, "{key}: {found} and not {expected}");
+    }
+    let refused = sampled(&scene, files, 1).expect_err("errors of rows");
+    let expected = "interface.table.file: samples do not draw";
+    assert!(refused.to_string().contains(expected), "{refused}");
+}
+
 /// After a distance from first touch the steps before the end have shear too.
 #[test]
 fn steps_from_first_touch_have_shear() {
@@ -244,6 +284,14 @@ fn scenes_without_shear_are_refused() {
         "negative.csv",
         "velocity_m_per_s,shear_strength_pa\n1e-3,1e5\n5e-3,-2e5\n",
     );
+    folder.write(
+        "uncertain.csv",
+        "velocity_m_per_s,shear_strength_pa,shear_strength_error_pa\n1e-3,1e5,1e4\n5e-1,2e5,-1e4\n",
+    );
+    folder.write(
+        "partly.csv",
+        "velocity_m_per_s,shear_strength_pa,shear_strength_error_pa\n1e-3,1e5,1e4\n5e-1,2e5,\n",
+    );
     let constant = "[interface.constant]\nshear_strength = 1e5\n";
     let pressed = BALL.replace("velocity = 0.01", "velocity = 0.0\n[solve]\nduration = 1.0");
     let stroke = BALL.replace("velocity = 0.01", "stroke = 1e-3\nfrequency = 1.0");
@@ -269,6 +317,14 @@ fn scenes_without_shear_are_refused() {
         (
             format!("{BALL}[interface.table]\nfile = \"negative.csv\"\n"),
             "negative.csv:3: shear_strength",
+        ),
+        (
+            format!("{BALL}[interface.table]\nfile = \"uncertain.csv\"\n"),
+            "uncertain.csv:3: shear_strength_error_pa must be finite and at least 0",
+        ),
+        (
+            format!("{BALL}[interface.table]\nfile = \"partly.csv\"\n"),
+            "partly.csv:3: shear_strength_error_pa",
         ),
         (
             format!("{BALL}[interface.table]\nfile = \"none.csv\"\n"),

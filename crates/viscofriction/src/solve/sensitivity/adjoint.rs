@@ -255,6 +255,20 @@ impl AnswerChange {
         }
     }
 
+    /// The change of a contact whose shear strength grows by one e-fold.
+    pub(super) const fn of_shear_strength() -> Self {
+        const NO_CHANGE: Estimate = Estimate::exact(0.0);
+        Self {
+            contact: Change {
+                friction_coefficient: NO_CHANGE,
+                indentation_depth: None,
+                normal_force: None,
+                contact_area: Some(NO_CHANGE),
+            },
+            log_shear_over_load: 1.0,
+        }
+    }
+
     /// Change of the logarithm of the friction from shear, ln(τ_f A/F_N); `None` if that of the contact area is not known.
     pub(crate) fn of_log_shear(&self, answer: &Answer) -> Option<Estimate> {
         let area = self.contact.contact_area?;

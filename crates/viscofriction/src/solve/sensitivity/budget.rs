@@ -2,15 +2,17 @@
 //! in measurement (JCGM 100:2008).
 //!
 //! ```text
-//! u² = a²/3 + q² gᵀ C g + Σ (q d ln q/d ln θ · u_θ)²
+//! u² = a²/3 + q² gᵀ C g + (q d ln q/d ln τ_f · u_τ)² + Σ (q d ln q/d ln θ · u_θ)²
 //! ```
 //! with the error a of the computation, taken as the half width of a uniform distribution. C is the covariance of the moduli,
-//! g the derivatives by their logarithms, and u_θ the relative uncertainty of a number of the scene.
+//! g the derivatives by their logarithms, u_τ the relative uncertainty of a table of shear strengths, and u_θ that of a number of
+//! the scene.
 
 use numerics::Estimate;
 use serde::ser::{Serialize, SerializeMap as _, Serializer};
 
 use super::Sensitivity;
+use super::adjoint::{AnswerChange, log_derivatives};
 use super::parameters::Number;
 use crate::quantity::ByQuantity;
 use crate::scene::{MaterialTable, Scene};
@@ -24,6 +26,8 @@ pub enum Source {
     Numerics,
     /// The covariance of the moduli.
     Material,
+    /// The standard errors of a table of shear strengths.
+    ShearTable,
     /// A number of the scene, by its path.
     Number(String),
 }
@@ -35,13 +39,15 @@ pub struct Budget {
     pub entries: Vec<(Source, ByQuantity<f64>)>,
 }
 
-/// The budget of an answer from its derivatives, in the order of the numbers.
+/// The budget of an answer from its derivatives, in the order of the numbers. `shear_strength` is the relative uncertainty of a table
+/// of shear strengths; 0 if it has none.
 pub(super) fn budget(
     material: &MaterialTable,
     scene: &Scene,
     numbers: &[Number],
     sensitivity: &[Sensitivity],
     answer: &Answer,
+    shear_strength: f64,
 ) -> Budget {
     let mut entries = Vec::new();
     if let Some(covariance) = material.covariance() {
@@ -59,6 +65,15 @@ pub(super) fn budget(
             is_known.then(|| covariance.uncertainty(&derivatives))
         });
         entries.push((Source::Material, of_material));
+    }
+    if shear_strength > 0.0 {
+        let source = Source::ShearTable;
+        let change = AnswerChange::of_shear_strength();
+        let by_strength = log_derivatives(source.name().to_owned(), answer, change, 1.0);
+        let of_table = uncertainties(answer, |key| {
+            Some((by_strength.derivatives.of(key)?.value * shear_strength).abs())
+        });
+        entries.push((source, of_table));
     }
     for (number, one) in numbers.iter().zip(sensitivity) {
         let path = number.path();
@@ -132,6 +147,7 @@ impl Source {
         match self {
             Self::Numerics => "numerics",
             Self::Material => "material",
+            Self::ShearTable => "interface.table",
             Self::Number(path) => path,
         }
     }

@@ -81,7 +81,8 @@ pub fn with_sensitivity(
     let series = MODULUS_ERROR_AMPLIFICATION * problem.modulus_error();
     sensitivity.iter_mut().for_each(|one| one.widen(series));
     let material = numbers.scene()?.material;
-    let budget = budget(&material, scene, &all, &sensitivity, &answer);
+    let of_shear = problem.shear_strength_uncertainty()?;
+    let budget = budget(&material, scene, &all, &sensitivity, &answer, of_shear);
     // Remove the derivative by the temperature, because a temperature in °C has no logarithmic one.
     sensitivity.retain(|one| one.parameter != TEMPERATURE);
     Ok(Answer {

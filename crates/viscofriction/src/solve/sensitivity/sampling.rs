@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use super::parameters::{Number, Numbers};
-use crate::files::ReadFile;
+use crate::files::{Files, ReadFile};
 use crate::scene::{MaterialTable, Scene, SceneError};
 
 /// Sample number `sample` of a scene; sample 0 is the scene itself.
@@ -17,7 +17,7 @@ use crate::scene::{MaterialTable, Scene, SceneError};
 /// multiplied by 1 + δ with δ from their joint covariance, but at least by 0. A Poisson ratio above 1/2 is reflected at 1/2.
 ///
 /// # Errors
-/// [`SceneError`] for invalid uncertainties, and for files that cannot be read.
+/// [`SceneError`] for invalid uncertainties, for standard errors of a table of shear strengths, and for files that cannot be read.
 pub fn sampled(
     scene: &Scene,
     (folder, read): (&Path, ReadFile),
@@ -25,6 +25,14 @@ pub fn sampled(
 ) -> Result<Scene, SceneError> {
     if sample == 0 {
         return Ok(scene.clone());
+    }
+    let files = Files::of(scene, folder, read)?;
+    let law = scene.interface.as_ref().map(|table| table.law(&files));
+    if law
+        .transpose()?
+        .is_some_and(|law| !law.uncertain_rows.is_empty())
+    {
+        return Err(SceneError::at("interface.table.file", NO_DRAWN_TABLE));
     }
     let mut normal = Normal::new(sample);
     let mut numbers = Numbers::new(scene, folder, read)?;
@@ -48,6 +56,10 @@ pub fn sampled(
     draw_moduli(&mut drawn.material, &mut normal);
     Ok(drawn)
 }
+
+/// Message if the rows of a table of shear strengths have standard errors, which samples do not draw.
+const NO_DRAWN_TABLE: &str = "samples do not draw the standard errors of its rows; leave out the column shear_strength_error_pa, or ask \
+     for the sensitivity instead of samples";
 
 /// A number multiplied by e^`exponent`; a Poisson ratio is reflected at its upper limit.
 fn perturbed(number: &Number, exponent: f64) -> f64 {
