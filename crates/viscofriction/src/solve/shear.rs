@@ -198,15 +198,7 @@ pub(super) fn solve(first: Plan, watch: &dyn Progress) -> Result<Answer> {
             return Err(SolveError::NotReached { answer, why });
         }
         let [smallest, largest] = REQUEST_RATIOS;
-        let ratio = AIMED_SHARE * allowed / friction.error;
-        // The error of the area falls about with the square root of that of the hysteresis, for which the request is made.
-        let of_shear = answer.friction_from_shear.map_or(0.0, |shear| shear.error);
-        let power = if of_shear > 0.5 * friction.error {
-            2
-        } else {
-            1
-        };
-        request *= ratio.powi(power).clamp(smallest, largest);
+        request *= (AIMED_SHARE * allowed / friction.error).clamp(smallest, largest);
     }
 }
 

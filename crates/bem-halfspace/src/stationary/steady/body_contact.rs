@@ -3,7 +3,10 @@
 //! Theory: docs/theory/stationary-half-space.md, "The equations of one contact".
 
 use crate::BemError;
+use crate::elements::bounds::Bounds;
+use crate::elements::contact_boundary::{AreaMeasure, BoundaryField};
 use crate::error::check_contact_elements;
+use crate::influence;
 use crate::stationary::search::Search;
 use crate::stationary::steady::contact_equations::ContactEquations;
 use crate::stationary::steady::mesh::Mesh;
@@ -12,6 +15,23 @@ use crate::stationary::steady::plans::Plans;
 /// Largest allowed ratio of the RMS residual on an active set to the increase of the gap along one element at the front. Chosen;
 /// from 1e-5 to 1e-2 no answer changes by more than 4 % of its bar (case of `evidence tuning`).
 const INNER_TOLERANCE_OVER_OPENING: f64 = 1e-3;
+
+/// Product κ b of the load–gap ratio κ at a straight boundary and the second difference b of the kernel of a line of elements, where the
+/// pressure vanishes like a root. Measured under a parabolic cylinder on an elastic half plane: with it the fraction of a pair is linear
+/// in the position of the boundary, to 0.001 (case of `evidence tuning`).
+const ROOT_LOAD_GAP_RATIO: f64 = 0.6;
+/// Second difference k₀ − (k₁ + k₋₁)/2 of the kernel of an infinite line of elements, over their width. Derived: 3 ln 3, from the
+/// integral of −2 ln |x| over an element.
+const LINE_SECOND_DIFFERENCE: f64 = 3.295_836_866_004_329;
+/// Mean excess of the area of bodies, in elements, per edge along the boundary. Measured under an elastic paraboloid and an elastic cone,
+/// both with this limit, on elements half as wide as long; 0.133 on square elements (case of `evidence tuning`).
+const BODY_EXCESS_PER_EDGE: f64 = 0.1445;
+/// Increase of the excess per shift of the collocation points, which is the loss angle over π at the shortest wave of the grid. Measured
+/// under a paraboloid on power laws with the exponents 0.15 to 0.7, where it is 0.07 to 0.11 (case of `evidence tuning`).
+const CREEP_EXCESS: f64 = 0.09;
+/// Excess of the width of a strip at each end, in elements. Derived: (1/π) ∫ ln[ξ S(ξ)/2]/ξ² dξ from 0 to ∞ with the symbol S of a line of
+/// elements (Wiener–Hopf), see docs/theory/stationary-half-space.md, "The contact area".
+const STRIP_EXCESS_PER_EDGE: f64 = 0.1746;
 
 /// A solved contact, in the units of the mesh.
 pub(super) struct Solution {
@@ -28,6 +48,8 @@ pub(super) struct Solution {
     /// Load-weighted mean of half the difference of the gaps ahead of and behind an element, in units of the depth scale. Over the
     /// length of an element it is the slope that the gaps next to the contact add.
     pub(super) gap_difference: f64,
+    /// Contact area with a boundary that divides elements, in elements.
+    pub(super) contact_area: f64,
 }
 
 /// Solves the complementarity problem on a mesh from an initial active set, given as indices of candidates with their loads.
@@ -57,6 +79,7 @@ pub(super) fn solve(
     // The friction from dissipation also contains the gaps next to the contact, weighted with the loads.
     let [residual, depth] = [search.residual, search.depth];
     let gap_difference = mesh.mean_gap_difference(&search.pressure, &search.gap);
+    let contact_area = contact_area(mesh, &search.pressure, &search.gap);
     let loads = search.pressure.into_iter().enumerate();
     Ok(Solution {
         loads: loads.filter(|(_, load)| *load > 0.0).collect(),
@@ -65,7 +88,69 @@ pub(super) fn solve(
         solved_directly: contact.solved_directly,
         residual,
         gap_difference,
+        contact_area,
     })
+}
+
+/// Contact area in elements, from loads and gaps of all candidates.
+fn contact_area(mesh: &Mesh, loads: &[f64], gaps: &[f64]) -> f64 {
+    // The box of the contact has a margin of one element, except across a strip.
+    let touching = (0..loads.len()).filter(|element| loads[*element] > 0.0);
+    let Some(contact) = Bounds::enclosing(touching.flat_map(|element| mesh.indices(element)))
+    else {
+        return 0.0;
+    };
+    let margin = [1, usize::from(!mesh.loading.is_strip)];
+    let bounds = Bounds {
+        lower: [0, 1].map(|axis| contact.lower[axis].saturating_sub(margin[axis])),
+        upper: [0, 1].map(|axis| contact.upper[axis] + margin[axis]),
+    };
+    let mut field = BoundaryField {
+        shape: bounds.shape(),
+        is_periodic: false,
+        aspect: mesh.aspect(),
+        inside: vec![false; bounds.n_elements()],
+        values: vec![f64::NAN; bounds.n_elements()],
+        second_difference: [0, 1].map(|axis| mesh.kernel_second_difference(axis)),
+        unit_depth_response: None,
+    };
+    for (element, (load, gap)) in loads.iter().zip(gaps).enumerate() {
+        let is_loaded = *load > 0.0;
+        for indices in mesh.indices(element) {
+            if bounds.contains(indices) {
+                let index = bounds.index_of(indices);
+                field.inside[index] = is_loaded;
+                field.values[index] = if is_loaded { *load } else { *gap };
+            }
+        }
+    }
+    field.contact_area(&area_measure(mesh))
+}
+
+/// Ratios of loads to gaps, and the excess per edge, of a boundary at which the pressure vanishes like a root. A straight boundary moves
+/// past a line of elements at once, so that the second difference of their kernel is that of a line.
+fn area_measure(mesh: &Mesh) -> AreaMeasure {
+    let edges = [1.0, mesh.aspect()];
+    let ratio = |axis: usize| {
+        let ratio = ROOT_LOAD_GAP_RATIO / mesh.kernel_second_difference(axis);
+        if mesh.loading.is_strip {
+            return ratio;
+        }
+        // A material changes the second differences of an element and of a line by about the same factor.
+        let mut next = [0.0; 2];
+        next[axis] = edges[axis];
+        let of_element = influence([0.0; 2], edges) - influence(next, edges);
+        ratio * of_element / (LINE_SECOND_DIFFERENCE * edges[axis])
+    };
+    let elastic_excess = if mesh.loading.is_strip {
+        STRIP_EXCESS_PER_EDGE
+    } else {
+        BODY_EXCESS_PER_EDGE
+    };
+    AreaMeasure {
+        load_gap_ratios: [ratio(0), ratio(1)],
+        excess_per_edge: elastic_excess + CREEP_EXCESS * mesh.loading.creep.collocation_shift.abs(),
+    }
 }
 
 /// Loosest RMS residual on active sets of about `n_elements` elements, in units of the depth scale. Over one element at the front

@@ -42,7 +42,7 @@ pub struct SteadySliding {
     pub normal_force: f64,
     /// Depth of the lowest point, which depends on the sliding distance where the material flows.
     pub depth: SinkingDepth,
-    /// [Area](PressureField::contact_area) of the contact, \[m²]; in plane strain the length of its elements along x.
+    /// Contact area with a boundary that divides elements, \[m²]; in plane strain the length of the contact.
     pub contact_area: f64,
     /// Rear and front of the contact relative to the lowest point, \[m].
     pub contact_x: [f64; 2],
@@ -181,11 +181,7 @@ impl SteadySliding {
             mean_slope: slopes.absolute_slope,
             normal_force: mesh.loading.force_of(total_load) * per_length,
             depth: SinkingDepth::new(mesh, solution, edges[0][1] - edges[0][0]),
-            contact_area: if mesh.loading.is_strip {
-                loaded.len() as f64 * spacing[0]
-            } else {
-                pressure.contact_area()
-            },
+            contact_area: solution.contact_area * spacing[0] * spacing[1] * per_length,
             contact_x: edges[0],
             contact_y: edges[1],
             unknowns: solution.loads.len(),
