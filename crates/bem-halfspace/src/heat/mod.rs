@@ -30,7 +30,9 @@
 //!
 //! Theory: docs/theory/heat.md.
 
+mod bulk;
 mod conductor;
+mod contact;
 mod operator;
 mod periodic_waves;
 mod rise;
@@ -38,5 +40,6 @@ mod source;
 mod time_rule;
 
 pub use conductor::{HeatCapacity, HeatConductor};
+pub use contact::{ContactKind, SlidingContact};
 pub use rise::{SurfaceTemperature, TemperatureRise};
 pub use source::{Counterface, DissipatingWave, DissipationProfile, HeatSource, SourceDepth};

@@ -17,7 +17,7 @@ pub(super) enum HeatKernel {
     Periodic(PeriodicWaves),
 }
 
-/// Fluxes to temperatures on one grid, with the spectrum of sources at the surface.
+/// Fluxes to temperatures on one grid.
 #[derive(Debug, Clone)]
 pub(super) struct HeatOperator {
     /// Grid of the elements, in units of `unit`.
@@ -28,8 +28,6 @@ pub(super) struct HeatOperator {
     kernel: HeatKernel,
     /// Plans of the transforms.
     transform: PlaneTransform,
-    /// Spectrum for sources at the surface.
-    surface: Spectrum,
 }
 
 impl HeatOperator {
@@ -40,15 +38,12 @@ impl HeatOperator {
             HeatKernel::Free(_) => grid.shape().map(|n| fast_length(2 * n - 1)),
             HeatKernel::Periodic(_) => grid.shape(),
         });
-        let mut operator = Self {
+        Self {
             grid: *grid,
             unit,
             kernel,
             transform,
-            surface: Vec::new(),
-        };
-        operator.surface = operator.spectrum(&SourceDepth::Surface);
-        operator
+        }
     }
 
     /// Spectrum of the kernel for sources at a `depth`.
@@ -67,13 +62,8 @@ impl HeatOperator {
         temperature: &mut [f64],
     ) {
         let mut workspace = Workspace::new(&self.transform, self.grid.shape());
-        match depth {
-            SourceDepth::Surface => self.transform.filter(&mut workspace, field, &self.surface),
-            SourceDepth::Bulk(_) => {
-                let spectrum = self.spectrum(depth);
-                self.transform.filter(&mut workspace, field, &spectrum);
-            }
-        }
+        let spectrum = self.spectrum(depth);
+        self.transform.filter(&mut workspace, field, &spectrum);
         for (sum, value) in temperature.iter_mut().zip(field) {
             *sum += *value;
         }

@@ -46,6 +46,13 @@ struct Alias {
     weight: f64,
 }
 
+impl Alias {
+    /// Wave number of the resolved wave among its aliases.
+    const fn resolved(aliases: &[Self; 2 * ALIASES + 1]) -> f64 {
+        aliases[ALIASES].wave_number
+    }
+}
+
 impl PeriodicWaves {
     /// Multipliers for sources at a `depth`, `[column][row]`, times the normalisation of the transforms; `unit` is the length unit of
     /// the grid, \[m].
@@ -64,7 +71,13 @@ impl PeriodicWaves {
             for (row, (value, along)) in values.iter_mut().zip(&along).enumerate() {
                 let mut sum = match [row, column] {
                     [0, 0] => Complex::from(depth.uniform_rise(self.mean_length * unit) / unit),
-                    _ => self.sum_of_aliases(along, &across, depth, unit),
+                    _ => match depth {
+                        SourceDepth::Plane(_) => {
+                            let beta = self.decay_constant([along, &across].map(Alias::resolved));
+                            depth.wave_ratio(beta / unit) / beta
+                        }
+                        _ => self.sum_of_aliases(along, &across, depth, unit),
+                    },
                 };
                 // The shortest wave of an even number of rows stands for both directions.
                 if 2 * row == rows {

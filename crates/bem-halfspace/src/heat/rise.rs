@@ -183,7 +183,7 @@ impl SurfaceTemperature {
         }
         let absorbed_share = |source: &HeatSource<'_>| match source.depth {
             SourceDepth::Surface => share,
-            SourceDepth::Bulk(_) => 1.0,
+            SourceDepth::Bulk(_) | SourceDepth::Plane(_) => 1.0,
         };
         let temperature_on = |operator: &HeatOperator, is_coarse: bool| {
             let mut temperature = vec![0.0; operator.grid.n_elements()];
@@ -311,7 +311,11 @@ impl Averages {
 /// Twice the excess of a temperature over that of the centre of its hottest element. The maximum is at most half an element away, and
 /// up to there the temperature rises by half the mean difference from the neighbours along each axis. The excess counts twice, because
 /// it may also hide as much of the difference from the coarse grid.
-fn sampling_error(temperature: &[f64], hottest: usize, [rows, columns]: [usize; 2]) -> f64 {
+pub(super) fn sampling_error(
+    temperature: &[f64],
+    hottest: usize,
+    [rows, columns]: [usize; 2],
+) -> f64 {
     let [row, column] = [hottest / columns, hottest % columns];
     let along = |index: usize, n: usize, stride: usize| {
         let before = (index > 0).then(|| temperature[hottest - stride]);
@@ -335,13 +339,13 @@ fn weighted_mean(values: &[f64], weights: &[f64]) -> f64 {
 }
 
 /// A temperature with its difference from that on the coarse grid as error, and the error of the influence coefficients.
-fn estimate(fine: f64, coarse: f64) -> Result<Estimate, InvalidParameter> {
+pub(super) fn estimate(fine: f64, coarse: f64) -> Result<Estimate, InvalidParameter> {
     let value = finite("temperature rise", fine)?;
     Ok(Estimate::new(value, (fine - coarse).abs()).widened(KERNEL_ERROR * value.abs()))
 }
 
 /// The wake length λ = 4D/v \[m], within which heat diffuses ahead as fast as it is left behind; infinite at rest.
-fn wake_length(
+pub(super) fn wake_length(
     grid: &Grid,
     conductor: &HeatConductor,
     velocity: f64,

@@ -35,6 +35,9 @@ pub enum SourceDepth {
     Surface,
     /// Heat arises in the elastomer, which receives all of it.
     Bulk(DissipationProfile),
+    /// Heat arises in the elastomer in a plane at this depth ≥ 0, \[m]. On a periodic surface the flux is a sum of the waves that the
+    /// grid resolves, and not constant per element.
+    Plane(f64),
 }
 
 /// Distribution of dissipated power over the depth: the mean of 4 q³ z² e^(−2qz) over the pressure waves, weighted with their power.
@@ -105,6 +108,7 @@ impl SourceDepth {
         match self {
             Self::Surface => 1.0,
             Self::Bulk(profile) => profile.mean(|q| pulse_ratio_of_wave(q * length)),
+            Self::Plane(depth) => (-(depth / length).powi(2)).exp(),
         }
     }
 
@@ -116,6 +120,7 @@ impl SourceDepth {
                 let ratio = (1.0 + beta * (0.5 / q)).inv();
                 ratio * ratio * ratio
             }),
+            Self::Plane(depth) => (-beta * *depth).exp(),
         }
     }
 
@@ -128,6 +133,11 @@ impl SourceDepth {
                 let ratio = |s: f64| pulse_ratio_of_wave(q * s);
                 integrate(ratio, [0.0, length], UNIFORM_RISE_TOLERANCE).value
             }),
+            Self::Plane(_) if length == 0.0 => 0.0,
+            Self::Plane(depth) => {
+                let ratio = depth / length;
+                length * ((-ratio * ratio).exp() - PI.sqrt() * ratio * libm::erfc(ratio))
+            }
         };
         pulses / PI.sqrt()
     }

@@ -155,7 +155,8 @@ impl TimeRule {
     /// Adds the weighted nodes at an offset x to the coefficients by the number of elements across.
     fn add_nodes(&self, x: f64, weights: &[f64], values: &mut [f64]) {
         let edge = self.grid.spacing()[0];
-        for (node, weight) in self.nodes.iter().zip(weights) {
+        let nodes = self.nodes.iter().zip(weights);
+        for (node, weight) in nodes.filter(|(_, weight)| **weight > 0.0) {
             let along = share_of_interval(x + node.shift, edge, node.length);
             if along > 0.0 {
                 for (value, across) in values.iter_mut().zip(&node.across) {

@@ -13,6 +13,7 @@ mod ends_of_the_speed_range;
 mod error_bars;
 mod hardness;
 mod heat;
+mod heat_of_contacts;
 mod height_maps;
 mod indentation_follows_lee_radok_and_ting;
 mod invariance;
