@@ -95,6 +95,15 @@ impl ShearStrength {
         }
     }
 
+    /// Highest temperature at which it is known, \[°C]; infinite unless it is a table over the temperature.
+    pub fn highest_temperature(&self) -> f64 {
+        match self {
+            Self::Table(table) => table.temperatures.last().copied(),
+            Self::Constant(_) | Self::Bell(_) => None,
+        }
+        .unwrap_or(f64::INFINITY)
+    }
+
     /// A shear strength that depends on neither velocity nor temperature.
     ///
     /// # Errors

@@ -62,6 +62,8 @@ impl Unit {
         of_body: "N",
         of_cylinder: "N/m",
     };
+    /// Unit of temperature rises.
+    const TEMPERATURE_DIFFERENCE: Self = Self::of_any("K");
     /// Unit of works and dissipated energies.
     const ENERGY: Self = Self {
         of_body: "J",
@@ -103,7 +105,7 @@ macro_rules! stored {
 }
 
 /// All quantities, in the order of the output.
-pub static QUANTITIES: [Quantity; 14] = [
+pub static QUANTITIES: [Quantity; 18] = [
     Quantity {
         symbol: "μ",
         is_dissipative: true,
@@ -192,6 +194,19 @@ pub static QUANTITIES: [Quantity; 14] = [
         is_dissipative: true,
         ..stored!(dissipated_energy, Unit::ENERGY)
     },
+    Quantity {
+        is_dissipative: true,
+        ..stored!(largest_temperature_rise, Unit::TEMPERATURE_DIFFERENCE)
+    },
+    Quantity {
+        is_dissipative: true,
+        ..stored!(mean_temperature_rise, Unit::TEMPERATURE_DIFFERENCE)
+    },
+    Quantity {
+        symbol: "T",
+        ..stored!(effective_temperature, Unit::of_any("°C"))
+    },
+    stored!(temperature_model_spread, Unit::NUMBER),
 ];
 
 impl Quantity {

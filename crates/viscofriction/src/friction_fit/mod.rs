@@ -22,7 +22,7 @@ pub use prior::FrictionPrior;
 pub use progress::{FitProgress, FitStage};
 
 use crate::files::ReadFile;
-use crate::scene::{Edges, Indenter, Interface, MaterialTable, Scene, SceneError};
+use crate::scene::{Interface, MaterialTable, Scene, SceneError};
 use crate::solve::Problem;
 use family::Family;
 use model::Model;
@@ -204,13 +204,11 @@ fn with_load(scene: &Scene, points: &[FrictionPoint]) -> Result<Scene, FrictionF
 
 /// Rejects periodic surfaces, motions and histories, before a random surface is drawn or a file read.
 fn check_scene(scene: &Scene) -> Result<(), SceneError> {
-    let is_endless = match &scene.indenter {
-        Indenter::SelfAffine(_) | Indenter::Spectrum(_) => true,
-        Indenter::HeightMap(map) => map.edges != Edges::Wall,
-        _ => false,
-    };
-    if is_endless {
+    if scene.indenter.is_periodic() {
         return Err(SceneError::at("indenter", ENDLESS_SURFACE));
+    }
+    if scene.heat.is_some() {
+        return Err(SceneError::at("heat", WITHOUT_HEAT));
     }
     let load = &scene.load;
     let moves = [
@@ -230,6 +228,9 @@ fn check_scene(scene: &Scene) -> Result<(), SceneError> {
 const ENDLESS_SURFACE: &str = "moduli are not fitted to the friction of a rough surface without end, of which every point is a computation \
      of minutes; take the moduli from fit-material, or fit them to the friction of a ball or a cylinder on the same material, and \
      compare the friction of this scene with the measured one by `viscofriction sweep` over load.velocity";
+/// Message if the scene has heat, which the model of the fit does not contain.
+const WITHOUT_HEAT: &str = "the fit takes the temperatures of the table as those of the material in the contact; give measurements at \
+     speeds at which it is not heated, and leave [heat] out";
 /// Message if the scene has a motion or a history instead of sliding at constant speed.
 const STEADY_SLIDING: &str = "friction is fitted at constant speeds, which are those of the table; leave this out, and give normal_force \
      without a motion";

@@ -217,6 +217,15 @@ pub struct Term {
 }
 
 impl Indenter {
+    /// True if the surface of the body repeats itself, so that it has no end.
+    pub fn is_periodic(&self) -> bool {
+        match self {
+            Self::SelfAffine(_) | Self::Spectrum(_) => true,
+            Self::HeightMap(map) => map.edges != Edges::Wall,
+            _ => false,
+        }
+    }
+
     /// Path of the table of the body in the scene, such as `indenter.sphere`.
     pub fn key(&self) -> String {
         let name: &str = self.into();

@@ -5,6 +5,7 @@
 mod covariance;
 mod error;
 mod files;
+mod heat;
 mod height_map;
 mod history;
 mod indenter;
@@ -26,6 +27,7 @@ use serde::{Deserialize, Serialize};
 pub use covariance::Covariance;
 pub use error::SceneError;
 pub use files::{profile, spectrum};
+pub use heat::{Counterface, Heat};
 pub use height_map::{HeightMapTable, HeightsAre, LengthUnit, in_file};
 pub(crate) use indenter::FEWEST_REALISATIONS;
 pub use indenter::{
@@ -67,6 +69,9 @@ pub struct Scene {
     /// Shear strength of the contact; without it only the hysteresis of the bulk is computed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub interface: Option<Interface>,
+    /// Heat of sliding; without it the elastomer has the same temperature everywhere.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub heat: Option<Heat>,
     /// How the body is pressed and moved.
     pub load: Load,
     /// What is asked, and how well.
@@ -86,6 +91,7 @@ impl Scene {
             material,
             layer: None,
             interface: None,
+            heat: None,
             load,
             solve: Solve::default(),
             uncertainty: BTreeMap::new(),

@@ -11,6 +11,7 @@ use super::cut_off::WithoutShortestOctave;
 use super::dissipation::Dissipation;
 use super::error::{Result, SolveError};
 use super::half_space::Simple;
+use super::heat::TemperatureField;
 use super::omission::Omission;
 use super::problem::{Motion, Problem};
 use super::realisations::Ensemble;
@@ -58,6 +59,18 @@ pub struct Answer {
     pub area_fraction: Option<Estimate>,
     /// Friction coefficient of a periodic surface from the power that the material dissipates; `None` if the state is not stationary.
     pub friction_from_dissipation: Option<Estimate>,
+    /// Largest rise of the temperature in the contact above that of the surroundings, \[K]; `None` without heat.
+    pub largest_temperature_rise: Option<Estimate>,
+    /// Mean rise of the temperature over the contact area, \[K]; `None` without heat.
+    pub mean_temperature_rise: Option<Estimate>,
+    /// Mean rise of the temperature weighted with the dissipated power, \[K]; `None` without heat.
+    pub(crate) dissipation_weighted_rise: Option<Estimate>,
+    /// Temperature of material and shear strength: that of the surroundings plus the mean rise weighted with the dissipated power,
+    /// \[°C]; `None` if neither depends on the temperature.
+    pub effective_temperature: Option<Estimate>,
+    /// Largest change of the friction coefficient if material and shear strength have the temperature of the surroundings or the largest
+    /// one in the contact; `None` without an effective temperature, and if these temperatures are outside the range of the laws.
+    pub temperature_model_spread: Option<Estimate>,
     /// Persson's theory for the same waves; `None` unless the state is stationary sliding on a half space without a fitted series.
     pub persson: Option<Persson>,
     /// Answer without the shortest octave of a periodic surface; `None` for transients, and if no wave remains.
@@ -168,6 +181,8 @@ pub(crate) struct Grid {
 pub struct Fields {
     /// Pressure on the half space, \[Pa].
     pub pressure: Option<PressureField>,
+    /// Temperature rise of the surface of the elastomer.
+    pub temperature: Option<TemperatureField>,
     /// Position \[m] and line load \[N/m] along the contact of the one-dimensional model.
     pub line_load: Vec<[f64; 2]>,
     /// Position \[m] and pressure \[Pa] across the contact of a cylinder, or along a diameter under a body of revolution without
@@ -225,6 +240,11 @@ impl Answer {
             mean_pressure: None,
             area_fraction: None,
             friction_from_dissipation: None,
+            largest_temperature_rise: None,
+            mean_temperature_rise: None,
+            dissipation_weighted_rise: None,
+            effective_temperature: None,
+            temperature_model_spread: None,
             persson: None,
             without_shortest_octave: None,
             contact_box: None,
@@ -408,7 +428,15 @@ impl Serialize for Answer {
         let mut map = serializer.serialize_map(None)?;
         map.serialize_entry("method", &self.method)?;
         map.serialize_entry("model", &self.model)?;
-        ByQuantity::new(|quantity| (quantity.of)(self)).serialize_into(&mut map)?;
+        let is_rise = |quantity: &Quantity| quantity.key.ends_with(TEMPERATURE_RISE);
+        let known = |quantity: &Quantity, of_rises: bool| {
+            (quantity.of)(self).filter(|_| is_rise(quantity) == of_rises)
+        };
+        ByQuantity::new(|quantity| known(quantity, false)).serialize_into(&mut map)?;
+        let rises = ByQuantity::new(|quantity| known(quantity, true));
+        if !rises.is_empty() {
+            map.serialize_entry("temperature_rise", &TemperatureRises(rises))?;
+        }
         for (key, error) in self.budget.material().iter() {
             map.serialize_entry(&format!("{key}_material_error"), &error)?;
         }
@@ -443,6 +471,24 @@ impl Serialize for Answer {
         map.serialize_entry("warnings", &self.warnings)?;
         map.serialize_entry("not_modelled", &self.not_modelled)?;
         map.serialize_entry("left_out", &self.left_out)?;
+        map.end()
+    }
+}
+
+/// End of the keys of the temperature rises; in JSON they are entries of an object `temperature_rise`, by the words before it.
+const TEMPERATURE_RISE: &str = "_temperature_rise";
+
+/// The temperature rises of an answer in JSON.
+struct TemperatureRises(ByQuantity<Estimate>);
+
+impl Serialize for TemperatureRises {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        for (key, rise) in self.0.iter() {
+            let name = key.trim_end_matches(TEMPERATURE_RISE);
+            map.serialize_entry(name, &rise.value)?;
+            map.serialize_entry(&format!("{name}_error"), &rise.error)?;
+        }
         map.end()
     }
 }

@@ -85,6 +85,57 @@ pub enum SolveError {
         /// Its part from the shear of the contact area.
         shear: Estimate,
     },
+    /// The friction at the temperature of the contact does not have the requested error.
+    #[error(
+        "the friction coefficient was not reached to the relative error {}: it is {friction} at the temperature of the contact, \
+         {temperature} °C, whose error is a part of it; give a larger solve.relative_error",
+        MessageNumber(*asked)
+    )]
+    HeatNotReached {
+        /// Relative error asked for.
+        asked: f64,
+        /// Friction coefficient.
+        friction: Estimate,
+        /// Temperature of material and shear strength, \[°C].
+        temperature: Estimate,
+    },
+    /// The contact is heated beyond the highest temperature at which material and shear strength are known.
+    #[error(
+        "the contact is heated from {} °C beyond {} °C, the highest temperature at which material and shear strength are known{}: there \
+         friction would heat it to {caused:.1} °C; slide more slowly, or give laws of a wider range",
+        MessageNumber(*ambient),
+        MessageNumber(*highest),
+        friction_coefficient.map(|friction| format!(", with the friction coefficient {friction:.3}")).unwrap_or_default()
+    )]
+    TooHot {
+        /// Highest temperature of the laws, \[°C].
+        highest: f64,
+        /// Temperature far from the contact, \[°C].
+        ambient: f64,
+        /// Temperature to which the contact is heated at the highest temperature of the laws, \[°C].
+        caused: f64,
+        /// Friction coefficient at the highest temperature of the laws; `None` if it is not known.
+        friction_coefficient: Option<f64>,
+    },
+    /// No temperature was found at which the friction heats the contact to the same temperature.
+    #[error(
+        "no temperature of the contact was found that its friction causes; it is between {coldest} °C and {hottest} °C"
+    )]
+    NoContactTemperature {
+        /// Highest tried temperature at which friction heats the contact further, \[°C].
+        coldest: f64,
+        /// Lowest tried temperature at which it heats the contact less, \[°C].
+        hottest: f64,
+    },
+    /// The pressure in the contact, which the heat follows, is not known.
+    #[error(
+        "{} does not give the pressure in the contact, which heats it; bem-steady does",
+        method.name()
+    )]
+    NoPressureForHeat {
+        /// The method of the answer.
+        method: Method,
+    },
     /// The contact area, on which shear acts, is not known.
     #[error(
         "{} has not found the contact area, on which the shear of the interface acts; give more solve.elements, or a smaller \

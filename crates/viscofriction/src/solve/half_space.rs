@@ -11,7 +11,7 @@ use rheology::{
 
 use super::expansion::{Expansion, expanded};
 use crate::files::Files;
-use crate::scene::{Approximation, Branch, MaterialTable, SceneError, Source};
+use crate::scene::{Approximation, Branch, MaterialTable, SceneError, Shift, Source};
 use crate::text::WrongInput;
 
 /// The material of a scene, with the accuracy and range of its data.
@@ -23,8 +23,39 @@ pub struct HalfSpace {
     pub expansion: Option<Expansion>,
     /// Range of angular frequencies covered by measurements, \[rad/s]; `None` if the scene states none.
     pub window: Option<[f64; 2]>,
+    /// Table of a material whose shift law gives it at other temperatures; `None` without a shift law.
+    pub(crate) shifting: Option<MaterialTable>,
+}
+
+impl HalfSpace {
     /// Temperature of the material, \[°C]; `None` unless it has a shift law.
-    pub temperature: Option<f64>,
+    pub fn temperature(&self) -> Option<f64> {
+        self.shift().map(|shift| shift.temperature)
+    }
+
+    /// Temperature dependence of the material; `None` if it is not known.
+    pub(crate) fn shift(&self) -> Option<&Shift> {
+        self.shifting.as_ref().and_then(MaterialTable::shift)
+    }
+
+    /// The material at another temperature \[°C]; `None` without a shift law.
+    ///
+    /// # Errors
+    /// [`SceneError`] for a temperature outside the range of the law.
+    pub(crate) fn at(&self, celsius: f64) -> Option<Result<Self, SceneError>> {
+        let table = self.shifting.clone()?;
+        let shifted = table.at(celsius);
+        Some(shifted.and_then(|table| half_space(&table, &no_files())))
+    }
+}
+
+/// The files of a material that names none.
+fn no_files() -> Files<'static> {
+    Files {
+        folder: Path::new(""),
+        read: no_file,
+        memory: None,
+    }
 }
 
 /// Builds the material of a `material` table of the scene file.
@@ -53,6 +84,12 @@ pub fn half_space(table: &MaterialTable, files: &Files<'_>) -> Result<HalfSpace,
         in_range("", highest, highest > lowest, allowed)
             .map_err(|refused| SceneError::value(key, refused))?;
         found.window = Some([lowest, highest]);
+    }
+    // The scene may replace numbers of a material file, at other temperatures too.
+    if let (MaterialTable::File { .. }, Some(shifting)) = (table, &found.shifting) {
+        let shifting = shifting.clone();
+        let given = shifting.with_given(table.poisson_ratio(), table.valid_frequencies());
+        found.shifting = Some(given?);
     }
     Ok(found)
 }
@@ -141,7 +178,7 @@ fn shear_material(table: &MaterialTable, files: &Files<'_>) -> Result<HalfSpace,
             );
             let found = series(&table.key(), spectrum, *approximation)?;
             return Ok(HalfSpace {
-                temperature: shift.as_ref().map(|shift| shift.temperature),
+                shifting: shift.is_some().then(|| table.clone()),
                 ..found
             });
         }
@@ -184,7 +221,7 @@ fn exact(material: impl Material + 'static) -> HalfSpace {
         material: Box::new(material),
         expansion: None,
         window: None,
-        temperature: None,
+        shifting: None,
     }
 }
 

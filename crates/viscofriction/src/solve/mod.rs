@@ -4,6 +4,7 @@ mod advice;
 mod analytic;
 mod answer;
 pub(crate) mod body;
+mod contact_temperature;
 mod curve;
 mod cut_off;
 mod dissipation;
@@ -11,6 +12,7 @@ mod elements;
 mod error;
 mod expansion;
 pub(crate) mod half_space;
+mod heat;
 mod heights;
 mod layer;
 mod left_out;
@@ -40,6 +42,7 @@ pub use elements::persson;
 pub use error::{NotOffered, Result, SolveError};
 pub use expansion::Expansion;
 pub use half_space::{HalfSpace, half_space};
+pub use heat::TemperatureField;
 pub use heights::{Advice as AdviceOnHeights, body_of_heights, warnings as warnings_of_heights};
 use memory::Limited;
 pub use omission::Omission;
@@ -87,9 +90,10 @@ impl Plan<'_> {
         realisations::mean(problem, |watch| self.solve_one(watch), watch)
     }
 
-    /// Solves for the body of the problem, of random surfaces the first, as finely as the sum of hysteresis and shear needs.
+    /// Solves for the body of the problem, of random surfaces the first, at the temperature of the contact and as finely as the sum
+    /// of hysteresis and shear needs.
     fn solve_one(self, watch: &dyn Progress) -> Result<Answer> {
-        shear::solve(self, watch)
+        contact_temperature::solve(self, watch)
     }
 
     /// Solves once for the body of the problem, of random surfaces the first. Refuses a first grid that exceeds the memory limit.
@@ -143,11 +147,13 @@ impl Found {
             not_modelled: not_modelled(problem),
             ..answer
         };
-        // Reject numbers that are not finite or not physical, and add the shear of the contact area to the friction.
+        // Reject numbers that are not finite or not physical, and add the shear of the contact area to the friction and the
+        // temperature to which both heat the contact.
         let checked = answer
             .finite()
             .and_then(|answer| answer.physical(problem))
             .and_then(|answer| problem.with_shear(answer))
+            .and_then(|answer| problem.with_temperature_rise(answer))
             .and_then(Answer::finite)
             .map(|answer| Answer {
                 warnings: warnings(problem, &answer),

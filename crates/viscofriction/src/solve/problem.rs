@@ -13,6 +13,7 @@ use super::body::{Body, BodyOfScene, body};
 use super::error::SolveError;
 use super::expansion::Expansion;
 use super::half_space::{Simple, simple};
+use super::heat::Heating;
 use super::parts::Parts;
 use super::sensitivity::check_uncertainties;
 use super::shear::Shear;
@@ -38,6 +39,8 @@ pub struct Problem {
     motion: Motion,
     /// Shear strength of the contact; `None` if only hysteresis is computed.
     shear: Option<Shear>,
+    /// Heat of sliding; `None` if the temperature is not computed.
+    heating: Option<Heating>,
     accuracy: Accuracy,
     method: Option<Method>,
     model: Model,
@@ -141,7 +144,9 @@ impl Problem {
             None => f64::INFINITY,
         };
         let law = scene.interface.as_ref().map(|table| table.law(&files));
-        let temperature = parts.half_space.temperature;
+        let heating = Heating::of(scene, &parts.half_space)?;
+        let ambient = heating.as_ref().and_then(|heating| heating.ambient);
+        let temperature = ambient.or(parts.half_space.temperature());
         let shear = law.transpose()?.map(|law| Shear { law, temperature });
         let not_reduced = |error: RheologyError| SceneError::at("material", error.to_string());
         let of_method = scene.solve.method.and_then(Method::model);
@@ -153,12 +158,13 @@ impl Problem {
             folder: folder.to_owned(),
             read,
         });
-        let problem = Self {
+        let mut problem = Self {
             simple: simple(&*parts.half_space.material).map_err(not_reduced)?,
             parts,
             thickness,
             motion,
             shear,
+            heating,
             accuracy: scene.solve.accuracy()?,
             method: scene.solve.method,
             model: scene.solve.model.or(of_method).unwrap_or(Model::HalfSpace),
@@ -168,11 +174,17 @@ impl Problem {
             realisations,
             shortest_wavelength: None,
         };
+        if let Some(ambient) = ambient {
+            let refused =
+                |error: SceneError| SceneError::at("heat.ambient_temperature", error.to_string());
+            problem = problem.at_temperature(ambient).map_err(refused)?;
+        }
         // Reject combinations of body, material and load that no method answers, and uncertainties that are out of range.
         problem.check_control()?;
         problem.check_track()?;
         problem.check_layer()?;
         problem.check_interface()?;
+        problem.check_heat()?;
         check_uncertainties(scene, folder, read)?;
         Ok(problem)
     }
@@ -303,6 +315,54 @@ impl Problem {
     /// Shear strength of the contact; `None` if only hysteresis is computed.
     pub(super) const fn shear(&self) -> Option<&Shear> {
         self.shear.as_ref()
+    }
+
+    /// Heat of sliding; `None` if the temperature is not computed.
+    pub(super) const fn heating(&self) -> Option<&Heating> {
+        self.heating.as_ref()
+    }
+
+    /// True if the answer depends on the temperature: the material has a shift law, or the shear strength depends on it.
+    pub(super) fn depends_on_temperature(&self) -> bool {
+        let depends = |shear: &Shear| shear.law.strength.depends_on_temperature();
+        self.has_shift_law() || self.shear.as_ref().is_some_and(depends)
+    }
+
+    /// True if the material is known at other temperatures.
+    pub(super) fn has_shift_law(&self) -> bool {
+        self.parts.half_space.shift().is_some()
+    }
+
+    /// Highest temperature at which material and shear strength are known, \[°C]; infinite if there is none.
+    pub(super) fn highest_temperature(&self) -> f64 {
+        let of_shear = self
+            .shear
+            .as_ref()
+            .map(|shear| shear.law.strength.highest_temperature());
+        let of_material = self.parts.half_space.shift();
+        let of_material = of_material.map(|shift| shift.temperature_range[1]);
+        [of_shear, of_material]
+            .into_iter()
+            .flatten()
+            .fold(f64::INFINITY, f64::min)
+    }
+
+    /// The problem with material and shear strength at a temperature \[°C]; those that do not depend on it stay the same.
+    ///
+    /// # Errors
+    /// [`SceneError`] for a temperature outside the range of the shift law.
+    pub(super) fn at_temperature(&self, celsius: f64) -> Result<Self, SceneError> {
+        let mut problem = self.clone();
+        if let Some(shifted) = self.parts.half_space.at(celsius) {
+            let half_space = shifted?;
+            let not_reduced = |error: RheologyError| SceneError::at("material", error.to_string());
+            problem.simple = simple(&*half_space.material).map_err(not_reduced)?;
+            problem.parts.half_space = Arc::new(half_space);
+        }
+        if let Some(shear) = &mut problem.shear {
+            shear.temperature = Some(celsius);
+        }
+        Ok(problem)
     }
 
     /// Length of the closed track, after which the body returns to the same place, \[m]; `None` without a track.

@@ -204,7 +204,7 @@ pub(super) fn solve(first: Plan, watch: &dyn Progress) -> Result<Answer> {
 
 /// The plan of a method for a problem with another accuracy. A closed form may refuse a finer request, for which another method is
 /// chosen unless the scene names one.
-fn plan_again(problem: &Problem, method: Method) -> Result<Plan<'_>> {
+pub(super) fn plan_again(problem: &Problem, method: Method) -> Result<Plan<'_>> {
     match work(problem, method) {
         Ok(work) => Ok(Plan {
             problem,

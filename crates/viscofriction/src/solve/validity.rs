@@ -43,6 +43,9 @@ pub(super) fn warnings(problem: &Problem, answer: &Answer) -> Vec<Warning> {
         });
     }
     warnings.extend(coupling_warning(problem));
+    if problem.heating().is_some() && dissipates(problem) && !problem.has_shift_law() {
+        warnings.push(Warning::ModuliWithoutTemperature);
+    }
     warnings.extend(extrapolation_warning(problem, answer).or_else(|| duration_warning(problem)));
     warnings.extend(shortest_octave_warning(body, answer));
     warnings
@@ -95,14 +98,20 @@ fn shortest_octave_warning(body: &Body, answer: &Answer) -> Option<Warning> {
     without.warning(answer, surface.rms_slope())
 }
 
+/// True unless the material is a spring.
+fn dissipates(problem: &Problem) -> bool {
+    problem.simple() != Some(&Simple::Elastic)
+}
+
 /// Effects in a measurement that no method models for this kind of scene.
 pub(super) fn not_modelled(problem: &Problem) -> Vec<&'static str> {
     let slides = matches!(problem.motion(), Motion::Sliding(_) | Motion::Moving(_));
-    let dissipates = problem.simple() != Some(&Simple::Elastic);
+    let dissipates = dissipates(problem);
+    let is_heated = slides && (dissipates || problem.shear().is_some());
     let words = [
         ("adhesion", true),
         ("strain dependence", dissipates),
-        ("heating", slides && dissipates),
+        ("heating", is_heated && problem.heating().is_none()),
         ("interfacial shear", slides && problem.shear().is_none()),
     ];
     words

@@ -40,6 +40,15 @@ pub enum Warning {
         /// True on a layer, where there is coupling for every Poisson ratio.
         is_layer: bool,
     },
+    /// Heat does not change the moduli, because the material has no shift law.
+    ModuliWithoutTemperature,
+    /// The friction heats the contact to one of two temperatures; the answer is that of the lower one.
+    SecondTemperature {
+        /// The higher temperature, \[°C].
+        temperature: f64,
+        /// Friction coefficient at the higher temperature; `None` if it is not known.
+        friction_coefficient: Option<f64>,
+    },
     /// Friction comes from frequencies at which the material was not measured.
     UnmeasuredFrequencies {
         /// Fractions of the friction from frequencies below and above the measured ones.
@@ -119,6 +128,24 @@ impl fmt::Display for Warning {
                      and area change by a part of the order of {coupling:.2} times the friction coefficient from shear",
                     Rounded(*poisson_ratio)
                 )
+            }
+            Self::ModuliWithoutTemperature => out.write_str(
+                "the material has no shift law, so that its moduli are the same at every temperature; fit-material finds one from moduli \
+                 at several temperatures",
+            ),
+            Self::SecondTemperature {
+                temperature,
+                friction_coefficient,
+            } => {
+                write!(
+                    out,
+                    "friction increases with temperature and keeps the contact at one of two temperatures: this answer is that of the \
+                     lower one, which is reached from rest; the other is about {temperature:.0} °C"
+                )?;
+                match friction_coefficient {
+                    Some(friction) => write!(out, ", with the friction coefficient {friction:.1e}"),
+                    None => Ok(()),
+                }
             }
             Self::UnmeasuredFrequencies {
                 outside,

@@ -45,6 +45,8 @@ const PRESSED_CYLINDER: Refusal = "it takes bodies that end, and a cylinder does
 /// Refusal of a shear strength by a closed form that gives friction alone.
 const NO_AREA: Refusal =
     "the table of s(p) does not give the contact area, on which the shear of the interface acts";
+/// Refusal of heat by a closed form.
+const NO_PRESSURE: Refusal = "it gives no pressure on elements, by which the heat of the contact is distributed; bem-steady does";
 /// Refusal of sliding at a given depth.
 const UNDER_FORCE: Refusal = "it slides under a force, not at a depth";
 /// Refusal of a material with a range of valid frequencies.
@@ -91,6 +93,10 @@ pub(super) fn work(problem: &Problem, method: Method) -> Offer<'_> {
         require(is_elastic || has_front(problem.body()), NO_FRONT)?;
         return moved(problem, load, method, accuracy);
     }
+    require(
+        method != Analytic || problem.heating().is_none(),
+        NO_PRESSURE,
+    )?;
     let rises = has_front(problem.body()) || (is_elastic && method == Analytic);
     require(rises || !matches!(problem.motion(), Sliding(_)), NO_FRONT)?;
     match (problem.body(), method) {

@@ -63,6 +63,7 @@ pub fn with_sensitivity(
     answer: Answer,
     watch: &dyn Progress,
 ) -> Result<Answer> {
+    check_isothermal(problem)?;
     // Differentiate the answer by all numbers of the scene. If the method cannot, solve the problem again by boundary elements.
     let numbers = Numbers::new(scene, folder, read)?;
     let all = numbers.all().into_iter();
@@ -150,6 +151,7 @@ fn answer_with_derivatives(
 /// # Errors
 /// [`SceneError`] at the key to change.
 pub fn check_sensitivity(problem: &Problem, method: Method) -> std::result::Result<(), SceneError> {
+    check_isothermal(problem)?;
     let none = || {
         SceneError::at(
             "solve.method",
@@ -165,6 +167,16 @@ pub fn check_sensitivity(problem: &Problem, method: Method) -> std::result::Resu
         }
         _ => Err(none()),
     }
+}
+
+/// Rejects a problem with heat, in which every number also changes the temperature of the contact.
+pub(super) fn check_isothermal(problem: &Problem) -> std::result::Result<(), SceneError> {
+    if problem.heating().is_none() {
+        return Ok(());
+    }
+    let why = "derivatives are those at a given temperature, and here every number changes that of the contact, too; leave [heat] out and give \
+               material.file.temperature";
+    Err(SceneError::at("heat", why))
 }
 
 impl Sensitivity {

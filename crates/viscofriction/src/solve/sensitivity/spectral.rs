@@ -9,6 +9,7 @@ use serde::Serialize;
 use super::Sensitivity;
 use super::adjoint::AnswerChange;
 use super::adjoint::{self, Contact, check_surfaces};
+use super::check_isothermal;
 use crate::scene::{Method, SceneError};
 use crate::solve::answer::Answer;
 use crate::solve::error::{Result, SolveError};
@@ -57,6 +58,7 @@ pub fn spectral_sensitivity(
     answer: &Answer,
     watch: &dyn Progress,
 ) -> Result<SpectralSensitivity> {
+    check_isothermal(problem)?;
     let method = answer.method;
     let (Method::BemSteady, Motion::Sliding(load)) = (method, problem.motion()) else {
         return Err(SolveError::NoSpectralSensitivity { method });
@@ -96,6 +98,7 @@ pub fn check_spectral_sensitivity(
     problem: &Problem,
     method: Method,
 ) -> std::result::Result<(), SceneError> {
+    check_isothermal(problem)?;
     if !matches!(
         (method, problem.motion()),
         (Method::BemSteady, Motion::Sliding(_))

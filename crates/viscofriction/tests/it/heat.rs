@@ -1,0 +1,298 @@
+//! Heat of sliding: the temperature of the contact, and friction at this temperature.
+
+use std::f64::consts::PI;
+
+use serde_json::Value;
+use viscofriction::{Problem, Scene};
+
+use crate::support::{Folder, assert_close, number};
+
+/// A ball on a rubber with a shift law, on the branch where friction falls with temperature.
+const BALL: &str = "[indenter.sphere]\nradius = 5e-3\n[material.prony]\nequilibrium_modulus = 1e6\nbranches = [{ modulus = 1e7, \
+     relaxation_time = 1e-3 }, { modulus = 3e6, relaxation_time = 0.1 }]\nshift = { temperature = 20.0, temperature_range = [-20.0, 120.0], law = \
+     { wlf = [8.86, 101.6] } }\n[load]\nnormal_force = 1.0\nvelocity = 0.1\n[solve]\nrelative_error = 0.05\n";
+/// Shear that heats the ball by a few kelvin.
+const SHEAR: &str = "[interface.constant]\nshear_strength = 5e5\n";
+/// Heat of a rubber.
+const HEAT: &str = "[heat]\nconductivity = 0.25\ndiffusivity = 1.2e-7\n";
+
+/// A scene with other words in the place of some of its own.
+fn with(text: &str, [from, to]: [&str; 2]) -> String {
+    assert!(text.contains(from), "{from} is not in {text}");
+    text.replace(from, to)
+}
+
+/// Value and error of a temperature rise.
+fn rise(answer: &Value, name: &str) -> [f64; 2] {
+    ["", "_error"].map(|end| number(&answer["temperature_rise"], &format!("{name}{end}")))
+}
+
+/// Requires that two values differ by no more than the sum of their errors.
+#[track_caller]
+fn assert_within_bars(name: &str, [one, other]: [&Value; 2]) {
+    let error = format!("{name}_error");
+    let [a, b] = [one, other].map(|answer| number(answer, name));
+    let bars = [one, other].map(|answer| number(answer, &error));
+    assert!(
+        (a - b).abs() <= bars[0] + bars[1],
+        "{name}: {a} and {b}, bars {bars:?}"
+    );
+}
+
+/// An elastic ball is heated by its shear alone, uniformly on the disc of Hertz: 0.55542 and 0.73244 of q a/k at the Péclet number 1.
+#[test]
+fn the_shear_of_an_elastic_ball_heats_a_disc() {
+    let folder = Folder::new("heat-disc");
+    let (radius, force, modulus) = (5e-3, 1.0, 1e6);
+    let contact_radius = (3.0_f64 * force * radius / (16.0 * modulus)).cbrt();
+    let velocity = 2.0 * 1.2e-7 / contact_radius;
+    let answer = folder.answer(format!(
+        "[indenter.sphere]\nradius = {radius}\n[material.elastic]\nshear_modulus = {modulus}\n[load]\nnormal_force = {force}\nvelocity = \
+         {velocity}\n[solve]\nrelative_error = 5e-3\n{SHEAR}{HEAT}"
+    ));
+    let scale = 5e5 * velocity * contact_radius / 0.25;
+    for (name, expected) in [("mean", 0.55542), ("largest", 0.73244)] {
+        let [value, error] = rise(&answer, name);
+        let off = (value - expected * scale).abs();
+        assert!(
+            off <= error && error < 0.05 * value,
+            "{name}: {value} ± {error}, not {}",
+            expected * scale
+        );
+    }
+    assert!(
+        answer.get("effective_temperature").is_none(),
+        "nothing depends on it: {answer}"
+    );
+    assert_eq!(answer["not_modelled"], serde_json::json!(["adhesion"]));
+    let area = PI * contact_radius.powi(2);
+    let off = (number(&answer, "contact_area") / area - 1.0).abs();
+    assert!(off < 0.02, "the contact of Hertz: {off}");
+}
+
+/// Without friction to heat it, or with a perfect conductor, a contact has its isothermal friction to the last bit.
+#[test]
+fn a_perfect_conductor_keeps_the_isothermal_answer() {
+    let folder = Folder::new("heat-none");
+    let isothermal = folder.answer(format!("{BALL}{SHEAR}"));
+    let cold = with(HEAT, ["0.25", "1e30"]);
+    let conducting = folder.answer(format!("{BALL}{SHEAR}{cold}"));
+    for key in [
+        "friction_coefficient",
+        "friction_from_shear",
+        "contact_area",
+        "peak_pressure",
+        "indentation_depth",
+    ] {
+        let [one, other] = [&isothermal, &conducting].map(|answer| number(answer, key));
+        assert_eq!(one.to_bits(), other.to_bits(), "{key}: {one} and {other}");
+    }
+    assert!((number(&conducting, "effective_temperature") - 20.0).abs() < f64::EPSILON);
+}
+
+/// The friction with heat is the isothermal one at the effective temperature, which is that of the surroundings plus a mean rise.
+#[test]
+fn friction_is_that_at_the_effective_temperature() {
+    let folder = Folder::new("heat-effective");
+    let heated = folder.answer(format!("{BALL}{SHEAR}{HEAT}"));
+    let temperature = number(&heated, "effective_temperature");
+    assert!((22.0..40.0).contains(&temperature), "{temperature}");
+    // The same material at this temperature: with a shift law whose reference it is, and times that are shorter by a_T.
+    let factor = |celsius: f64| 10_f64.powf(-8.86 * (celsius - 20.0) / (101.6 + celsius - 20.0));
+    let times = [1e-3, 0.1].map(|time| format!("relaxation_time = {}", time * factor(temperature)));
+    let shifted = with(BALL, ["relaxation_time = 1e-3", &times[0]]);
+    let shifted = with(&shifted, ["relaxation_time = 0.1", &times[1]]);
+    let isothermal = folder.answer(format!("{shifted}{SHEAR}"));
+    for key in [
+        "friction_coefficient",
+        "friction_from_hysteresis",
+        "contact_area",
+    ] {
+        assert_within_bars(key, [&heated, &isothermal]);
+    }
+    let [mean, largest] = ["mean", "largest"].map(|name| rise(&heated, name)[0]);
+    assert!(
+        mean < temperature - 20.0 + 1.0 && temperature - 20.0 < largest,
+        "{mean} {largest}"
+    );
+    let error = number(&heated, "friction_coefficient_error");
+    assert!(
+        error <= 0.05 * number(&heated, "friction_coefficient"),
+        "{error}"
+    );
+    let spread = number(&heated, "temperature_model_spread");
+    assert!(spread > 0.0, "{spread}");
+}
+
+/// A counterface that takes the heat of the shear leaves that of the bulk, and half of it lies between.
+#[test]
+fn the_counterface_takes_its_share() {
+    let folder = Folder::new("heat-share");
+    let [insulating, half, conducting] = ["\"insulating\"", "{ share = 0.5 }", "\"conducting\""]
+        .map(|word| folder.answer(format!("{BALL}{SHEAR}{HEAT}counterface = {word}\n")))
+        .map(|answer| rise(&answer, "mean")[0]);
+    assert!(conducting < 0.05 * insulating, "{conducting} {insulating}");
+    // Shear does not depend on the temperature here, and the area changes little with it.
+    assert_close("half", half, 0.5 * (insulating + conducting), 0.03);
+}
+
+/// Where friction grows with temperature, a contact may be kept at one of two temperatures: a warning names the hotter one.
+#[test]
+fn two_temperatures_are_told() {
+    let folder = Folder::new("heat-two");
+    let glassy = "[indenter.sphere]\nradius = 5e-3\n[material.prony]\nequilibrium_modulus = 1e6\nbranches = [{ modulus = 1e7, relaxation_time = \
+         1e-3 }]\nshift = { temperature = 20.0, temperature_range = [-20.0, 150.0], law = { wlf = [8.86, 101.6] } }\n[load]\nnormal_force = \
+         10.0\nvelocity = 0.2\n[solve]\nrelative_error = 0.1\n[heat]\nconductivity = 0.02\ndiffusivity = 1e-3\nambient_temperature = -18.0\n";
+    let cold = folder.answer(glassy);
+    assert!(number(&cold, "effective_temperature") < -15.0, "{cold}");
+    let warnings = cold["warnings"].as_array().expect("a list");
+    let is_told = warnings.iter().any(|one| {
+        one.as_str()
+            .is_some_and(|one| one.contains("one of two temperatures"))
+    });
+    assert!(is_told, "{warnings:?}");
+    // A much worse conductor has the hot state alone.
+    let hot = folder.answer(with(glassy, ["0.02", "0.0002"]));
+    assert!(number(&hot, "effective_temperature") > 20.0, "{hot}");
+}
+
+/// A periodic surface that slides for longer is hotter, and a material without a shift law keeps its moduli, with a warning.
+#[test]
+fn a_rough_surface_grows_hotter_with_time() {
+    let folder = Folder::new("heat-rough");
+    let at = |duration: f64| {
+        folder.answer(format!(
+            "[indenter.self-affine]\nperiod = [1e-2, 1e-2]\nhurst_exponent = 0.8\nrms_slope = 0.1\nlongest_wavelength = \
+             1e-2\nshortest_wavelength = 2.5e-3\nseed = 1\n[material.standard-solid]\nequilibrium_modulus = 1e6\nmaxwell_modulus = \
+             1e7\nviscosity = 1e4\n[load]\nmean_pressure = 1e5\nvelocity = 0.1\n[solve]\nrelative_error = 0.05\n{SHEAR}{HEAT}duration = \
+             {duration}\n"
+        ))
+    };
+    let [early, late] = [1.0, 100.0].map(at);
+    let [of_early, of_late] = [&early, &late].map(|answer| rise(answer, "mean"));
+    // The waves are as hot as before; the mean flux has heated the surface by 2 Q √(t/(π k ρ c)).
+    let flux = number(&late, "friction_coefficient") * 1e5 * 0.1;
+    let growth = 2.0 * flux / 0.25 * (1.2e-7 / PI).sqrt() * (10.0 - 1.0);
+    let off = (of_late[0] - of_early[0]) / growth - 1.0;
+    assert!(off.abs() < 0.02, "{of_early:?} {of_late:?} {growth}");
+    let warnings = late["warnings"].as_array().expect("a list");
+    let is_told = warnings
+        .iter()
+        .any(|one| one.as_str().is_some_and(|one| one.contains("no shift law")));
+    assert!(is_told, "{warnings:?}");
+    let [one, other] = [&early, &late].map(|answer| number(answer, "friction_coefficient"));
+    assert_eq!(
+        one.to_bits(),
+        other.to_bits(),
+        "the moduli stay: {one} {other}"
+    );
+}
+
+#[test]
+fn heat_is_refused_where_it_is_not_computed() {
+    let heated = |more: &str| format!("{BALL}{HEAT}{more}");
+    let periodic = "[indenter.self-affine]\nperiod = [1e-2, 1e-2]\nhurst_exponent = 0.8\nrms_slope = 0.1\nlongest_wavelength = \
+         1e-2\nshortest_wavelength = 5e-3\nseed = 1\n";
+    let periodic = with(
+        &heated(""),
+        ["[indenter.sphere]\nradius = 5e-3\n", periodic],
+    );
+    for (text, words) in [
+        (
+            with(&heated(""), ["diffusivity = 1.2e-7\n", ""]),
+            "give diffusivity [m²/s]",
+        ),
+        (
+            with(&heated(""), ["diffusivity = 1.2e-7", "density = 1e3"]),
+            "heat.density: beside density",
+        ),
+        (
+            with(&heated(""), ["diffusivity = 1.2e-7", "heat_capacity = 1e3"]),
+            "heat.heat_capacity: beside",
+        ),
+        (
+            heated("density = 1e3\n"),
+            "heat.diffusivity: the diffusivity follows",
+        ),
+        (
+            with(&heated(""), ["0.25", "-0.25"]),
+            "heat.conductivity must be finite and greater than 0",
+        ),
+        (
+            heated("counterface = { share = 1.5 }\n"),
+            "heat.counterface.share must be from 0 to 1",
+        ),
+        (heated("counterface = \"wet\"\n"), "heat.counterface"),
+        (
+            heated("duration = 1.0\n"),
+            "heat.duration: the temperature under a body",
+        ),
+        (
+            heated("ambient_temperature = 300.0\n"),
+            "heat.ambient_temperature",
+        ),
+        (
+            with(
+                &heated(""),
+                ["relative_error", "model = \"line\"\nrelative_error"],
+            ),
+            "boundary elements do",
+        ),
+        (
+            with(
+                &heated(""),
+                ["relative_error", "duration = 1.0\nrelative_error"],
+            ),
+            "stationary state",
+        ),
+        (
+            with(
+                &heated(""),
+                ["velocity = 0.1", "stroke = 1e-3\nfrequency = 1.0"],
+            ),
+            "constant load.velocity",
+        ),
+        (
+            with(
+                &heated(""),
+                ["velocity = 0.1", "velocity = 0.1\ntrack = 1.0"],
+            ),
+            "leave load.track out",
+        ),
+        (
+            with(&heated("[layer]\nthickness = 1e-2\n"), ["1e6", "1e6"]),
+            "leave the layer out",
+        ),
+        (
+            with(
+                &heated(""),
+                [
+                    "equilibrium_modulus",
+                    "poisson_ratio = 0.4\nequilibrium_modulus",
+                ],
+            ),
+            "poisson_ratio = 0.5",
+        ),
+        (
+            with(&periodic, ["normal_force = 1.0", "mean_pressure = 1e4"]),
+            "duration [s]",
+        ),
+    ] {
+        let refused = text
+            .parse::<Scene>()
+            .map_err(|error| error.to_string())
+            .and_then(|scene| Problem::try_from(&scene).map_err(|error| error.to_string()));
+        let refused = refused.err().unwrap_or_default();
+        assert!(refused.contains(words), "{words}: {refused:?}\n{text}");
+    }
+}
+
+/// A contact that heats itself beyond the range of its laws says so, with what was reached.
+#[test]
+fn a_contact_that_leaves_the_range_of_the_law_is_refused() {
+    let folder = Folder::new("heat-too-hot");
+    let text = with(&format!("{BALL}{SHEAR}{HEAT}"), ["120.0]", "21.0]"]);
+    folder.write("scene.toml", text);
+    let refused = folder.ends("scene.toml", 1, "beyond 21 °C");
+    assert!(refused.contains("would heat it to"), "{refused}");
+}
