@@ -4,6 +4,7 @@ use std::iter;
 
 use anyhow::Result;
 use viscofriction::Estimate;
+use viscofriction::bem_halfspace::Grid;
 use viscofriction::npy::to_npy;
 use viscofriction::scene::Source;
 use viscofriction::solve::{Answer, Curve, HistoryRow, Problem};
@@ -21,7 +22,8 @@ pub(super) const NAMES: &str = "result.json report.html realisations.csv history
     pressure.csv pressure.npy pressure.svg pressure.png pressure_x.npy pressure_y.npy \
     line_load.csv line_load.npy line_load.svg line_load.png \
     spectral_sensitivity.csv spectral_sensitivity.svg spectral_sensitivity.png \
-    line_pressure.csv line_pressure.npy line_pressure.svg line_pressure.png";
+    line_pressure.csv line_pressure.npy line_pressure.svg line_pressure.png \
+    temperature.csv temperature.npy temperature.svg temperature.png";
 
 /// Pictures with the names of their files, without extension, in the order of the report.
 pub(super) type Pictures = Vec<(&'static str, Figure)>;
@@ -55,7 +57,9 @@ pub(super) fn write(
         let names = format!("seed{}", names.collect::<String>());
         out.write("realisations.csv", &to_csv(&names, rows)?)?;
     }
-    write_pressure(answer, shown(source, answer)?, (&out, &mut pictures))?;
+    let shown = shown(source, answer)?;
+    write_pressure(answer, shown, (&out, &mut pictures))?;
+    write_temperature(answer, shown, (&out, &mut pictures))?;
     write_line(answer, (&out, &mut pictures))?;
     write_history(answer, (&out, &mut pictures))?;
     let mut drawn = Pictures::new();
@@ -71,7 +75,7 @@ pub(super) fn write(
     out.finish()
 }
 
-/// Extent of the map of the pressure: the surroundings of a body, a period, or one of four mirror images.
+/// Extent of the maps of the pressure and the temperature: the surroundings of a body, a period, or one of four mirror images.
 fn shown(source: &Source, answer: &Answer) -> Result<Shown> {
     let scene = source.table()?;
     let map = scene
@@ -95,24 +99,73 @@ fn write_pressure(
     let Some(field) = &answer.fields.pressure else {
         return Ok(());
     };
-    let [x, y] = [0, 1].map(|axis| {
-        let [origin, spacing] = [field.origin[axis], field.grid.spacing()[axis]];
-        let place = |index: usize| origin + index as f64 * spacing;
-        let places = (0..field.grid.shape()[axis]).map(place);
-        places.collect::<Vec<f64>>()
-    });
-    // Rows run along x, as in height maps.
-    let places = (0..y.len()).flat_map(|row| (0..x.len()).map(move |column| [column, row]));
-    let pressure = |[column, row]: [usize; 2]| field.pressure[column * y.len() + row];
-    let pressures: Vec<f64> = places.clone().map(pressure).collect();
-    let rows = places.zip(&pressures);
-    let table = rows.map(|([column, row], pressure)| [x[column], y[row], *pressure]);
-    out.write("pressure.csv", &to_csv("x_m y_m pressure_pa", table)?)?;
-    out.write("pressure.npy", &to_npy(&pressures, &[y.len(), x.len()]))?;
+    let [x, y] = write_field(
+        ("pressure", "pressure_pa"),
+        (&field.grid, field.origin),
+        &field.pressure,
+        out,
+    )?;
     out.write("pressure_x.npy", &to_npy(&x, &[x.len()]))?;
     out.write("pressure_y.npy", &to_npy(&y, &[y.len()]))?;
     pictures.push(("pressure", pictures::pressure(answer, field, shown)?));
     Ok(())
+}
+
+/// Writes the temperature rise of the surface as temperature.csv and temperature.npy, at the places of the pressure, and adds its
+/// picture; of a line contact it is one line along x.
+fn write_temperature(
+    answer: &Answer,
+    shown: Shown,
+    (out, pictures): (&NewFiles<'_>, &mut Pictures),
+) -> Result<()> {
+    let Some(field) = &answer.fields.temperature else {
+        return Ok(());
+    };
+    let places = (&field.grid, field.origin);
+    let [x, _] = write_field(
+        ("temperature", "temperature_rise_k"),
+        places,
+        &field.rise,
+        out,
+    )?;
+    let figure = if answer.is_per_length {
+        let along = x.iter().zip(&field.rise).map(|(x, rise)| [*x, *rise]);
+        pictures::curve("position x [m]", "temperature rise [K]", along.collect())
+    } else {
+        pictures::temperature(field, shown)
+    };
+    pictures.push(("temperature", figure));
+    Ok(())
+}
+
+/// Writes a field on the elements of a grid, whose first element has its centre at `origin` \[m], as NAME.csv and as NAME.npy,
+/// row-major with the shape (n_y, n_x), and returns the coordinates along x and y, \[m].
+fn write_field(
+    (name, column): (&str, &str),
+    (grid, origin): (&Grid, [f64; 2]),
+    values: &[f64],
+    out: &NewFiles<'_>,
+) -> Result<[Vec<f64>; 2]> {
+    let [x, y] = [0, 1].map(|axis| {
+        let place = |index: usize| origin[axis] + index as f64 * grid.spacing()[axis];
+        let places = (0..grid.shape()[axis]).map(place);
+        places.collect::<Vec<f64>>()
+    });
+    // Rows run along x, as in height maps.
+    let places = (0..y.len()).flat_map(|row| (0..x.len()).map(move |column| [column, row]));
+    let value = |[column, row]: [usize; 2]| values[column * y.len() + row];
+    let ordered: Vec<f64> = places.clone().map(value).collect();
+    let rows = places.zip(&ordered);
+    let table = rows.map(|([column, row], value)| [x[column], y[row], *value]);
+    out.write(
+        &format!("{name}.csv"),
+        &to_csv(&format!("x_m y_m {column}"), table)?,
+    )?;
+    out.write(
+        &format!("{name}.npy"),
+        &to_npy(&ordered, &[y.len(), x.len()]),
+    )?;
+    Ok([x, y])
 }
 
 /// Writes the line load and the line pressure over the position, as CSV and NPY with the shape (n, 2), and adds their pictures.

@@ -1,6 +1,8 @@
 //! Pictures of one answer.
 
 use anyhow::{Context, Result};
+use viscofriction::bem_halfspace::Grid;
+use viscofriction::solve::TemperatureField;
 use viscofriction::{Answer, PressureField};
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Field, Figure, Line, Marker, Series, Shape};
 
@@ -31,12 +33,7 @@ const MAX_SIDE_RATIO: f64 = 6.0;
 /// Map of the pressure, on a logarithmic scale if the peak is unbounded.
 pub(super) fn pressure(answer: &Answer, field: &PressureField, shown: Shown) -> Result<Figure> {
     let slides = answer.friction_coefficient.is_some();
-    let [columns, rows] = field.grid.shape();
-    let window = match shown {
-        Shown::Body => Window::around_body(field, slides),
-        Shown::Period => Window::of_elements([0..columns, 0..rows]),
-        Shown::Quarter => Window::of_elements([0..columns / 2, 0..rows / 2]),
-    };
+    let map = Map::of(&field.grid, field.origin, (shown, slides));
     let loaded = field.pressure.iter().filter(|pressure| **pressure > 0.0);
     let mut loaded: Vec<f64> = loaded.copied().collect();
     loaded.sort_by(f64::total_cmp);
@@ -45,10 +42,7 @@ pub(super) fn pressure(answer: &Answer, field: &PressureField, shown: Shown) -> 
         Some(_) => 0.0,
         None => darkest(&loaded, highest),
     };
-    let [x, y] = [0, 1].map(|axis| window.range(field, axis));
-    let ratio = (y[1] - y[0]) / (x[1] - x[0]);
-    let is_true = ratio.max(ratio.recip()) <= MAX_SIDE_RATIO;
-    let label = if loaded[0] < lowest && (ratio > TALL || !is_true) {
+    let label = if loaded[0] < lowest && (map.ratio > TALL || !map.is_true) {
         "pressure P, darkest: 1 % of load [Pa]"
     } else {
         "pressure P [Pa]"
@@ -57,43 +51,103 @@ pub(super) fn pressure(answer: &Answer, field: &PressureField, shown: Shown) -> 
         Some(_) => Axis::linear(label, [lowest, highest]),
         None => Axis::log10(label, [lowest, highest]),
     };
-    let pressures = Field::new(window.shape(), colours, |column, row| {
-        let [x, y] = window.element(field, [column, row])?;
-        let pressure = field.pressure[x * rows + y];
+    let drawn = |element: usize| {
+        let pressure = field.pressure[element];
         (pressure > 0.0).then(|| pressure.max(lowest))
-    });
-    let pressures = if is_true {
-        pressures
-    } else {
-        pressures.stretched()
     };
-    let title = match (shown, slides) {
-        _ if !is_true => Some("x and y to different scales"),
-        (Shown::Body, _) | (Shown::Period, false) => None,
-        (Shown::Period, true) => Some("motion →"),
-        (Shown::Quarter, true) if ratio < WIDE[0] => Some("motion →; one of four mirror images"),
-        (Shown::Quarter, true) => Some("motion →"),
-        (Shown::Quarter, false) => Some("one of four"),
-    };
-    let mut series = Vec::new();
-    if shown == Shown::Body {
-        let cross = Marker::filled(Shape::Plus);
-        // A contact that has moved far away from the lowest point is drawn without it.
-        if [x, y].iter().all(|[from, to]| *from < 0.0 && 0.0 < *to) {
-            series.push(Series::markers(vec![[0.0, 0.0]], cross, Colour::Red));
-        }
-        if slides {
-            series.push(arrow(x, y, is_true));
+    Ok(map.figure(colours, drawn))
+}
+
+/// Map of the temperature rise of the surface, also outside the contact.
+pub(super) fn temperature(field: &TemperatureField, shown: Shown) -> Figure {
+    let map = Map::of(&field.grid, field.origin, (shown, true));
+    let highest = field.rise.iter().copied().fold(0.0, f64::max);
+    // Without heat there is one colour, and its scale needs a length.
+    let highest = if highest > 0.0 { highest } else { 1.0 };
+    let colours = Axis::linear("temperature rise [K]", [0.0, highest]);
+    // Ahead of a fast contact the rise is zero within its error, which may be negative.
+    map.figure(colours, |element| Some(field.rise[element].max(0.0)))
+}
+
+/// A map of a field on the elements of a grid.
+struct Map {
+    window: Window,
+    /// Shape of the grid.
+    shape: [usize; 2],
+    /// Ends along x and y, \[m].
+    ranges: [[f64; 2]; 2],
+    /// Ratio of height to width.
+    ratio: f64,
+    /// True if both axes have the same scale.
+    is_true: bool,
+    shown: Shown,
+    slides: bool,
+}
+
+impl Map {
+    /// The map of a field whose first element has its centre at `origin` \[m].
+    fn of(grid: &Grid, origin: [f64; 2], (shown, slides): (Shown, bool)) -> Self {
+        let shape @ [columns, rows] = grid.shape();
+        let window = match shown {
+            Shown::Body => Window::around_body(grid, origin, slides),
+            Shown::Period => Window::of_elements([0..columns, 0..rows]),
+            Shown::Quarter => Window::of_elements([0..columns / 2, 0..rows / 2]),
+        };
+        let ranges = [0, 1].map(|axis| window.range(axis, origin[axis], grid.spacing()[axis]));
+        let [x, y] = ranges;
+        let ratio = (y[1] - y[0]) / (x[1] - x[0]);
+        Self {
+            window,
+            shape,
+            ranges,
+            ratio,
+            is_true: ratio.max(ratio.recip()) <= MAX_SIDE_RATIO,
+            shown,
+            slides,
         }
     }
-    let [x, y] = [Axis::linear("x [m]", x), Axis::linear("y [m]", y)];
-    Ok(Figure::single(Chart {
-        title: title
-            .filter(|_| ratio < WIDE[1] || !is_true)
-            .map(str::to_owned),
-        series,
-        ..Chart::map(x, y, pressures)
-    }))
+
+    /// Draws the value of each element; one without a value is blank.
+    fn figure(&self, colours: Axis, value: impl Fn(usize) -> Option<f64>) -> Figure {
+        let values = Field::new(self.window.shape(), colours, |column, row| {
+            let [x, y] = self.window.element(self.shape, [column, row])?;
+            value(x * self.shape[1] + y)
+        });
+        let values = if self.is_true {
+            values
+        } else {
+            values.stretched()
+        };
+        let title = match (self.shown, self.slides) {
+            _ if !self.is_true => Some("x and y to different scales"),
+            (Shown::Body, _) | (Shown::Period, false) => None,
+            (Shown::Quarter, true) if self.ratio < WIDE[0] => {
+                Some("motion →; one of four mirror images")
+            }
+            (Shown::Period | Shown::Quarter, true) => Some("motion →"),
+            (Shown::Quarter, false) => Some("one of four"),
+        };
+        let [x, y] = self.ranges;
+        let mut series = Vec::new();
+        if self.shown == Shown::Body {
+            let cross = Marker::filled(Shape::Plus);
+            // A contact that has moved far away from the lowest point is drawn without it.
+            if [x, y].iter().all(|[from, to]| *from < 0.0 && 0.0 < *to) {
+                series.push(Series::markers(vec![[0.0, 0.0]], cross, Colour::Red));
+            }
+            if self.slides {
+                series.push(arrow(x, y, self.is_true));
+            }
+        }
+        let [x, y] = [Axis::linear("x [m]", x), Axis::linear("y [m]", y)];
+        Figure::single(Chart {
+            title: title
+                .filter(|_| self.ratio < WIDE[1] || !self.is_true)
+                .map(str::to_owned),
+            series,
+            ..Chart::map(x, y, values)
+        })
+    }
 }
 
 /// Upper end of the darkest colour of a logarithmic scale; `loaded` are the positive pressures in increasing order.
@@ -118,12 +172,12 @@ impl Window {
     }
 
     /// All elements, the lowest point of the body, and below them room for an arrow if the body slides.
-    fn around_body(field: &PressureField, slides: bool) -> Self {
-        let spacing = field.grid.spacing();
+    fn around_body(grid: &Grid, origin: [f64; 2], slides: bool) -> Self {
+        let spacing = grid.spacing();
         let [x, mut y] = [0, 1].map(|axis| {
-            let count = field.grid.shape()[axis].cast_signed();
+            let count = grid.shape()[axis].cast_signed();
             #[expect(clippy::cast_possible_truncation, reason = "a number of elements")]
-            let lowest = (-field.origin[axis] / spacing[axis]).round() as isize;
+            let lowest = (-origin[axis] / spacing[axis]).round() as isize;
             // One element beyond the cross keeps it clear of the frame.
             let margin = 1 + count / 20;
             let limit = 2 * count;
@@ -144,20 +198,20 @@ impl Window {
         [&self.0[0], &self.0[1]].map(|range| range.clone().count())
     }
 
-    /// Ends of the window along an axis, \[m].
-    fn range(&self, field: &PressureField, axis: usize) -> [f64; 2] {
-        let [origin, spacing] = [field.origin[axis], field.grid.spacing()[axis]];
+    /// Ends of the window along an axis, on which the first element has its centre at `origin` and edges have the length `spacing`,
+    /// \[m].
+    fn range(&self, axis: usize, origin: f64, spacing: f64) -> [f64; 2] {
         let place = |element: isize| origin + (element as f64 - 0.5) * spacing;
         [place(self.0[axis].start), place(self.0[axis].end)]
     }
 
-    /// Element of the field at a column and a row of the window; `None` for a blank one.
-    fn element(&self, field: &PressureField, [column, row]: [usize; 2]) -> Option<[usize; 2]> {
+    /// Element of a grid at a column and a row of the window; `None` for a blank one.
+    fn element(&self, shape: [usize; 2], [column, row]: [usize; 2]) -> Option<[usize; 2]> {
         let at = |range: &std::ops::Range<isize>, index: usize, count: usize| {
             let element = usize::try_from(range.start + index.cast_signed()).ok()?;
             (element < count).then_some(element)
         };
-        let [columns, rows] = field.grid.shape();
+        let [columns, rows] = shape;
         Some([at(&self.0[0], column, columns)?, at(&self.0[1], row, rows)?])
     }
 }
