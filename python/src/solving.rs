@@ -259,6 +259,11 @@ fn other(py: Python<'_>, answer: Answer) -> PyResult<Bound<'_, PyDict>> {
         dictionary.set_item("origin", field.origin)?;
         dictionary.set_item("spacing", field.grid.spacing())?;
     }
+    if let Some(field) = answer.fields.temperature {
+        let shape = field.grid.shape();
+        let rise = field.rise.into_pyarray(py).reshape(shape)?;
+        dictionary.set_item("temperature", rise)?;
+    }
     let curve = answer.fields.curve;
     if !curve.times.is_empty() {
         let name = curve.name();

@@ -1,13 +1,13 @@
-"""Bodies, materials and interfaces with the keys of a scene, in SI. `cargo xtask kinds` writes this file."""
+"""Bodies, materials, interfaces and heat with the keys of a scene, in SI. `cargo xtask kinds` writes this file."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass
 from typing import Literal
 
-from ._tables import Body, Interface, Material
+from ._tables import Body, Heated, Interface, Material
 
 __all__ = [
     "Power",
@@ -37,6 +37,7 @@ __all__ = [
     "ConstantShear",
     "BellShear",
     "ShearFile",
+    "Heat",
 ]
 
 # Words of a scene.
@@ -490,3 +491,28 @@ class ShearFile(Interface):
 
     file: str | os.PathLike[str]
     _kind = "table"
+
+
+@dataclass(frozen=True)
+class Heat(Heated):
+    """Heat of sliding: the temperature of the contact is computed, and material and shear strength are those at this temperature.
+
+    ``conductivity``: Thermal conductivity k of the elastomer > 0, [W/m/K].
+    ``ambient_temperature``: Temperature of the elastomer far from the contact, [°C]; without it that of the material.
+    ``counterface``: What the body does with the heat of the interface.
+    ``density``: Density ρ of the elastomer > 0, [kg/m³].
+    ``diffusivity``: Thermal diffusivity k/(ρc) of the elastomer > 0, [m²/s]; without it density and heat_capacity are given.
+    ``duration``: Time > 0 for which a periodic surface has been sliding, [s]; its mean temperature grows with the root of it. Other bodies reach
+    a stationary temperature and need none.
+    ``heat_capacity``: Specific heat capacity c of the elastomer > 0, [J/kg/K].
+    """
+
+    conductivity: float
+    _: KW_ONLY
+    ambient_temperature: float | None = None
+    counterface: Literal["insulating", "conducting"] | Mapping[str, float] = "insulating"
+    density: float | None = None
+    diffusivity: float | None = None
+    duration: float | None = None
+    heat_capacity: float | None = None
+    _kind = ""

@@ -85,6 +85,14 @@ class Answer(Compared):
         peak_friction_error: Values | None
         dissipated_energy: Values | None
         dissipated_energy_error: Values | None
+        largest_temperature_rise: Values | None
+        largest_temperature_rise_error: Values | None
+        mean_temperature_rise: Values | None
+        mean_temperature_rise_error: Values | None
+        effective_temperature: Values | None
+        effective_temperature_error: Values | None
+        temperature_model_spread: Values | None
+        temperature_model_spread_error: Values | None
 
     def __init__(self, found: dict[str, Any], loads: dict[str, NDArray[np.float64]], shape: tuple[int, ...]) -> None:
         self._columns: dict[str, NDArray[np.float64]] = found["columns"]
@@ -180,6 +188,11 @@ class Answer(Compared):
     def y(self) -> NDArray[np.float64]:
         """Where the pressure is across the motion [m], relative to the lowest point."""
         return self._axis(1)
+
+    @property
+    def temperature(self) -> NDArray[np.float64]:
+        """Temperature rise [K] of the surface at the places of ``pressure``, of a single scene with heat; of a cylinder one row along x."""
+        return self._field("temperature").T
 
     @property
     def line_load(self) -> NDArray[np.float64]:

@@ -17,7 +17,7 @@ from ._arrays import numbers, text_of, together
 from ._bodies import HeightMap
 from ._kinds import Elastic, Method, Model, StrokeShape
 from ._results import Answer, not_reached
-from ._tables import Body, Interface, Material
+from ._tables import Body, Heated, Interface, Material, Table
 
 if TYPE_CHECKING:
     from ._results import MovingAnswer, SlidingAnswer
@@ -43,6 +43,7 @@ def slide(
     track: ArrayLike | None = None,
     thickness: ArrayLike | None = None,
     interface: Interface | None = None,
+    heat: Heated | None = None,
     model: Model | None = None,
     method: Method | None = None,
     relative_error: float | None = None,
@@ -57,7 +58,8 @@ def slide(
     Speed > 0 [m/s], and either normal force [N] or depth [m], or of a periodic surface mean pressure [Pa], are numbers or arrays that fit together; so are a sliding
     distance [m] from first touch, without which the state is stationary, and the thickness [m] of a layer. ``model="line"`` asks for the one-dimensional
     model, ``method`` for one of the program's methods. A ``track`` [m] is the length after which the body comes back to the
-    same place. With an ``interface`` the friction is the sum of hysteresis and shear in the contact. ``relative_error`` is asked of the friction coefficient, 1e-3 unless
+    same place. With an ``interface`` the friction is the sum of hysteresis and shear in the contact; with ``heat`` the temperature of the contact is
+    computed, and material and shear strength are those at this temperature. ``relative_error`` is asked of the friction coefficient, 1e-3 unless
     given; ``elements`` is a fixed resolution in its place. With ``sensitivity`` the answer has its derivatives by all numbers of
     the scene, too, and with ``spectral_sensitivity`` those by the storage and the loss modulus at each frequency.
 
@@ -78,7 +80,7 @@ def slide(
         model=model, method=method, relative_error=relative_error, elements=elements, threads=threads
     )
     derivatives = {"sensitivity": sensitivity, "spectral_sensitivity": spectral_sensitivity}
-    return cast("SlidingAnswer", _solved(body, material, loads, options, progress, derivatives, interface))
+    return cast("SlidingAnswer", _solved(body, material, loads, options, progress, derivatives, {"interface": interface, "heat": heat}))
 
 
 def move(
@@ -162,7 +164,7 @@ def solve(
 ) -> Answer:
     """The answer to a scene: a scene file, or the same as a dictionary.
 
-    In a dictionary bodies, materials and interfaces may stand in the place of their tables:
+    In a dictionary bodies, materials, interfaces and heat may stand in the place of their tables:
     ``{"indenter": Sphere(5e-3), "material": Viscous(1e4), "load": {"normal_force": 1.0, "velocity": 0.01}}``.
     With ``sensitivity`` the answer has its derivatives by all numbers of the scene, too, and with ``spectral_sensitivity`` those
     by the storage and the loss modulus at each frequency.
@@ -205,10 +207,10 @@ def _solved(
     options: dict[str, Any],
     progress: Progress,
     derivatives: dict[str, bool] | None = None,
-    interface: Interface | None = None,
+    tables: Mapping[str, Table | None] | None = None,
 ) -> Answer:
     scene = {"indenter": body, "material": material, "load": {"velocity": 0.0}, "solve": options}
-    scene |= given(interface=interface)
+    scene |= given(**(tables or {}))
     return ask(scene, *together(loads), progress, derivatives=derivatives)
 
 
@@ -227,9 +229,10 @@ def read(scene: Scene) -> tuple[dict[str, Any], str, Any]:
     body = table.get("indenter")
     if isinstance(body, HeightMap):
         heights = body.heights
-    for key, kind in (("indenter", Body), ("material", Material), ("interface", Interface)):
+    families = {"indenter": Body, "material": Material, "interface": Interface, "heat": Heated}
+    for key, kind in families.items():
         value = table.get(key)
-        if key == "interface" and value is None:
+        if key in ("interface", "heat") and value is None:
             table.pop(key, None)
             continue
         if isinstance(value, kind):

@@ -1,4 +1,4 @@
-"""Bodies, materials and interfaces as tables of a scene."""
+"""Bodies, materials, interfaces and heat as tables of a scene."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ class Table:
     """One table of a scene, whose keys are the fields. Numbers are checked when it is made."""
 
     _family: ClassVar[str]
+    #: Name of the table within that of its family; empty for a family of one kind.
     _kind: ClassVar[str]
     #: Lists of tables by their key, with the keys of each.
     _lists: ClassVar[Mapping[str, tuple[str, ...]]] = {}
@@ -30,7 +31,7 @@ class Table:
     def _table(self) -> dict[str, Any]:
         """The table as a scene has it."""
         keys = {field.name: self._value(field.name) for field in fields(self)}  # type: ignore[arg-type]
-        return {self._kind: keys}
+        return {self._kind: keys} if self._kind else keys
 
     def _value(self, key: str) -> Any:
         value, names = getattr(self, key), self._lists.get(key, ())
@@ -53,6 +54,12 @@ class Interface(Table):
     force."""
 
     _family = "interface"
+
+
+class Heated(Table):
+    """Heat of sliding, by which the temperature of the contact is computed."""
+
+    _family = "heat"
 
 
 class Material(Table):

@@ -1,4 +1,4 @@
-//! The files that list all bodies, materials and interfaces, written from the schema of the scene: the schema itself, the tables of keys
+//! The files that list all bodies, materials, interfaces and heat, written from the schema of the scene: the schema itself, the tables of keys
 //! on pages of `docs/`, and the Python classes.
 
 use std::fs;
@@ -11,19 +11,21 @@ use crate::ci::workspace_root;
 
 /// Definition and kind of a scene, and its class in Python, where the class is not the kind in camel case: those that read a file, and
 /// those whose kind does not say what they are.
-const CLASS_NAMES: [(&str, &str, &str); 6] = [
+const CLASS_NAMES: [(&str, &str, &str); 7] = [
     ("Indenter", "table", "ProfileFile"),
     ("Indenter", "height-map", "HeightMapFile"),
     ("MaterialTable", "file", "MaterialFile"),
     ("Interface", "constant", "ConstantShear"),
     ("Interface", "bell", "BellShear"),
     ("Interface", "table", "ShearFile"),
+    ("Heat", "", "Heat"),
 ];
 /// Definitions of the schema whose kinds are classes in Python, with the class that these are derived from.
-const FAMILIES: [(&str, &str); 3] = [
+const FAMILIES: [(&str, &str); 4] = [
     ("Indenter", "Body"),
     ("MaterialTable", "Material"),
     ("Interface", "Interface"),
+    ("Heat", "Heated"),
 ];
 /// The material whose class is not generated but written by hand, in `_materials.py`: its constructor takes branches.
 const BY_HAND: &str = "prony";
@@ -39,16 +41,16 @@ const CHOICES: [&str; 7] = [
 ];
 /// Begin of `_kinds.py`; `NAMES` is replaced by the quoted names of all classes, `CHOICES` by definitions of types.
 const HEAD: &str = "\
-\"\"\"Bodies, materials and interfaces with the keys of a scene, in SI. `cargo xtask kinds` writes this file.\"\"\"
+\"\"\"Bodies, materials, interfaces and heat with the keys of a scene, in SI. `cargo xtask kinds` writes this file.\"\"\"
 
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass
 from typing import Literal
 
-from ._tables import Body, Interface, Material
+from ._tables import Body, Heated, Interface, Material
 
 __all__ = [
     NAMES,
@@ -82,7 +84,8 @@ pub(crate) fn write() -> Result<()> {
 fn files() -> Result<Vec<(&'static str, String)>> {
     let (mut classes, mut names) = (HEAD.to_owned(), Vec::new());
     for (definition, base) in FAMILIES {
-        for kind in kinds(definition).iter().filter(|kind| kind.name != BY_HAND) {
+        let kinds = kinds_or_keys(definition);
+        for kind in kinds.iter().filter(|kind| kind.name != BY_HAND) {
             classes += &class(kind, (definition, base));
             names.push(format!("\"{}\"", class_name(definition, kind)));
         }
@@ -105,6 +108,20 @@ fn files() -> Result<Vec<(&'static str, String)>> {
         files.push((path, with_tables(&page)?));
     }
     Ok(files)
+}
+
+/// The kinds of a definition of the schema; of a definition without kinds one that has its keys, and no name.
+fn kinds_or_keys(definition: &str) -> Vec<Kind> {
+    let kinds = kinds(definition);
+    if !kinds.is_empty() {
+        return kinds;
+    }
+    let words = &schema()["$defs"][definition];
+    vec![Kind {
+        name: "",
+        sentence: words["description"].as_str().unwrap_or_default(),
+        keys: keys(words).collect(),
+    }]
 }
 
 /// The page with the present table between each pair of marks; an error if the second mark of a pair is missing.
@@ -315,11 +332,19 @@ fn type_of(key: &Key) -> String {
     name.to_owned()
 }
 
-/// Type in Python of a definition that lists words: `Literal["a", "b"]`.
+/// Type in Python of a definition that lists words, `Literal["a", "b"]`; a word with a number is a dictionary.
 fn literal(words: &Json) -> String {
     let choices = words["oneOf"].as_array().into_iter().flatten();
-    let choices: Vec<String> = choices.map(|choice| choice["const"].to_string()).collect();
-    format!("Literal[{}]", choices.join(", "))
+    let (words, numbers): (Vec<&Json>, Vec<&Json>) = choices
+        .map(|choice| &choice["const"])
+        .partition(|word| word.is_string());
+    let words: Vec<String> = words.into_iter().map(Json::to_string).collect();
+    let literal = format!("Literal[{}]", words.join(", "));
+    if numbers.is_empty() {
+        literal
+    } else {
+        format!("{literal} | Mapping[str, float]")
+    }
 }
 
 #[cfg(test)]
