@@ -18,24 +18,36 @@ pub(super) struct Unit {
 }
 
 impl Unit {
-    /// Reads symbols separated by blanks, those of the denominator behind one `/`, such as `Pa s` or `rad/s`. A newton is a
-    /// stress times an extent; angles and degrees Celsius count as numbers. Fails for other symbols.
+    /// Reads symbols separated by blanks, those of the denominator behind a `/` each, such as `Pa s`, `rad/s` or `W/m/K`. A newton is a
+    /// stress times an extent; angles and temperatures count as numbers. Fails for other symbols.
     pub(super) fn parse(text: &str) -> Result<Self> {
         let mut unit = Self::default();
-        let (above, below) = text.split_once('/').unwrap_or((text, ""));
-        for (symbols, power) in [(above, 1), (below, -1)] {
+        for (position, symbols) in text.split('/').enumerate() {
+            let sign = if position == 0 { 1 } else { -1 };
             for symbol in symbols.split_whitespace() {
-                match symbol {
-                    "m" => unit.length += power,
-                    "Pa" => unit.stress += power,
-                    "s" => unit.time += power,
-                    "N" => {
-                        unit.stress += power;
-                        unit.extent += power;
-                    }
-                    "1" | "rad" | "°C" => {}
+                let name = symbol.trim_end_matches(['²', '³']);
+                let power = sign
+                    * match &symbol[name.len()..] {
+                        "²" => 2,
+                        "³" => 3,
+                        _ => 1,
+                    };
+                // Powers of \[m], \[Pa], \[s] and of the extent.
+                let [length, stress, time, extent] = match name {
+                    "m" => [1, 0, 0, 0],
+                    "Pa" => [0, 1, 0, 0],
+                    "s" => [0, 0, 1, 0],
+                    "N" => [0, 1, 0, 1],
+                    "J" => [3, 1, 0, 0],
+                    "W" => [3, 1, -1, 0],
+                    "kg" => [1, 1, 2, 0],
+                    "1" | "rad" | "°C" | "K" => [0; 4],
                     _ => bail!("the unit {text:?} of a number of the scene is not known"),
-                }
+                };
+                unit.length += power * length;
+                unit.stress += power * stress;
+                unit.time += power * time;
+                unit.extent += power * extent;
             }
         }
         Ok(unit)

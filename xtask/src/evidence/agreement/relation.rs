@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use strum::{EnumIter, IntoEnumIterator as _, IntoStaticStr};
 use toml::{Table, Value};
 use viscofriction::scene::{
-    Approximation, Branch, Edges, Indenter, Layer, LoadPoint, MaterialTable, Method, Model,
-    MotionPoint, Scene,
+    Approximation, Branch, Indenter, Layer, LoadPoint, MaterialTable, Method, Model, MotionPoint,
+    Scene,
 };
 use viscofriction::solve::{Answer, plan};
 
@@ -185,7 +185,7 @@ impl Relation {
             Self::QuarterOfTheError => *scene.solve.relative_error.as_mut()? *= 0.25,
             Self::GivenElements => {
                 let moves = scene.load.stroke.is_some() || scene.load.motion.is_some();
-                let elements = match is_periodic(&scene.indenter) {
+                let elements = match scene.indenter.is_periodic() {
                     true if moves => ELEMENTS_OF_MOTION,
                     true => ELEMENTS_OF_PERIOD,
                     false => ELEMENTS,
@@ -251,8 +251,9 @@ fn other_method(first: Answered, random: &mut Random) -> Option<Method> {
 fn thick_layer(case: &mut Case) -> Option<()> {
     let thickness = THICKNESS_OVER_CONTACT * case.contact;
     let scene = &mut case.scene;
-    let is_periodic = is_periodic(&scene.indenter);
-    let is_half_space = scene.layer.is_none() && scene.solve.model.is_none();
+    let is_periodic = scene.indenter.is_periodic();
+    let is_half_space =
+        scene.layer.is_none() && scene.heat.is_none() && scene.solve.model.is_none();
     scene.layer = (is_half_space && !is_periodic).then_some(Layer { thickness });
     scene.layer.map(|_| ())
 }
@@ -264,22 +265,14 @@ fn long_track(case: &mut Case) -> Option<()> {
         indenter,
         load,
         solve,
+        heat,
         ..
     } = &mut case.scene;
-    let slides = load.velocity.is_some_and(|velocity| velocity > 0.0);
+    let slides = heat.is_none() && load.velocity.is_some_and(|velocity| velocity > 0.0);
     let ends = solve.duration.or(solve.sliding_distance).or(load.track);
-    let is_stationary = slides && ends.is_none() && !is_periodic(indenter);
+    let is_stationary = slides && ends.is_none() && !indenter.is_periodic();
     load.track = is_stationary.then_some(track);
     load.track.map(|_| ())
-}
-
-/// Whether the surface of the body repeats itself.
-fn is_periodic(indenter: &Indenter) -> bool {
-    match indenter {
-        Indenter::SelfAffine(_) | Indenter::Spectrum(_) => true,
-        Indenter::HeightMap(map) => map.edges != Edges::Wall,
-        _ => false,
-    }
 }
 
 /// Ratio of the creep compliance J(L/v) for the length L of a thick layer to that for half the contact length, at the speed v. It

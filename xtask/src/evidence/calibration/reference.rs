@@ -35,6 +35,9 @@ pub(super) fn closed_form(scene: &Scene, request: &Request, bar: f64) -> Result<
         Method::Analytic => return Ok(None),
         _ => {}
     }
+    if file.heat.is_some() {
+        return Ok(None);
+    }
     if scene.is("cylinder") && scene.is("kelvin-voigt standard-solid") && !presses {
         return cylinder(file).map(Some);
     }

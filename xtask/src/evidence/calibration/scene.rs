@@ -28,6 +28,7 @@ pub(super) struct Label {
     indenter: String,
     material: String,
     interface: String,
+    heat: String,
     load: String,
     solve: String,
 }
@@ -54,6 +55,10 @@ impl Scene {
             material: inline(&file.material)?,
             interface: match &file.interface {
                 Some(interface) => inline(interface)?,
+                None => String::new(),
+            },
+            heat: match &file.heat {
+                Some(heat) => inline(heat)?,
                 None => String::new(),
             },
             load: inline(&file.load)?,

@@ -7,8 +7,8 @@ use anyhow::Result;
 use toml::{Table, Value};
 use viscofriction::Files;
 use viscofriction::scene::{
-    Branch, Edges, EnergyUnit, Interface, Key, LoadPoint, Model, MotionPoint, Scene, Shift,
-    ShiftLaw, StrokeShape, Term, VerticalLaw,
+    Branch, Counterface, Edges, EnergyUnit, Heat, Interface, Key, LoadPoint, Model, MotionPoint,
+    Scene, Shift, ShiftLaw, StrokeShape, Term, VerticalLaw,
 };
 use viscofriction::solve::{Body, body, half_space};
 
@@ -61,6 +61,29 @@ impl Sample<'_> {
             activation_energy: None,
             activation_energy_unit: EnergyUnit::default(),
             reference_temperature: TEMPERATURES[0],
+        }
+    }
+
+    /// Heat of sliding, at Péclet numbers of 0.03 to 100, that heats a contact with a friction coefficient of a tenth by a hundredth of a
+    /// kelvin to a few kelvin.
+    pub(super) fn heat(&mut self) -> Heat {
+        let velocity = self.contact / self.contact_time;
+        let rise = 10_f64.powf(self.random.between([-2.0, 0.5]));
+        let peclet_number = 10_f64.powf(self.random.between([-1.5, 2.0]));
+        let share = self.random.uniform();
+        let counterfaces = [
+            Counterface::Insulating,
+            Counterface::Conducting,
+            Counterface::Share(share),
+        ];
+        Heat {
+            conductivity: 0.1 * self.stress * velocity * self.contact / rise,
+            diffusivity: Some(velocity * self.contact / peclet_number),
+            density: None,
+            heat_capacity: None,
+            ambient_temperature: None,
+            counterface: self.random.choice(&counterfaces),
+            duration: Some(self.contact_time * 10_f64.powf(self.random.between([0.0, 2.0]))),
         }
     }
 

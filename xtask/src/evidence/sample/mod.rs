@@ -338,6 +338,7 @@ pub(super) fn sample(random: &mut Random, source: &Source, folder: &Path) -> Res
             material,
             layer: is_thin.then_some(Layer { thickness }),
             interface: None,
+            heat: None,
             load: Load::default(),
             solve: Solve::default(),
             uncertainty: BTreeMap::new(),
@@ -355,7 +356,7 @@ pub(super) fn sample(random: &mut Random, source: &Source, folder: &Path) -> Res
             break;
         }
     }
-    // Draw the shear of the contact last and from a copy of the generator, so that all other numbers of this scene and of the next
+    // Draw the shear of the contact and its heat last and from a copy of the generator, so that all other numbers of this scene and of the next
     // ones are those that they have without shear. Scenes in which nothing slides at a constant velocity stay without.
     let mut copied = sample.random.clone();
     sample.random = &mut copied;
@@ -367,11 +368,28 @@ pub(super) fn sample(random: &mut Random, source: &Source, folder: &Path) -> Res
             case.scene.interface = None;
         }
     }
+    // Draw heat in the same way.
+    let heat = sample.heat();
+    if sample.random.uniform() < HEAT_SHARE {
+        case.scene.heat = Some(heat);
+        if !case.scene.indenter.is_periodic()
+            && let Some(heat) = &mut case.scene.heat
+        {
+            heat.duration = None;
+        }
+        let has_plan = |problem: Problem| plan(&problem).is_ok();
+        if !case.problem(folder).is_ok_and(has_plan) {
+            case.scene.heat = None;
+        }
+    }
     Ok(case)
 }
 
 /// Part of the scenes that have a shear strength, if something slides at a constant velocity. Chosen.
 const SHEAR_SHARE: f64 = 0.4;
+
+/// Part of the scenes that have heat, if something slides at a constant velocity. Chosen smaller, because each takes several solutions.
+const HEAT_SHARE: f64 = 0.25;
 
 /// Largest number of motions that are drawn for a body and a material until some method takes one. Chosen; the last one stays
 /// even if it is refused, since refusals have to be right too.
