@@ -66,7 +66,7 @@ pub fn low_speed_friction(
     let relaxation = solid.relaxation();
     // A fluid has no elastic limit at low speed.
     let modulus = positive("equilibrium_modulus", relaxation.equilibrium_modulus())?;
-    // `shift` is x_s = η_0 v/G_∞; the viscosity η_0 contains the lone dashpot and all branches.
+    // `shift` is x_s = η_0 v/G_∞; the viscosity η_0 contains the parallel dashpot and all branches.
     let shift = relaxation.zero_shear_viscosity() * contact.velocity / modulus;
     let line = shift * (squared_slope_integral(body, radius)?.value / moment);
     let force = 8.0 * (modulus / solid.half_space_factor()) * moment;
@@ -79,7 +79,7 @@ pub fn low_speed_friction(
 ///
 /// # Errors
 /// [`FrictionError::InvalidParameter`] or [`FrictionError::Indenter`] for a speed or a radius that is not positive, a radius
-/// that the body does not reach, or a lone dashpot;
+/// that the body does not reach, or a material with a parallel dashpot;
 /// [`FrictionError::NotConverged`] when an integral is known to less than ten digits.
 pub fn high_speed_friction(
     body: &dyn Axisymmetric,
@@ -90,7 +90,7 @@ pub fn high_speed_friction(
     let depth = checked_depth(body, contact)?;
     let moment = checked_moment(body, contact.contact_radius)?;
     let relaxation = solid.relaxation();
-    // A lone dashpot has no elastic limit at high speed.
+    // A material with a parallel dashpot has no elastic limit at high speed.
     let glass = positive("glass_modulus", relaxation.glass_modulus())?;
     // `rate` is α/G(0+), where α = Σ G_i/τ_i is the rate at which the modulus begins to fall.
     let branches = relaxation.branches().iter();

@@ -88,7 +88,7 @@ pub enum MdrError {
         /// Position on the line at which the largest number is exceeded, \[m].
         position: f64,
     },
-    /// The friction of a lone dashpot grows without limit at a cusp or kink (16), or too slowly to be summed.
+    /// The friction of a parallel dashpot diverges at a cusp or kink (16), or converges too slowly to be summed.
     #[error(
         "the friction integral does not converge at position {}, where the line is too steep for a dashpot",
         Rounded(*position)

@@ -52,8 +52,8 @@ pub fn press(
 
 /// Presses a line into an undeformed material under a constant force, or at a constant depth, for a time.
 ///
-/// Force and depth are known to `relative_error`, above 0 and below 1. A lone dashpot at a depth is pressed instantaneously
-/// and carries nothing afterwards.
+/// Force and depth are known to `relative_error`, above 0 and below 1. At a depth a parallel dashpot carries an impulse
+/// at first touch, and nothing afterwards.
 ///
 /// # Errors
 /// Like [`steady`](crate::steady()).

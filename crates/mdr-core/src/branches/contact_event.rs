@@ -138,7 +138,7 @@ impl ContactEvent<'_> {
             *variable = Foundation::free_stress(branch, &remaining);
         }
         let stresses = &mut self.history[..foundation.branches.len()];
-        // A lone dashpot resists a jump of the displacement, so that the element keeps the displacement to which it has
+        // A parallel dashpot resists a jump of the displacement, so that the element keeps the displacement to which it has
         // recovered.
         if !foundation.has_dashpot() {
             foundation.apply_strain_jump(stresses, imposed - displacement);

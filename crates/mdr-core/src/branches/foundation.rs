@@ -20,12 +20,12 @@ use crate::MdrError;
 
 /// The foundation at one speed, with distances v τ and v λ in the place of times.
 pub(crate) struct Foundation {
-    /// Unit of all stresses, \[Pa], so that their squares stay in range: the instantaneous modulus, or η₀ v over 1 m for a lone
-    /// dashpot.
+    /// Unit of all stresses, \[Pa], so that their squares stay in range: the instantaneous modulus, or η₀ v over 1 m if
+    /// the material is a dashpot alone.
     pub(crate) unit: f64,
     /// Equilibrium modulus G_∞ divided by the unit.
     pub(crate) spring: f64,
-    /// Lone dashpot η₀ v divided by the unit, \[m].
+    /// Parallel dashpot η₀ v divided by the unit, \[m].
     pub(crate) dashpot: f64,
     /// Maxwell branches, which carry the load in contact.
     pub(crate) branches: Vec<Branch>,
@@ -68,7 +68,8 @@ impl Foundation {
         let (relaxation, creep) = (material.relaxation(), material.creep());
         let half_space_factor = material.half_space_factor();
 
-        // The unit of stress is the instantaneous modulus. A lone dashpot has none; its unit is η₀ v divided by one metre.
+        // The unit of stress is the instantaneous modulus. Without spring and branches it is η₀ v
+        // divided by one metre.
         let dashpot = relaxation.viscosity() * velocity / half_space_factor;
         let moduli = relaxation.branches().iter().map(|branch| branch.modulus);
         let spring = relaxation.equilibrium_modulus() / half_space_factor;
@@ -123,7 +124,7 @@ impl Foundation {
         })
     }
 
-    /// True if the material has a lone dashpot.
+    /// True if the material has a parallel dashpot.
     pub(crate) fn has_dashpot(&self) -> bool {
         self.dashpot > 0.0
     }

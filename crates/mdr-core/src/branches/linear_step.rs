@@ -38,7 +38,7 @@ pub(crate) struct TimeStep {
     pub(crate) stiffness: f64,
     /// Equilibrium modulus G_∞ divided by the unit of stress.
     spring: f64,
-    /// Stiffness η₀/Δt of the lone dashpot over the step.
+    /// Stiffness η₀/Δt of the parallel dashpot over the step.
     dashpot: f64,
     /// Coefficients of the branches.
     branches: Vec<BranchGroup>,

@@ -49,7 +49,7 @@ pub(crate) struct SegmentSolution {
 }
 
 impl Foundation {
-    /// The shortest distance of relaxation, \[m]; 0 with a lone dashpot, infinite for an elastic foundation.
+    /// The shortest distance of relaxation, \[m]; 0 with a parallel dashpot, infinite for an elastic foundation.
     pub(crate) fn shortest_length(&self) -> f64 {
         if self.dashpot > 0.0 {
             return 0.0;
@@ -66,7 +66,7 @@ impl Foundation {
         self.spring * length + self.dashpot + relaxing
     }
 
-    /// Bounds of the changes by a jump δ of the displacement that is neglected in the lone dashpot only.
+    /// Bounds of the changes by a jump δ of the displacement that is neglected in the parallel dashpot only.
     ///
     /// The displacement changes by `rate` at the jump, in depths per metre.
     pub(crate) fn dashpot_sensitivity(&self, rate: f64) -> JumpSensitivity {
@@ -99,7 +99,7 @@ impl Foundation {
         let dashpot = self.dashpot * per_length;
         let rise = segment.end() - start_value(&segment.displacements);
 
-        // The solution begins with the spring and the lone dashpot, whose load follows the displacement and its rate without delay.
+        // The solution begins with the spring and the parallel dashpot, whose load follows the displacement and its rate without delay.
         let mut solution = SegmentSolution {
             smooth: [0.0; MAX_TERMS],
             n_terms: rates.len(),

@@ -5,7 +5,7 @@
 //! q_k(t) = ∫ e^(−(t − s)/τ_k) ḋ ds        P_k(t) = ∫ e^(−(t − s)/τ_k) a(D) ḋ ds        D(s) = max d(s') up to s
 //! ```
 //! d is the depth, D its largest value so far, and a(D) the radius at which the line reaches the depth D. The branches G_k, τ_k
-//! include the lone spring, with 1/τ = 0. The element at the edge came into contact at t₁ and carries w. Where the contact
+//! include the equilibrium spring, with 1/τ = 0. The element at the edge came into contact at t₁ and carries w. Where the contact
 //! shrinks w = 0, so that ∂F/∂t₁ ∝ w vanishes (Ting 1966, J. Appl. Mech. 33, 845).
 //!
 //! For each point of the path [`Approach::follow`] integrates q_k, and P_k while the contact grows, and finds t₁ by Halley's
@@ -84,11 +84,11 @@ pub(super) struct Approach {
     radii: Radii,
     /// Error of the sum of the loads by the polynomials of the radii, \[Pa m²].
     load_error: f64,
-    /// Moduli G_k of the branches, the lone spring last, \[Pa].
+    /// Moduli G_k of the branches, the equilibrium spring last, \[Pa].
     pub(super) moduli: Vec<f64>,
-    /// Rates 1/τ_k of the branches, 0 of the lone spring, \[1/s].
+    /// Rates 1/τ_k of the branches, 0 of the equilibrium spring, \[1/s].
     pub(super) rates: Vec<f64>,
-    /// Viscosity η₀ of the lone dashpot, \[Pa s].
+    /// Viscosity η₀ of the parallel dashpot, \[Pa s].
     pub(super) viscosity: f64,
     /// The integrals now; those of the load only as long as the contact grows.
     pub(super) now: HistoryIntegrals,

@@ -5,7 +5,7 @@
 //! Φ_k(t) = e^(−(t − s)/τ_k) Φ_k(s) + G_k ∫ e^(−(t − s')/τ_k) ḋ a ds'      while the contact grows over new elements
 //! ```
 //! d is the depth, a the contact radius, and ν the Poisson ratio. σ_k is the stress of branch k with the modulus G_k and the
-//! relaxation time τ_k in one element, and η₀ the viscosity of the lone dashpot.
+//! relaxation time τ_k in one element, and η₀ the viscosity of the parallel dashpot.
 //!
 //! The contact is a stack of rings in the order in which their elements came into contact. Each ring has the Φ_k of
 //! everything inside it at the moment it began. All elements inside stay in contact from then on, so that the Φ_k follow

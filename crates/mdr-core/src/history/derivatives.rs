@@ -22,7 +22,7 @@ pub struct ForceDerivatives {
     pub contact_radius: Vec<f64>,
     /// Derivative ∂F/∂G_∞ by the equilibrium modulus, \[m²].
     pub equilibrium_modulus: Vec<f64>,
-    /// Derivative ∂F/∂η₀ by the viscosity of the lone dashpot, [m²/s].
+    /// Derivative ∂F/∂η₀ by the viscosity of the parallel dashpot, [m²/s].
     pub viscosity: Vec<f64>,
     /// Derivatives ∂F/∂G_k by the moduli, \[m²], branch by branch in the order of the relaxation spectrum.
     pub moduli: Vec<Vec<f64>>,

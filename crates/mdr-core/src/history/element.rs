@@ -169,7 +169,7 @@ impl LineElements<'_> {
                 *strain -= rate * coupling;
             }
         }
-        // A lone spring is stretched by the whole displacement.
+        // The equilibrium spring is stretched by the whole displacement.
         for (strain, rate) in strains.iter_mut().zip(&path.rates) {
             if *rate == 0.0 {
                 *strain = height;

@@ -136,7 +136,7 @@ impl ForceHistory<'_> {
         curve.iter().map(point).collect()
     }
 
-    /// Orders of the errors in the length of the parts: a lone dashpot adds the first, because its load has the speed of the
+    /// Orders of the errors in the length of the parts: a parallel dashpot adds the first, because its load has the speed of the
     /// whole part at its end.
     fn orders(&self) -> &'static [i32] {
         let has_dashpot = self.material.relaxation().viscosity() > 0.0;

@@ -4,7 +4,7 @@
 //! w(x, t) = η₀ ḋ + ∫_s^t G(t − t') ḋ dt'        of an element in contact since s(x), as long as w > 0
 //! F(t) = 8/(2 (1 − ν)) ∫₀^a w dx
 //! ```
-//! d is the depth, a the contact radius, and ν the Poisson ratio. G is the relaxation modulus without the lone dashpot, whose
+//! d is the depth, a the contact radius, and ν the Poisson ratio. G is the relaxation modulus without the parallel dashpot, whose
 //! viscosity is η₀.
 //!
 //! Each element of the line comes into contact and separates on its own. On a half space that is exact as long as the
@@ -47,7 +47,7 @@ pub struct CurvePoint {
     pub time: f64,
     /// Depth d of the lowest point, \[m].
     pub indentation_depth: Estimate,
-    /// Normal force F_N, \[N], at the end of the segment that leads there: with a lone dashpot it jumps where the speed does.
+    /// Normal force F_N, \[N], at the end of the segment that leads there: with a parallel dashpot it jumps where the speed does.
     pub normal_force: Estimate,
     /// Radius a of the contact circle, \[m]; 0 without contact.
     pub contact_radius: Estimate,
@@ -102,7 +102,7 @@ impl Default for HistoryOptions {
 ///
 /// # Errors
 /// - [`MdrError::InvalidParameter`] for times that decrease, forces below 0, force and depth in one history, and a jump of the
-///   depth on a material with a lone dashpot; [`MdrError::Empty`] without points.
+///   depth on a material with a parallel dashpot; [`MdrError::Empty`] without points.
 /// - [`MdrError::Indenter`] when the line of the body turns down or ends before the largest depth.
 /// - [`MdrError::DepthBeyondEdge`] when the contact would reach a vertical edge, as the equator of a sphere;
 ///   [`MdrError::ForceBeyondEdge`] when it would under a force, or the line turns down or ends.
@@ -197,7 +197,7 @@ fn follow_depths(
         positive("time between two depths", pair[1][0] - pair[0][0])?;
     }
     if spectrum.viscosity() > 0.0 && points[0][1] > 0.0 {
-        // A body that begins below the surface would jump to its first point, which a lone dashpot does not allow.
+        // A body that begins below the surface would jump to its first point, which a parallel dashpot does not allow.
         positive("time between two depths", 0.0)?;
     }
     let mut approach = Approach::new(radii.clone(), &spectrum, points.len(), false);

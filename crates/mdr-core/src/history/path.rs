@@ -1,7 +1,7 @@
 //! A piecewise linear path of the depth, and the integrals of the material over it.
 //!
 //! ```text
-//! q_k(t) = ∫ e^(−(t − s)/τ_k) ḋ(s) ds        a lone spring is a branch with 1/τ = 0
+//! q_k(t) = ∫ e^(−(t − s)/τ_k) ḋ(s) ds        the equilibrium spring is a branch with 1/τ = 0
 //! ```
 //! An element that stays in contact from the time s on has the stress σ_k(t) = G_k q_k(t) + r_k e^(−(t − s)/τ_k) in
 //! branch k, with r_k = −G_k q_k(s) if it was never in contact before, and the load w = η₀ ḋ + Σ σ_k.
@@ -39,11 +39,11 @@ pub(super) struct Path {
     pub(super) moduli: Vec<f64>,
     /// Rates 1/τ_k of the branches, \[1/s].
     pub(super) rates: Vec<f64>,
-    /// Viscosity η₀ of the lone dashpot, \[Pa s].
+    /// Viscosity η₀ of the parallel dashpot, \[Pa s].
     pub(super) viscosity: f64,
     /// Modes of recovery.
     modes: Vec<RecoveryMode>,
-    /// 1/(1/τ_k − 1/λ_j), mode by mode, \[s]; 0 of a lone spring.
+    /// 1/(1/τ_k − 1/λ_j), mode by mode, \[s]; 0 of the equilibrium spring.
     couplings: Arc<[f64]>,
     /// Points [time \[s], depth \[m]].
     points: Vec<[f64; 2]>,
@@ -126,12 +126,12 @@ impl Path {
         }
     }
 
-    /// Number of branches, the lone spring included.
+    /// Number of branches, the equilibrium spring included.
     pub(super) fn n_branches(&self) -> usize {
         self.moduli.len()
     }
 
-    /// The modes, each with 1/(1/τ_k − 1/λ) \[s] of all branches, 0 of the lone spring.
+    /// The modes, each with 1/(1/τ_k − 1/λ) \[s] of all branches, 0 of the equilibrium spring.
     pub(super) fn modes(&self) -> impl Iterator<Item = (&RecoveryMode, &[f64])> {
         let n = self.n_branches();
         let row = move |j: usize| &self.couplings[j * n..(j + 1) * n];
@@ -222,7 +222,7 @@ impl Path {
         }
     }
 
-    /// Relaxation modulus G(t − s) over the time of `lag`, \[Pa]; without the lone dashpot.
+    /// Relaxation modulus G(t − s) over the time of `lag`, \[Pa]; without the parallel dashpot.
     pub(super) fn modulus(&self, lag: &DecayedHistory) -> f64 {
         let branches = self.moduli.iter().zip(&lag.decays);
         branches.map(|(modulus, decay)| modulus * decay).sum()
@@ -255,8 +255,8 @@ impl Path {
 
     /// Direction of the edge, given the branch stresses of its element: positive outwards, negative inwards.
     ///
-    /// The sign is that of the depth where it jumps, of the load at this speed on a lone dashpot, and of the rate of the load otherwise;
-    /// 0 if it is rounding.
+    /// The sign is that of the depth where it jumps, of the load at this speed with a parallel dashpot, and of the rate of the load
+    /// otherwise; 0 if it is rounding.
     pub(super) fn edge_direction(&self, stresses: &[f64], at: SegmentTime) -> f64 {
         let speed = self.speed(at.segment);
         if self.step(at.segment) == 0.0 {

@@ -1,4 +1,4 @@
-//! Kinks at which the friction of a lone dashpot diverges.
+//! Kinks at which the friction diverges on a material with a parallel dashpot.
 //!
 //! Behind an upward jump of the slope of a body its equivalent line is as steep as the inverse root of the distance δ from
 //! the kink. ∫ h̃'² dx (16) then diverges like ln δ, which a sum over pieces would not show where the jump is small.

@@ -4,7 +4,7 @@
 //! w = G_∞ u + η₀ du/dt + Σ e_i                                loaded
 //! w = 0,   u = u_∞ − Σ β_k e^(−t/λ_k)                         free
 //! ```
-//! w is the load of an element and u its displacement. G_∞ is the equilibrium modulus, η₀ the lone dashpot, e_i the stress of
+//! w is the load of an element and u its displacement. G_∞ is the equilibrium modulus, η₀ the parallel dashpot, e_i the stress of
 //! branch i. A free element recovers in modes of the amplitudes β_k and retardation times λ_k to the displacement u_∞.
 
 use crate::branches::{ContactEvent, Foundation, StepWork, TimeStep, n_history};

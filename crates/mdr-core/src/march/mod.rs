@@ -104,7 +104,8 @@ const CYCLE_TOLERANCE_ON_ELEMENTS: f64 = 1e-5;
 /// # Errors
 /// [`MdrError::MotionNotReached`] with the result of the finest resolution; [`MdrError::NoCycle`] for a reciprocating motion on
 /// a material that flows; [`MdrError::NotPeriodic`]; [`IndenterError::TooManySteps`](indenters::IndenterError::TooManySteps);
-/// [`MdrError::ContactReachesEdge`]; [`MdrError::FrictionDiverges`] for a kink or cusp on a lone dashpot; otherwise like [`slide`](crate::slide()).
+/// [`MdrError::ContactReachesEdge`]; [`MdrError::FrictionDiverges`] for a kink or cusp on a material with a parallel
+/// dashpot; otherwise like [`slide`](crate::slide()).
 pub fn move_along<'w>(
     line: &dyn RigidLine,
     material: &dyn Material,

@@ -120,7 +120,7 @@ pub struct SlidingStep {
 ///
 /// # Errors
 /// - [`MdrError::SlidingNotReached`] with the result of the finest resolution.
-/// - [`MdrError::FrictionDiverges`] for a kink or cusp on a lone dashpot.
+/// - [`MdrError::FrictionDiverges`] for a kink or cusp on a material with a parallel dashpot.
 /// - [`MdrError::ForceBeyondEdge`] when the stationary contact would reach the edge of the body (Remark 4), and
 ///   [`MdrError::ContactReachesEdge`] when the contact reaches the last element in front. The rear end of the line
 ///   may carry load: elements that pass it are free.

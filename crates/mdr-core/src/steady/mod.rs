@@ -83,7 +83,8 @@ pub struct SteadySliding {
 /// # Errors
 /// - [`MdrError::ForceBeyondEdge`], [`MdrError::DepthBeyondEdge`] when the contact would reach the edge of the body, or the
 ///   line ends in front before it carries the force (Remark 4).
-/// - [`MdrError::FrictionDiverges`] when a lone dashpot is under a line with p ≤ 1/2 or a kink that rises (16).
+/// - [`MdrError::FrictionDiverges`] for a line with p ≤ 1/2 or an upward jump of the slope on a material with a
+///   parallel dashpot (16).
 /// - [`MdrError::NotConverged`] when the estimated error stays above the one asked for.
 /// - [`MdrError::Indenter`] for a load that ends after a distance; see [`slide`](crate::slide()).
 /// - On a track [`MdrError::NoCycle`] for a material that flows, [`MdrError::TrackTooShort`] where the track is not longer than

@@ -51,7 +51,7 @@ pub(super) struct SweepSums {
     pub(super) work_error: f64,
     /// Contact intervals [rear, front], from front to rear, \[m].
     pub(super) contacts: Vec<[f64; 2]>,
-    /// Position at which the work of a lone dashpot diverges, \[m]; `None` if it converges.
+    /// Position at which the work of the parallel dashpot diverges, \[m]; `None` if it converges.
     pub(super) too_steep: Option<f64>,
     /// Number of polynomials of the line.
     pub(super) n_pieces: usize,
@@ -332,10 +332,10 @@ fn straight_parts(value: impl Fn(f64) -> f64) -> impl Iterator<Item = [f64; 2]> 
     points.into_iter()
 }
 
-/// Position t from which on the load would be tensile; `None` if it stays compressive. `may_jump` is true if a lone dashpot can
+/// Position t from which on the load would be tensile; `None` if it stays compressive. `may_jump` is true if a parallel dashpot can
 /// make the load jump at the beginning of the segment.
 fn first_tension(solution: &SegmentSolution, may_jump: bool) -> Option<f64> {
-    // With a lone dashpot the load jumps where the slope does.
+    // With a parallel dashpot the load jumps where the slope does.
     if may_jump && solution.potential(-1.0) < 0.0 {
         return Some(-1.0);
     }

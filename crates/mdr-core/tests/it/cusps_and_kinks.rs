@@ -1,4 +1,4 @@
-//! Shapes at and near the border beyond which the friction on a lone dashpot has no limit (16).
+//! Shapes at and near the border beyond which the friction on a parallel dashpot has no limit (16).
 
 use friction_analytic::power_sliding;
 use indenters::{Axisymmetric, EquivalentLine, FlatCone, SampledLine, TruncatedParaboloid};
@@ -15,7 +15,7 @@ fn flat_ends(radius: f64) -> [Box<dyn Axisymmetric>; 2] {
 }
 
 /// (16) diverges for p ≤ 1/2 and behind a kink that rises, also where the contact reaches beyond the kink by less than the
-/// rounding of its position; without a lone dashpot it does not.
+/// rounding of its position; without a parallel dashpot it does not.
 #[test]
 fn a_dashpot_under_a_cusp_or_a_kink_is_refused() {
     let dashpots: [Box<dyn Material>; 2] = [

@@ -7,7 +7,7 @@ use rheology::Material;
 use crate::histories_match_quadrature::{body, follow, knots, material, numbers, path, stretched};
 use crate::support::{history, prony};
 
-/// What may vary: the stretch, a shift of all depths, the lone spring and dashpot, and modulus and time of each branch.
+/// What may vary: the stretch, a shift of all depths, the equilibrium spring and the parallel dashpot, and modulus and time of each branch.
 fn parameters(material: &dyn Material) -> Vec<f64> {
     let spectrum = material.relaxation();
     let lone = [spectrum.equilibrium_modulus(), spectrum.viscosity()];

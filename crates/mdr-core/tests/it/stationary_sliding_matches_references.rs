@@ -16,7 +16,7 @@ use crate::support::{
     model, named, slid,
 };
 
-/// As the lone spring vanishes in EXT-04 the solid becomes the Maxwell fluid.
+/// As the equilibrium spring vanishes in EXT-04 the solid becomes the Maxwell fluid.
 const GROUPS: [&str; 7] = [
     "MDR-03", "MDR-04", "MDR-05", "MDR-06", "MDR-07", "MDR-08", "EXT-04",
 ];

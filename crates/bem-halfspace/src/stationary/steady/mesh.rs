@@ -173,7 +173,7 @@ impl Mesh {
                 }
                 self.walls
                     .push(front.is_infinite() || !self.only_rising && rear.is_infinite());
-                // An element can be in contact only if the body covers all of it. A lone dashpot carries load only where the body
+                // An element can be in contact only if the body covers all of it. A dashpot alone carries load only where the body
                 // presses it down, so that the profile is higher at the front than at the rear.
                 let covered = heights.iter().all(|height| height.is_finite());
                 if covered && (front > rear || !self.only_rising) {

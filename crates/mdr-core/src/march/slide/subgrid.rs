@@ -6,7 +6,7 @@
 //! δd = d F'/F_N,   δμ = H'/F_N + 2 μ F'/F_N
 //! ```
 //! F' and H' bound the normal and tangential force that one resolution misses; G_k, τ_k are the branches of the material, over
-//! 2 (1 − ν), and η₀ is its lone dashpot; r_j is the rise of the line over element j up to the depth, r that of a single element.
+//! 2 (1 − ν), and η₀ is its parallel dashpot; r_j is the rise of the line over element j up to the depth, r that of a single element.
 //!
 //! - The contact may continue behind its rearmost element, where the slope h̃' is not the mean slope of the element behind.
 //!   The load that this difference δh̃' gives is w' = (η₀ v + Σ_k G_k l_k) |δh̃'|, at most that of the rearmost element. The
