@@ -4,7 +4,7 @@
 //! h̃(x_d) = d        μ = (1/d) ∫₀^x_d h̃'(x)² dx        (16)
 //! ```
 //! h̃ is the height of the equivalent line of the body above its lowest point, d the stationary depth, x_d the front of the
-//! contact, and μ the coefficient of friction.
+//! contact, and μ the friction coefficient.
 
 use indenters::{Axisymmetric, IndenterError, SlidingLoad, contact_radius};
 use numerics::Estimate;
@@ -21,7 +21,7 @@ use crate::{DivergenceCause, FrictionError, StationarySliding};
 /// whose exponent is larger by 0.11 or more is below rounding: 1e-150^0.11 = 3e-17.
 const LEADING_POWER_REACH: f64 = 1e-150;
 
-/// Stationary depth, contact line and coefficient of friction of a body of revolution, from (12) and (16).
+/// Stationary depth, contact line and friction coefficient of a body of revolution, from (12) and (16).
 ///
 /// # Errors
 /// [`FrictionError::FrictionDiverges`] with its cause; [`FrictionError::NoStationaryState`] when the body is not high

@@ -39,9 +39,9 @@ pub struct ElasticContact {
 pub struct ElasticLimitFriction {
     /// Normal force of the elastic contact, \[N].
     pub normal_force: f64,
-    /// Coefficient of friction of the one-dimensional model.
+    /// Friction coefficient of the one-dimensional model.
     pub line: f64,
-    /// Coefficient of friction of the half space.
+    /// Friction coefficient of the half space.
     pub half_space: f64,
 }
 
@@ -107,7 +107,7 @@ pub fn high_speed_friction(
     checked_limit(force, friction, friction)
 }
 
-/// The limit with a normal force \[N] and coefficients of friction on line and half space, or [`FrictionError::OutOfRange`] if
+/// The limit with a normal force \[N] and friction coefficients on line and half space, or [`FrictionError::OutOfRange`] if
 /// one is not positive and finite.
 fn checked_limit(
     normal_force: f64,

@@ -1,7 +1,7 @@
 //! Friction of rigid bodies that slide over a viscous foundation: the theorems of Kürschner (2014, ZAMM) and related exact
 //! solutions.
 //!
-//! - Stationary sliding: depth (12), contact line and coefficient of friction (16), for [power profiles](power_sliding),
+//! - Stationary sliding: depth (12), contact line and friction coefficient (16), for [power profiles](power_sliding),
 //!   their [sums](superposition_sliding), any [body of revolution](axisymmetric_sliding) and any [line](line_sliding).
 //! - Towards the stationary state: the [sinking velocity](sinking_velocity) (15) and the exact [transient](transient_sliding) of cone and
 //!   paraboloid from first touch.

@@ -14,7 +14,7 @@ use crate::pieces::{accept_accurate, integrate_pieces};
 use crate::stationary::checked_depth;
 use crate::{FrictionError, StationarySliding};
 
-/// Stationary depth, contact line and coefficient of friction of a rigid line on a finite interval.
+/// Stationary depth, contact line and friction coefficient of a rigid line on a finite interval.
 ///
 /// Only the leading edge carries load, so the contact may be several intervals.
 ///

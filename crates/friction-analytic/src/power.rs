@@ -4,7 +4,7 @@
 //! x_d = (d / (κ c))^(1/p)        μ = p² / (2p − 1) · d / x_d,    p > 1/2        (21) for p = 1, (22) for p = 2
 //! ```
 //! The profile c r^p has the equivalent line κ c x^p. d is the stationary depth, x_d the length of the contact, and μ the
-//! coefficient of friction.
+//! friction coefficient.
 
 use indenters::{PowerProfile, SlidingLoad};
 use rheology::Viscous;
@@ -13,7 +13,7 @@ use crate::error::representable;
 use crate::stationary::checked_depth;
 use crate::{DivergenceCause, FrictionError, StationarySliding};
 
-/// Stationary depth, contact line and coefficient of friction of a power profile, from (12) and (16).
+/// Stationary depth, contact line and friction coefficient of a power profile, from (12) and (16).
 ///
 /// # Errors
 /// [`FrictionError::FrictionDiverges`] for an exponent of 1/2 or less; [`FrictionError::OutOfRange`] when a result

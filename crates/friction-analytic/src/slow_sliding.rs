@@ -34,7 +34,7 @@ use crate::indentation::checked_moment;
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
 pub struct SlowSliding {
-    /// Coefficient of friction, with a bound on the terms of higher order as its error.
+    /// Friction coefficient, with a bound on the terms of higher order as its error.
     pub friction_coefficient: Estimate,
     /// Normal force \[N] of the elastic contact.
     pub normal_force: f64,

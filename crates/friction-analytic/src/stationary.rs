@@ -21,9 +21,9 @@ pub struct StationarySliding {
     pub indentation_depth: f64,
     /// Intervals of the contact line, from the rear to the front, in the frame of the body, \[m].
     pub contact_line: Vec<[f64; 2]>,
-    /// Coefficient of friction μ = F_h/F_N, (16).
+    /// Friction coefficient μ = F_h/F_N, (16).
     pub friction_coefficient: f64,
-    /// Estimated absolute error of the coefficient of friction; for a closed form, its rounding error.
+    /// Estimated absolute error of the friction coefficient; for a closed form, its rounding error.
     pub error: f64,
 }
 

@@ -4,7 +4,7 @@
 //! h̃ = Σ h̃_i,  h̃_i = κ(p_i) c_i x^(p_i)        μ = 1/(d x_d) Σ_i Σ_j p_i p_j / (p_i + p_j − 1) h̃_i(x_d) h̃_j(x_d)
 //! ```
 //! h̃_i is the equivalent line of the term c_i r^(p_i), d the stationary depth, x_d the length of the contact, and μ the
-//! coefficient of friction.
+//! friction coefficient.
 
 use indenters::{Axisymmetric, PowerProfile, PowerTerm, SlidingLoad, Superposition};
 use rheology::Viscous;
@@ -14,7 +14,7 @@ use crate::error::representable;
 use crate::stationary::checked_depth;
 use crate::{FrictionError, StationarySliding};
 
-/// Stationary depth, contact line and coefficient of friction of a sum of powers, from (12) and (16).
+/// Stationary depth, contact line and friction coefficient of a sum of powers, from (12) and (16).
 ///
 /// # Errors
 /// [`FrictionError::FrictionDiverges`] when the lowest exponent is 1/2 or less; [`FrictionError::Indenter`] when the

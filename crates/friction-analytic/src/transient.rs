@@ -32,7 +32,7 @@ pub struct TransientSliding {
     pub indentation_depth: f64,
     /// Rear and front end of the contact, measured from the apex, \[m].
     pub contact_line: [f64; 2],
-    /// Coefficient of friction at that time.
+    /// Friction coefficient at that time.
     pub friction_coefficient: f64,
 }
 

@@ -48,7 +48,7 @@ pub fn scaling_factor(exponent: f64) -> Result<Estimate, FrictionError> {
     Ok(interpolate(&TABLE[start..start + STENCIL_NODES], exponent))
 }
 
-/// Coefficient of friction of a power profile on a viscous half space: s(p) times that of the one-dimensional model.
+/// Friction coefficient of a power profile on a viscous half space: s(p) times that of the one-dimensional model.
 ///
 /// # Errors
 /// Those of [`power_sliding`] and [`scaling_factor`].
