@@ -31,12 +31,12 @@ use rheology::{Material, check_spectra};
 use crate::FrictionError;
 use crate::error::representable;
 
-/// Number of intervals of a trapezoidal rule to which [`INTERVALS_PER_UNIT_LENGTH`] adds those in proportion to its length.
-/// Chosen: with both numbers of intervals, the Bessel functions have all digits, because the rule converges exponentially; more
-/// intervals cost time only.
+/// Number of intervals of the trapezoidal rule in the limit of a short range of integration; longer ranges have
+/// [`INTERVALS_PER_UNIT_LENGTH`] more. Chosen so that the Bessel functions have all digits, because the rule converges
+/// exponentially. More intervals cost time only.
 const MIN_INTERVALS: f64 = 64.0;
-/// Number of additional intervals of a trapezoidal rule per unit of its length. Chosen with [`MIN_INTERVALS`], so that the Bessel
-/// functions have all digits; more intervals cost time only.
+/// Number of intervals of the trapezoidal rule, beyond [`MIN_INTERVALS`], per unit of the length of its range. Chosen so that the
+/// Bessel functions have all digits; more intervals cost time only.
 const INTERVALS_PER_UNIT_LENGTH: f64 = 8.0;
 /// Requested relative accuracy of a pressure. Chosen: 450 units in the last place, which the integrand allows; a smaller one
 /// would only take more nodes.

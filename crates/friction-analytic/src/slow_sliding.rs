@@ -16,6 +16,9 @@
 //!   term follows from Hunter's cylinder (1961).
 //! - The third is that of the tip of a cone, from the spectrum of h = κ r.
 //!
+//! The bounds on the omitted terms were measured with boundary elements under the profiles r^p, 1 ≤ p ≤ 10. The test
+//! `slow_sliding_is_that_of_the_expansion_to_second_order` of `bem-halfspace` repeats this for five scenes.
+//!
 //! Derivation: docs/theory/stationary-half-space.md, "Any linear viscoelastic material".
 
 use std::f64::consts::{FRAC_1_PI, PI};
@@ -49,36 +52,36 @@ pub struct SlowSliding {
 /// Bound on the third-order terms relative to the first term: this factor times Λ₃ v²/(m₁ a²), with the third moment Λ₃ v³ of
 /// [`MemoryMoments`].
 ///
-/// Measured: boundary elements find up to 0.19 for 1 ≤ p ≤ 10; the rest is a safety factor.
+/// Measured (head of this file): up to 0.19; the rest is a safety factor.
 const THIRD_ORDER_BOUND: f64 = 0.3;
 /// Bound on the third-order terms relative to the first term: this factor times the square of the second-order term at the rear
 /// edge, relative to the first term.
 ///
-/// Measured: boundary elements find up to 1.1 for 1 ≤ p ≤ 10; the rest is a safety factor.
+/// Measured (head of this file): up to 1.1; the rest is a safety factor.
 const SQUARED_SECOND_ORDER_BOUND: f64 = 1.5;
-/// Bound on the next term of an apex between cone and paraboloid, relative to the first term: this factor times (Λ v/(m₁ a))^(2p
-/// − 1).
+/// Bound on the first omitted term of an apex r^p with 1 < p < 2, relative to the first term: this factor times
+/// (Λ v/(m₁ a))^(2p − 1).
 ///
-/// Measured: boundary elements find up to 0.45 for 1 ≤ p ≤ 10; the rest is a safety factor.
+/// Measured (head of this file): up to 0.45; the rest is a safety factor.
 const APEX_BOUND: f64 = 0.6;
-/// Bound on the relative growth of the third order per factor e of a/x_s.
+/// Bound on the relative growth of the third-order terms per e-fold of the ratio m₁ a/(Λ v) of contact radius to memory length.
 ///
-/// Behind the tip of a cone a part of the contact opens, which makes the third order grow with the logarithm of a/x_s. Measured:
-/// boundary elements find up to 0.3; the rest is a safety factor.
+/// Behind the tip of a cone a part of the contact opens, which makes these terms grow with the logarithm of the ratio. Measured
+/// (head of this file): up to 0.3; the rest is a safety factor.
 const OPENING_BOUND: f64 = 0.5;
-/// Largest steepness a h̃'(a)/h̃(a) of a line for which slow sliding is answered. Measured: the bounds of the terms of higher
-/// order were compared with boundary elements up to this steepness.
+/// Largest steepness a h̃'(a)/h̃(a) of a line for which slow sliding is answered. Chosen as the largest one at which the bounds on
+/// the omitted terms were measured (head of this file).
 const MAX_STEEPNESS: f64 = 10.0;
-/// Largest ratio of the memory length Λ v/m₁ to the contact radius a for which slow sliding is answered; the symbols are those of
-/// the module. Measured: the bounds of the terms of higher order were compared with boundary elements up to this ratio.
+/// Largest ratio of the memory length Λ v/m₁ to the contact radius a for which slow sliding is answered. Chosen as the largest one
+/// at which the bounds on the omitted terms were measured (head of this file).
 const MAX_MEMORY_OVER_RADIUS: f64 = 1.0;
-/// Bound on the next term of the contact area: this factor times Λ v². Measured: boundary elements find factors up to 1.3; the
-/// rest is a safety factor.
+/// Bound on the first omitted term of the contact area: this factor times Λ v². Measured (head of this file): up to 1.3; the rest
+/// is a safety factor.
 const AREA_BOUND: f64 = 2.5;
-/// Bound on the next term of the position of the rear end: this factor times Λ v²/a. Measured: boundary elements find factors up
-/// to 1; the rest is a safety factor.
+/// Bound on the first omitted term of the position of the rear end: this factor times Λ v²/a. Measured (head of this file): up to
+/// 1; the rest is a safety factor.
 const REAR_BOUND: f64 = 2.0;
-/// Bound on the relative change of the depth: this factor times Λ v² h̃'(a)/(a d). Measured: boundary elements find factors up to
+/// Bound on the relative change of the depth: this factor times Λ v² h̃'(a)/(a d). Measured (head of this file): up to
 /// 0.13; the rest is a safety factor.
 const DEPTH_BOUND: f64 = 0.25;
 /// Upper bound of the relative error of the integrals of the first term. Chosen far below the bounds on the terms of higher
@@ -174,7 +177,8 @@ fn apex_loss(
 ) -> f64 {
     let slope_change = |x: f64| body.line_slope(x) - tip_slope;
     let loss = |branch: &RelaxationBranch, modulus: f64| {
-        // `sum` adds the squared changes of the slope over intervals of doubling length, from l = v τ outwards.
+        // `sum` is the bound of B(l) on one side of the apex, without the tip: l times the squared change of the slope up to
+        // l = v τ, and l² ∫ h̃''² dx beyond, over intervals of doubling length.
         let length = contact.velocity * branch.relaxation_time;
         let outermost = APEX_REGION * contact.contact_radius;
         let mut x = length.clamp(QUADRATURE_ERROR * outermost, outermost);
@@ -209,7 +213,7 @@ struct MemoryMoments {
 }
 
 impl MemoryMoments {
-    /// Moments m₁ v, n₂ v², … of the memory of a viscoelastic solid at a speed v, \[m/s].
+    /// Moments m₁ v, Λ v², Λ₃ v³ and n₂ v² of a viscoelastic solid at a speed v, \[m/s].
     fn new(solid: &dyn Material, velocity: f64) -> Result<Self, FrictionError> {
         let relaxation = solid.relaxation();
         let modulus = positive("equilibrium_modulus", relaxation.equilibrium_modulus())?;

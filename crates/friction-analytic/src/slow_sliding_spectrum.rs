@@ -20,8 +20,9 @@ const LOAD_POINTS: u32 = 400;
 /// Number of angles θ in a quarter turn. Chosen: neighbouring frequencies v q cos θ then differ by far less than a decade over
 /// most of the turn. The spectrum weighs frequencies by decades, and is no part of a bar.
 const ANGLES: u32 = 32;
-/// Decadic logarithms of the smallest and the largest wave number times the contact radius. Measured: waves outside this range
-/// dissipate at most a hundredth of the energy that all waves dissipate.
+/// Decadic logarithms of the smallest and the largest wave number times the contact radius. Derived for cone and paraboloid:
+/// shorter waves dissipate at most 1 % of the energy, namely where ω J'' grows with the square of ω, and longer waves 0.5 %,
+/// where ω J'' is constant.
 const WAVE_NUMBER_DECADES: [f64; 2] = [-2.0, 2.0];
 /// Number of wave numbers, equally spaced in their logarithm: 25 per decade. Chosen: the spectrum weighs frequencies
 /// by decades, and is no part of a bar.
