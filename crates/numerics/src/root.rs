@@ -74,15 +74,15 @@ pub fn try_bracketed_root<E>(
 /// Bisection alone needs about 2100 halvings between the smallest and the largest number.
 const MAX_ITERATIONS: usize = 2200;
 
-/// Golden ratio (√5 − 1)/2 by which a golden-section step shortens the bracket.
-const GOLDEN_RATIO: f64 = 0.618_033_988_749_894_9;
-/// Number of golden-section steps: GOLDEN_RATIO⁸⁰ = 2e-17 exhausts the digits of the bracket.
+/// Reciprocal (√5 − 1)/2 of the golden ratio, the factor by which a golden-section step shortens the bracket.
+const INVERSE_GOLDEN_RATIO: f64 = 0.618_033_988_749_894_9;
+/// Number of golden-section steps: its reduction 0.618⁸⁰ = 2e-17 exhausts the digits of the bracket.
 const GOLDEN_SECTION_STEPS: usize = 80;
 
 /// The position of the minimum of a function with a single minimum in a bracket, by golden-section search to the last digits.
 pub fn golden_section(function: impl Fn(f64) -> f64, [mut low, mut high]: [f64; 2]) -> f64 {
     for _ in 0..GOLDEN_SECTION_STEPS {
-        let inner = GOLDEN_RATIO * (high - low);
+        let inner = INVERSE_GOLDEN_RATIO * (high - low);
         if function(high - inner) <= function(low + inner) {
             high = low + inner;
         } else {

@@ -21,13 +21,14 @@ use crate::parallel::row_blocks::{copies, for_each_row};
 use crate::transform::plane_transform::PlaneTransform;
 use crate::transform::plane_transform::complex_product::{Spectrum, signed_offset};
 
-/// Step of the trapezoidal rule in w, with s = λ ln(1 + e^w) and the wake length λ = 4D/v. Measured: with 0.25 coefficients at rest and
-/// on lines have relative errors below 8e-9, or below 1e-12 of the self-influence; with 0.3 they are fifty times as large. The tests of
-/// coefficients in `heat.rs` repeat this.
-const STEP: f64 = 0.25;
-/// Largest relative error of an influence coefficient, for error bars; see [`STEP`].
+/// Step of the trapezoidal rule in w, with s = λ ln(1 + e^w) and the wake length λ = 4D/v. Measured: the errors of coefficients at
+/// rest and on lines are below 8e-9 of their values, or below 1e-12 of the self-influence. With 0.3 they are fifty times as large.
+/// The tests of coefficients in tests/it/heat.rs repeat this for 0.25.
+const STEP_IN_W: f64 = 0.25;
+/// Largest relative error of an influence coefficient, for error bars; see [`STEP_IN_W`].
 pub(super) const KERNEL_ERROR: f64 = 1e-8;
-/// Exponent below which times before the first node are left out: their relative contribution is e^(−30) = 1e-13.
+/// Logarithm w of the diffusion length at the first node, over the shorter edge of an element or the wake length. Derived: earlier
+/// times contribute a fraction of e^(−30), or 1e-13.
 const FIRST_NODE: f64 = -30.0;
 /// Ratio of the largest s to the longer edge of the grid. Derived: later heat adds a relative contribution of its reciprocal.
 const LAST_NODE_RATIO: f64 = 1e12;
@@ -102,7 +103,7 @@ impl TimeRule {
         let start = FIRST_NODE + (edge / wake_length).ln().min(0.0);
         let mut nodes = Vec::new();
         for index in 0_u32.. {
-            let w = f64::from(index) * STEP + if is_moving { start } else { FIRST_NODE };
+            let w = f64::from(index) * STEP_IN_W + if is_moving { start } else { FIRST_NODE };
             let (length, slope) = if is_moving {
                 let softplus = w.max(0.0) + (-w.abs()).exp().ln_1p();
                 (wake_length * softplus, wake_length / (1.0 + (-w).exp()))
@@ -117,7 +118,7 @@ impl TimeRule {
             nodes.push(TimeNode {
                 length,
                 shift,
-                weight: STEP * slope / PI.sqrt(),
+                weight: STEP_IN_W * slope / PI.sqrt(),
                 across: across(length),
             });
         }

@@ -18,11 +18,11 @@ use crate::march::n_history_variables;
 use crate::{BemError, Elastomer, GridOptions};
 
 /// Largest number of time steps of a history on one grid. Chosen: steps are not halved beyond it, even if they miss the error
-/// asked for, so that the time is limited. [`MIN_STEPS_PER_INTERVAL`] takes precedence for histories of many points.
+/// asked for, so that the time is limited. [`MIN_STEP_LIMIT`] takes precedence for histories of many points.
 const MAX_HISTORY_STEPS: usize = 4096;
-/// Number of steps between two points that is always allowed. Derived: three halvings of one step give two successive changes of
-/// the extrapolated values, and so their ratio.
-const MIN_STEPS_PER_INTERVAL: usize = 8;
+/// Number of steps between two points of a history up to which their halving is never refused. Derived: solutions on 1, 2, 4 and
+/// 8 steps give three extrapolated values, and the ratio of their two changes, from which the error follows.
+const MIN_STEP_LIMIT: usize = 8;
 /// Duration of a jump of force or depth, as a fraction of the duration of the history. Chosen: short compared with any interval,
 /// so that hardly anything creeps meanwhile, and far above the rounding 1e-16 of times.
 const JUMP_DURATION_FRACTION: f64 = 1e-9;
@@ -105,7 +105,7 @@ pub fn indent_along<'w>(
     let solve = |elements: usize, _: &dyn Fn(f64)| {
         let mut options = HistoryOptions::new(pressed_grid(&plan, elements));
         let max_steps = MAX_HISTORY_STEPS / times.len();
-        options.max_steps = max_steps.clamp(MIN_STEPS_PER_INTERVAL, options.max_steps);
+        options.max_steps = max_steps.clamp(MIN_STEP_LIMIT, options.max_steps);
         let control = |time| path.control_at(time);
         let found = match accuracy_request.accuracy {
             Accuracy::RelativeError(error) => {
@@ -273,10 +273,10 @@ impl Path {
         }
     }
 
-    /// Quantities of all rows, one row after the other, for the refinement. The sought quantity controls it; errors are relative to the
-    /// largest value of a quantity in the history.
+    /// Quantities of all rows as input of the grid refinement, one row after the other. Force or depth, whichever is sought, controls
+    /// the refinement. Errors are relative to the largest value of a quantity in the history.
     fn quantities(&self, found: &IndentHistory) -> Vec<Quantity> {
-        // Find the scale of each quantity, its largest value in the history, to which its errors are relative.
+        // Find the scale of each quantity.
         let largest = |name| {
             let values = found
                 .rows
@@ -285,7 +285,7 @@ impl Path {
             values.fold(0.0, f64::max)
         };
         let (sizes, [sought, _]) = (Name::IN_ORDER.map(largest), self.sought_and_given());
-        // Collect the quantities of one row. The sought one, force or depth, controls the refinement.
+        // Collect the quantities of one row.
         let of_one_row = |row: &MotionRow| {
             let area_uncertainty = row.contact_area_uncertainty;
             let quantity = move |(name, value): (Name, f64)| {

@@ -22,7 +22,7 @@ use moving_surface::MovingSurface;
 /// are the fewest that resolve the wave there. Twice as many make the bar 0.63 times as wide and take 8 times as long. It has a
 /// case of `evidence tuning`.
 const ELEMENTS_PER_SHORTEST_WAVE: usize = 8;
-/// Relative tolerance of the contact of a step. Times the rms slope it is a part of the error of the friction of a cycle. Chosen;
+/// Relative tolerance of the contact of a step. Its product with the root mean square slope is part of the error of the friction. Chosen;
 /// from 1e-9 to 1e-7 no answer changes by more than 1e-7 of its bar (case of `evidence tuning`).
 const CONTACT_TOLERANCE: f64 = 1e-8;
 /// Upper bound of the memory per element without its history variables, \[bytes]. Chosen above the sum of heights, pressures,

@@ -10,9 +10,11 @@ pub(super) const FRONT_ORDER: f64 = 1.5;
 /// pressure of a punch grows like the inverse root of the distance, so that an element at the edge carries a part like the root
 /// of its length.
 pub(super) const FLAT_END_ORDER: f64 = 0.5;
-/// Range of observed convergence orders under edges. Derived: from that of a hidden flat end to that of a front without edges.
+/// Range to which the observed convergence order is limited under a body with edges. Derived: its ends are the orders of a flat end
+/// that the elements do not resolve, and of a front without edges.
 pub(super) const OBSERVED_ORDERS: [f64; 2] = [FLAT_END_ORDER, FRONT_ORDER];
-/// Range of orders where elements hide an edge. No observed order counts, because values may turn around once the edge is resolved.
+/// Range of the convergence order as long as the elements do not resolve an edge near the front: that of a flat end alone. The
+/// observed order does not count, because the values may change their trend once the edge is resolved.
 pub(super) const HIDDEN_EDGE_ORDERS: [f64; 2] = [FLAT_END_ORDER; 2];
 
 /// Convergence orders that are observed for the friction on any material but a dashpot. The order is 2 from the dissipated power.
@@ -26,8 +28,8 @@ pub(super) const CREEPING_ORDERS: [f64; 2] = [2.0, 2.5];
 /// Measured on 60 random scenes under the profiles r, r^1.5, r² and r⁴: all of 104 error estimates hold with this value, as they
 /// do without higher orders. The median error is 0.6 of that without them.
 pub(super) const ACCEPTED_ERROR_RATIO: f64 = 0.5;
-/// Factor on the last but one change of a limit in the error of the limit; the last change has the factor 1. Chosen; from 0 to
-/// 0.5 nothing changes, with 1 an answer takes up to 1.9 times as long (case of `evidence tuning`).
+/// Factor on the change of a limit by the last refinement but one, in the error of the limit; the last change has the factor 1.
+/// Chosen; from 0 to 0.5 nothing changes, with 1 an answer takes up to 1.9 times as long (case of `evidence tuning`).
 const EARLIER_CHANGE_WEIGHT: f64 = 0.5;
 /// Factor on the change of a limit by the last elimination in the error of the limit. Chosen; from 0 to 0.25 nothing changes,
 /// with 1 a bar is 2.2 times as wide (case of `evidence tuning`).

@@ -83,8 +83,8 @@ const RESIDUAL_SHARE: f64 = 1e-4;
 /// It is larger, because the constant potential of the whole strip, which is absorbed in the depth, leaves more rounding error.
 /// Chosen; from 1e-4 to 1e-2 no answer changes by more than 0.3 % of its bar (case of `evidence tuning`).
 const STRIP_RESIDUAL_SHARE: f64 = 1e-2;
-/// Smallest tolerance of a contact, relative to the depth scale. Chosen above the rounding error of the transforms, from which a
-/// smaller residual could not be told (case of `evidence tuning`).
+/// Smallest tolerance of a contact, relative to the depth scale. Chosen above the rounding error of the transforms, below
+/// which a residual has no meaning (case of `evidence tuning`).
 const MIN_TOLERANCE: f64 = 1e-12;
 /// Ratio of the error of the friction to the mean slope below which the friction of an elastic material counts as known. Chosen:
 /// its friction is 0, and the tolerances of the contacts and the rounding of sums leave about as much. With a smaller ratio such
