@@ -38,7 +38,7 @@ const REST_OVER_RETARDATION_TIME: f64 = 30.0;
 /// Moves `surface` over an undeformed half space or layer, through the points of a motion or reciprocating until the limit cycle.
 ///
 /// The request is an error of the mean friction coefficient relative to its value, or a number of elements along the contact. At
-/// the beginning the body is pressed suddenly. The friction force of a motion through points has the same error, relative
+/// the beginning the body is pressed instantaneously. The friction force of a motion through points has the same error, relative
 /// to its largest value.
 ///
 /// ```

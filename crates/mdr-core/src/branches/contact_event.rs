@@ -61,7 +61,7 @@ impl ContactEvent<'_> {
         (self.recover(displacement, remaining_time), work)
     }
 
-    /// Separates a loaded element immediately; returns the displacement u_∞ to which it recovers \[m], and the energy that was
+    /// Separates a loaded element instantaneously; returns the displacement u_∞ to which it recovers \[m], and the energy that was
     /// stored in it, divided by the unit of stress, \[m²].
     pub(crate) fn separate_instantly(&mut self, displacement: f64) -> (f64, f64) {
         let foundation = self.foundation;
@@ -71,7 +71,7 @@ impl ContactEvent<'_> {
         if foundation.has_dashpot() {
             return (self.recover(displacement, 0.0), stored);
         }
-        // Without a dashpot the element rebounds until its springs carry nothing in sum.
+        // Without a parallel dashpot the element rebounds until the sum of the forces of its springs is 0.
         let load = foundation.spring * displacement + stresses.iter().sum::<f64>();
         let moduli = foundation.branches.iter().map(|branch| branch.modulus);
         let rebound = load / (foundation.spring + moduli.sum::<f64>());
@@ -79,8 +79,8 @@ impl ContactEvent<'_> {
         (self.recover(displacement - rebound, 0.0), stored)
     }
 
-    /// Replaces the stresses at separation by the amplitudes of recovery at a time \[s] after it; returns the displacement u_∞ after
-    /// complete recovery, \[m].
+    /// Replaces the history variables of a loaded element, the stresses at separation, by those of a free one, the amplitudes of
+    /// recovery at a time \[s] after it. Returns the displacement u_∞ after complete recovery, \[m].
     fn recover(&mut self, displacement: f64, time: f64) -> f64 {
         let foundation = self.foundation;
         let stresses = self.history[..foundation.branches.len()].to_vec();

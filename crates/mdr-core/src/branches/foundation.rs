@@ -169,8 +169,8 @@ impl Foundation {
         mode.compliance * (terms.sum::<f64>() - self.spring * displacement)
     }
 
-    /// Stress e_i = G_i Σ_k a_k l_i/(L_k − l_i) in a branch of a free surface, whose modes have the present `amplitudes`
-    /// a_k = β_k e^(−ξ/L_k).
+    /// Stress e_i = G_i Σ_k a_k l_i/(L_k − l_i) in branch i of a free surface, for the present `amplitudes` a_k = β_k e^(−ξ/L_k) of
+    /// the modes of recovery.
     pub(crate) fn free_stress(branch: &Branch, amplitudes: &[f64]) -> f64 {
         let modes = branch.ratios.iter().zip(amplitudes);
         branch.modulus * modes.map(|(r, beta)| r * beta).sum::<f64>()

@@ -15,8 +15,8 @@
 //! Elements that come into contact again are followed one by one, from event to event in closed form, and summed over a
 //! ring by quadrature.
 //!
-//! Within one segment of the path the edge moves in stretches of one direction each. [`Contact::follow`] computes one
-//! stretch after the other: growth over new elements, growth over free elements, rest, or shrinkage.
+//! Within one segment of the path the edge moves in intervals of one direction each. [`Contact::follow`] computes one
+//! interval of time after the other: growth over new elements, growth over free elements, rest, or shrinkage.
 
 mod edge;
 mod sums;
@@ -198,7 +198,7 @@ impl<'a> Contact<'a> {
         Ok(())
     }
 
-    /// The first stretch of a body that is not in contact; returns its end.
+    /// The first interval of time for a body that is not in contact; returns its end.
     fn begin_contact(
         &mut self,
         at: SegmentTime,
@@ -232,7 +232,7 @@ impl<'a> Contact<'a> {
         Ok(())
     }
 
-    /// Grows over elements that were never in contact; returns the end of the stretch.
+    /// Grows over elements that were never in contact; returns the end of the interval of time.
     fn grow_over_new(&mut self, at: SegmentTime, end: SegmentTime) -> SegmentTime {
         let deepest = self.largest.depth;
         let path = &self.path;
@@ -260,7 +260,7 @@ impl<'a> Contact<'a> {
         to
     }
 
-    /// Grows over free elements, up to the largest radius so far; returns the end of the stretch.
+    /// Grows over free elements, up to the largest radius so far; returns the end of the interval of time.
     ///
     /// `has_turned` is true if the edge has just turned at `at`, where its direction is only rounding.
     fn grow_over_free(
@@ -274,7 +274,7 @@ impl<'a> Contact<'a> {
             depth: deepest,
         } = self.largest;
 
-        // The stretch ends where new elements follow, or where the edge turns.
+        // The interval ends where new elements follow, or where the edge turns.
         let mut to = end;
         let reaches_new = self.path.rise(at.segment) > 0.0 && self.path.depth(end) > deepest;
         if reaches_new {
@@ -327,8 +327,8 @@ impl<'a> Contact<'a> {
         }
     }
 
-    /// The radius up to which free elements have come into contact at a time \[m]: the root of the gap between the present edge and
-    /// the widest contact so far.
+    /// Contact radius at a time if the edge has only moved outwards, over free elements, \[m]: the root of the gap between the
+    /// present edge and the widest contact so far.
     fn edge_outwards(&self, at: SegmentTime) -> f64 {
         let (inner, widest) = (self.radius(), self.largest.radius);
         match bracketed_root(|radius| self.gap(radius, at), [inner, widest]) {
@@ -386,7 +386,7 @@ impl<'a> Contact<'a> {
         self.sums = self.sums_at(to);
     }
 
-    /// Shrinks the contact, or separates all of it; returns the end of the stretch.
+    /// Shrinks the contact, or separates all of it; returns the end of the interval of time.
     ///
     /// `has_turned` is true if the edge has just turned at `at`, where its direction is only rounding.
     fn shrink(
@@ -395,7 +395,7 @@ impl<'a> Contact<'a> {
         end: SegmentTime,
         has_turned: bool,
     ) -> Result<SegmentTime, MdrError> {
-        // The stretch ends where the edge turns, because an edge that moves outwards brings elements into contact.
+        // The interval ends where the edge turns, because an edge that moves outwards brings elements into contact.
         let instant = |part: f64| SegmentTime { part, ..at };
         let direction = |edge: &Option<Edge>, part: f64| match edge {
             Some(edge) => self.path.edge_direction(&edge.stresses, instant(part)),

@@ -39,7 +39,7 @@ pub(super) struct ForceHistory<'a> {
     pub(super) body: &'a dyn EquivalentProfile,
     /// Material of the foundation.
     pub(super) material: &'a dyn Material,
-    /// Requested error, and error of the modulus.
+    /// Requested error of the depth, and relative error of the moduli of the material.
     pub(super) options: HistoryOptions,
     /// Times \[s] and forces \[N]; the last force of a time holds from there on.
     pub(super) points: Vec<[f64; 2]>,

@@ -164,7 +164,7 @@ impl StepIntegrals {
             time_weighted.edge = decay * time_weighted.edge + gained.edge;
             time_weighted.stretch = decay * time_weighted.stretch + gained.stretch;
         }
-        // Sum the terms of the radius with their moments.
+        // Compute ∫₀¹ e^(−(1 − θ) Δt/τ) a(θ) dθ for each branch, from the coefficients of the radius a and the moments.
         let n = self.decays.len();
         self.sums.clear();
         self.sums.resize(n, 0.0);
@@ -174,7 +174,7 @@ impl StepIntegrals {
                 *sum += term * moment;
             }
         }
-        // The integrals P_k of the load and q_k of the depth decay over the step, and gain what the ring adds.
+        // The integrals P_k of the load and q_k of the depth decay over the step, and gain the contribution of the ring.
         for ((load, decay), sum) in state.load.iter_mut().zip(&self.decays).zip(&self.sums) {
             *load = decay * *load + ring.rise * sum;
         }

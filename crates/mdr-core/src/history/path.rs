@@ -170,12 +170,12 @@ impl Path {
         speed_rounding(self.speed(segment), self.step(segment), time, depth)
     }
 
-    /// Time at a place of the path, \[s].
+    /// Time of a point of the path, \[s].
     pub(super) fn time(&self, at: SegmentTime) -> f64 {
         self.points[at.segment][0] + at.part * self.step(at.segment)
     }
 
-    /// Indentation depth at a place of the path, \[m].
+    /// Indentation depth at a time, \[m].
     pub(super) fn depth(&self, at: SegmentTime) -> f64 {
         self.points[at.segment][1] + at.part * self.rise(at.segment)
     }

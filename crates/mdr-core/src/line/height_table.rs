@@ -6,8 +6,8 @@ use numerics::whole_part;
 use super::element_heights::{ElementHeights, checked_height};
 use crate::MdrError;
 
-/// Cells of the table per element of the foundation. Chosen: more cells make the table longer, and its cubics accurate closer to
-/// a kink. In other cells the line itself is evaluated, so that the number decides the time only.
+/// Number of cells of the table per element of the foundation. Chosen: more cells make the table longer, and its cubics accurate
+/// closer to a kink. Where a cubic is not accurate the line itself is evaluated, so that the number decides the time only.
 const CELLS_PER_ELEMENT: usize = 4;
 /// Error of a cubic through four nodes, relative to the largest height in the table, up to which the table is used in a cell; the
 /// line itself is evaluated in the others. Chosen far below the discretisation error, which is above 1e-4 on the largest number

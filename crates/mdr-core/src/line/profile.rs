@@ -16,10 +16,9 @@ use super::range::Range;
 use super::segment::Segment;
 use crate::MdrError;
 
-/// Number of positions along the whole range at which the polynomials are compared with the line, besides their nodes. Chosen: a
-/// detail between nodes may be overlooked if it is narrower than 1/64 of the range. More positions take more evaluations of the
-/// line.
-const N_STATIONS: f64 = 64.0;
+/// Number of points along the whole range, besides the nodes, at which the polynomials are compared with the line. Chosen: a detail
+/// between nodes may be overlooked if it is narrower than 1/64 of the range. More points take more evaluations of the line.
+const N_CHECK_POINTS: f64 = 64.0;
 /// Number of samples of the slope of a piece in the search for its turning points. Chosen above twice the nine zeros that a slope
 /// of degree nine may have; two zeros within a twelfth of half the piece may be overlooked.
 const N_SLOPE_SAMPLES: usize = 24;
@@ -61,7 +60,7 @@ pub(crate) struct Profile {
     pub(crate) interpolation: Interpolation,
 }
 
-/// A stretch over which the line only rises or only falls.
+/// An interval on which the line is monotone.
 pub(crate) struct Piece {
     /// Compression that the piece imposes when the lowest point of the line is one depth deep. While the pieces are made, it is
     /// relative to that of the anchor.
@@ -286,21 +285,21 @@ impl<D: Fn(f64) -> Result<f64, MdrError>> Builder<D> {
         Ok(piece.tail <= tolerance && !steep && self.agrees_with_line(piece)?)
     }
 
-    /// True if the line agrees with the polynomial at stations between the nodes.
+    /// True if the line agrees with the polynomial at points between the nodes.
     fn agrees_with_line(&self, piece: &Piece) -> Result<bool, MdrError> {
-        let share = N_STATIONS * piece.segment.length / self.length;
-        /// Stride of the stations, the golden ratio minus 1: an irrational number does not fall into step with a
-        /// periodic line.
-        const STATION_STRIDE: f64 = 0.618_033_988_749_894_9;
-        let mut station = 1.0;
-        while station <= share.ceil() {
-            let t = 2.0 * (station * STATION_STRIDE).fract() - 1.0;
+        let share = N_CHECK_POINTS * piece.segment.length / self.length;
+        /// Stride of the points as a fraction of the piece, the golden ratio minus 1. It is irrational, so that the points are not
+        /// commensurate with a periodic line.
+        const CHECK_POINT_STRIDE: f64 = 0.618_033_988_749_894_9;
+        let mut point = 1.0;
+        while point <= share.ceil() {
+            let t = 2.0 * (point * CHECK_POINT_STRIDE).fract() - 1.0;
             let difference = (self.drop)(piece.position(t))? - value(piece.terms(), t);
             let is_close = difference.abs() <= 8.0 * self.resolution.tolerance;
             if !is_close {
                 return Ok(false);
             }
-            station += 1.0;
+            point += 1.0;
         }
         Ok(true)
     }

@@ -11,9 +11,9 @@ use crate::error::non_finite;
 /// Number of samples of the line per doubling of the distance from the anchor. Chosen: parts that come down again between kinks
 /// may be overlooked if they are narrower than 2^(1/16) − 1, or 4 %, of that distance. Twice as many samples find parts half as
 /// wide.
-const STATIONS_PER_OCTAVE: f64 = 16.0;
+const SAMPLES_PER_OCTAVE: f64 = 16.0;
 /// Ratio of the distance at which the search on an endless line begins to that at which the line first rises above the height
-/// limit. Chosen: a part that comes down farther out is overlooked. Each doubling costs [`STATIONS_PER_OCTAVE`] samples.
+/// limit. Chosen: a part that comes down farther out is overlooked. Each doubling costs [`SAMPLES_PER_OCTAVE`] samples.
 const SEARCH_DISTANCE_RATIO: f64 = 1024.0;
 /// Factor on the distance from the anchor from one step to the next, in the search for a first height above the height limit on
 /// an endless line. Chosen: it decides where the search inwards begins, and so the number of its samples.
@@ -141,7 +141,7 @@ fn outermost(
     let within = |x: f64| if end > anchor { x.min(end) } else { x.max(end) };
     // The anchor itself lies below the height limit, so that the loop ends.
     loop {
-        let inside = outside * (-1.0 / STATIONS_PER_OCTAVE).exp2();
+        let inside = outside * (-1.0 / SAMPLES_PER_OCTAVE).exp2();
         // The smallest numbers are rounded up to themselves.
         if inside.total_cmp(&outside).is_eq() {
             return Ok(anchor);

@@ -8,8 +8,8 @@ use indenters::RigidLine;
 /// First distance from a kink at which the slope is computed, relative to the position of the kink. Chosen: the leading term of
 /// the slope prevails there, and at the third distance, 2⁻²⁴, positions round by 2⁻²⁹ of the distance only.
 const FIRST_KINK_DISTANCE: f64 = 1.0 / (1 << 20) as f64;
-/// Ratio of the second distance from a kink to the first, and of the third to the second. Chosen: it makes an inverse root grow
-/// by 2, far above rounding. [`MIN_DIFFERENCE_RATIO`] belongs to it.
+/// Ratio of successive distances from a kink at which the slope is computed. Chosen: over it an inverse root grows by the factor 2,
+/// far above rounding, from which [`MIN_DIFFERENCE_RATIO`] follows.
 const KINK_DISTANCE_RATIO: f64 = 0.25;
 /// Smallest ratio of the differences of slopes from distance to distance at a steep kink. Derived: it is 2 for the inverse root,
 /// at which the integral of the squared slope diverges; the rest is a margin for rounding.

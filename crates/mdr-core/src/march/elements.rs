@@ -186,7 +186,7 @@ impl<'a> Elements<'a> {
         self.history_of(last).fill(0.0);
     }
 
-    /// Separates a loaded element instantly at a `time` \[s]; returns the energy that was stored in it, divided by the unit of
+    /// Separates a loaded element instantaneously at a `time` \[s]; returns the energy that was stored in it, divided by the unit of
     /// stress, \[m²], and 0 if it is not loaded.
     pub(super) fn separate_instantly(&mut self, element: usize, time: f64) -> f64 {
         let ElementState::Loaded { displacement } = self.states[element] else {
@@ -197,7 +197,7 @@ impl<'a> Elements<'a> {
         stored
     }
 
-    /// Brings an element that recovers to the displacement `limit` into contact instantly, with the displacement that the line
+    /// Brings an element that recovers to the displacement `limit` into contact instantaneously, with the displacement that the line
     /// imposes, \[m]; returns the energy stored in it, divided by the unit of stress, \[m²].
     pub(crate) fn make_contact_instantly(
         &mut self,

@@ -78,7 +78,7 @@ const CYCLE_TOLERANCE_ON_ELEMENTS: f64 = 1e-5;
 /// Moves a line over an undeformed Winkler foundation, through the points of a motion or reciprocating in its limit cycle.
 ///
 /// The request is a relative error of the mean friction coefficient, or a number of elements along the contact. At the
-/// beginning the line is pressed without delay. The friction force of a motion through points has the same error, relative to
+/// beginning the line is pressed instantaneously. The friction force of a motion through points has the same error, relative to
 /// its largest value.
 ///
 /// ```

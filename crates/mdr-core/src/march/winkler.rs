@@ -354,11 +354,10 @@ impl<'a> WinklerFoundation<'a> {
         (height(x + 0.5 * spacing) - height(x - 0.5 * spacing)) / spacing
     }
 
-    /// Separates all elements and sets the time, so that the amplitudes of recovery are the whole state.
+    /// Separates all elements, so that the amplitudes of recovery are the whole state of the foundation, and sets the time to
+    /// `time`, \[s]. Returns the energy that was stored in the loaded elements.
     ///
-    /// Returns the energy that was stored in the loaded elements.
-    ///
-    /// Where the instantaneous modulus is finite, [`reload`](Self::reload) at the same place takes up that energy again.
+    /// If the instantaneous modulus is finite, [`reload`](Self::reload) at the same position stores that energy again.
     pub(super) fn unload_all(&mut self, time: f64) -> f64 {
         let mut released = 0.0;
         let elapsed = self.body.time - time;
@@ -386,7 +385,7 @@ impl<'a> WinklerFoundation<'a> {
         } else {
             0.0
         };
-        // Bring each element that the line penetrates into contact immediately.
+        // Bring each element that the line penetrates into contact instantaneously.
         let mut stored = 0.0;
         for (element, height) in (self.window[0]..=self.window[1]).zip(&self.heights) {
             let ElementState::Free { limit, .. } = self.elements.states[element] else {

@@ -234,7 +234,8 @@ impl<'a> LineProblem<'a> {
         // A larger force at the same depth is a smaller depth at the same force, which changes the friction again.
         let discretisation = depth * (work_error / load) + 2.0 * friction * (load_error / load);
         let friction_error = discretisation.abs() + STATE_ROUNDING * friction.abs();
-        // The force grows with the depth at least in proportion.
+        // The force grows with the depth at least in proportion, so that the relative error of the depth is at most that of the
+        // force.
         let relative_error = load_error / load + STATE_ROUNDING;
         let [depth_error, force_error] = match control {
             Control::NormalForce(_) => [relative_error * depth, 0.0],

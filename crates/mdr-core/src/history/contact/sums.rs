@@ -46,7 +46,8 @@ impl Contact<'_> {
         sums
     }
 
-    /// Advances the `sums` Φ_k over the growth of a ring of new elements, from its beginning to its end, \[Pa m²].
+    /// Advances the `sums` Φ_k from the beginning to the end of the time in which the contact grows over a ring of new elements,
+    /// \[Pa m²].
     fn add_growth(&self, ring: &EdgeMove, sums: &mut [f64]) {
         let path = &self.path;
         let step = path.time(ring.to) - path.time(ring.from);

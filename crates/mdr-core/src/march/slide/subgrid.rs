@@ -31,14 +31,14 @@ const TIP_CHORD_RATIO: f64 = 0.75;
 /// ratio 0.75: this part is a tenth of the excess of a power x⁴ and a fifth of that of x⁶, for which the factor is exact.
 const TIP_EXCESS_FACTOR: f64 = 1.25;
 
-/// Moduli of a material that act within a step, over (1 − ν)/2.
+/// Moduli of a material that act within a step; η₀ and G_k are those of the material over 2 (1 − ν).
 struct StepScaleModuli {
     /// 4 (η₀ v + Σ G_k l_k), \[N/m]: load per length and slope.
-    per_slope: f64,
-    /// 4 Σ G_k min(1, Δx/(v τ_k)), \[Pa].
-    stored: f64,
-    /// 4 Σ G_k l_k², \[N].
-    left: f64,
+    load_per_slope: f64,
+    /// 4 Σ G_k min(1, Δx/(v τ_k)), \[Pa]: modulus of the energy that branches may store within a step.
+    stored_modulus: f64,
+    /// 4 Σ G_k l_k², \[N]: force per change of the slope at the rear end of the contact.
+    force_per_slope: f64,
 }
 
 /// The contact at the end of sliding.
@@ -75,9 +75,9 @@ impl StepScaleModuli {
             unit * terms.sum::<f64>()
         };
         Self {
-            per_slope: unit * relaxation.viscosity() * velocity + sum(f64::min),
-            stored: sum(|spacing, length| (spacing / length).min(1.0)),
-            left: sum(|spacing, length| spacing.min(length).powi(2)),
+            load_per_slope: unit * relaxation.viscosity() * velocity + sum(f64::min),
+            stored_modulus: sum(|spacing, length| (spacing / length).min(1.0)),
+            force_per_slope: sum(|spacing, length| spacing.min(length).powi(2)),
         }
     }
 }
@@ -97,9 +97,9 @@ impl LastContact<'_> {
         }
         // Add the three contributions; the last one matters at steep kinks only.
         let mut forces = self.behind_rearmost(&moduli, &loads);
-        forces.tangential += moduli.per_slope * self.tip_excess(&loads);
+        forces.tangential += moduli.load_per_slope * self.tip_excess(&loads);
         if has_steep_kinks(self.line) {
-            forces.tangential += 0.5 * moduli.stored * self.squared_jumps_of_rise(&loads);
+            forces.tangential += 0.5 * moduli.stored_modulus * self.squared_jumps_of_rise(&loads);
         }
         forces
     }
@@ -127,12 +127,12 @@ impl LastContact<'_> {
             return SubgridForces::default();
         }
         // `load` is what the rearmost element would carry on the slope behind it; the missing load is at most that.
-        let load = (loads[rear] - moduli.per_slope * (mean - slope_behind)).max(0.0);
-        let difference = moduli.per_slope * (slope_behind - mean_behind).abs();
+        let load = (loads[rear] - moduli.load_per_slope * (mean - slope_behind)).max(0.0);
+        let difference = moduli.load_per_slope * (slope_behind - mean_behind).abs();
         let carried = 0.5 * spacing * load.min(difference);
         SubgridForces {
             tangential: carried * slope_behind.abs(),
-            normal: carried + moduli.left * (mean - slope).abs(),
+            normal: carried + moduli.force_per_slope * (mean - slope).abs(),
         }
     }
 
