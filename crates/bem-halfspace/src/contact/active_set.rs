@@ -107,7 +107,7 @@ impl ActiveSet {
         };
         let runs = [(&mut self.runs[..], Starts::Every(1))];
         row_blocks.for_each_part(runs, in_row_block);
-        // Add up the numbers of active elements before each row block, at which packed vectors are divided.
+        // Count the active elements before each row block: the index at which its part of a packed vector begins.
         let mut before = 0;
         for (runs, start) in self.runs.iter().zip(&mut self.starts[1..]) {
             before += runs.last().map_or(0, |run| run.packed_range().end);

@@ -140,7 +140,7 @@ impl<'a> Iteration<'a> {
                 });
             }
 
-            // Update the set if it is wrong and the linear equations are solved well enough to tell; else go on solving them.
+            // Update the set if its violations outweigh the linear residual; otherwise go on with the linear equations.
             let allowed = self.tolerance * violations.deflection;
             let set_is_right = violations.tension <= 0.0 && violations.penetration <= allowed;
             let worst = violations.tension.max(violations.penetration);

@@ -35,8 +35,8 @@ pub(crate) struct LoadSolution {
 pub(crate) struct StoppingCriterion {
     /// Upper bound of the residual, in the sense of [`ContactOptions::tolerance`].
     pub(super) tolerance: f64,
-    /// Upper bound of the ratio of the residual to that of the first guess; the smaller of both bounds holds, and infinity means
-    /// none.
+    /// Upper bound of the ratio of the residual to that of the first guess; infinite for no such bound. The stricter of both bounds
+    /// holds.
     pub(super) residual_reduction: f64,
     /// Maximum number of iterations.
     pub(super) max_iterations: usize,

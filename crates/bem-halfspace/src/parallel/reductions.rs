@@ -6,15 +6,16 @@ use numerics::transforms::Real;
 /// additions per cycle; fewer of them wait for each other. Another value changes sums by rounding.
 const ACCUMULATORS: usize = 8;
 
-/// Reduction of `term(values)` over all indices of N vectors of equal length by the associative operation `pick`, a sum or an extreme.
+/// Reduction of `term(values)` over all indices of N vectors of equal length by the associative operation `combine`, a sum or an
+/// extreme.
 ///
-/// `start` must be the neutral element of `pick`. The order of the operations, and with it the rounding of a sum, depends on the length
+/// `start` must be the neutral element of `combine`. The order of the operations, and with it the rounding of a sum, depends on the length
 /// alone.
 pub(crate) fn reduce<const N: usize, T: Copy>(
     lists: [&[T]; N],
     start: T,
     term: impl Fn([T; N]) -> T,
-    pick: impl Fn(T, T) -> T,
+    combine: impl Fn(T, T) -> T,
 ) -> T {
     let length = lists.first().map_or(0, |list| list.len());
     let parts = lists.map(|list| list[..length].as_chunks::<ACCUMULATORS>());
@@ -22,12 +23,12 @@ pub(crate) fn reduce<const N: usize, T: Copy>(
     let mut accumulators = [start; ACCUMULATORS];
     for chunk in 0..length / ACCUMULATORS {
         let chunks = parts.map(|(whole, _)| &whole[chunk]);
-        for (place, picked) in accumulators.iter_mut().enumerate() {
-            *picked = pick(*picked, term(chunks.map(|chunk| chunk[place])));
+        for (lane, total) in accumulators.iter_mut().enumerate() {
+            *total = combine(*total, term(chunks.map(|chunk| chunk[lane])));
         }
     }
     let rest = (0..length % ACCUMULATORS).map(|index| term(parts.map(|(_, rest)| rest[index])));
-    accumulators.into_iter().chain(rest).fold(start, pick)
+    accumulators.into_iter().chain(rest).fold(start, combine)
 }
 
 /// Sum of `term(values)` over all indices of N vectors of equal length, in the order of [`reduce`].

@@ -111,7 +111,7 @@ impl Correction {
         }
     }
 
-    /// The correction c(ρ) at a distance `rho` ≥ 0 in thicknesses, without unit.
+    /// Value of the correction c(ρ) of the potential at a distance `rho` ≥ 0 in thicknesses, without unit.
     pub(super) fn value(&self, rho: f64) -> f64 {
         if let Some(panel) = self.near.get(whole_part(rho / SHORT_PANEL_LENGTH)) {
             return panel.value(rho);

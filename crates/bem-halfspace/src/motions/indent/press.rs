@@ -388,7 +388,7 @@ fn disc_of_elements(radius: f64, elements: usize) -> [f64; 2] {
 }
 
 impl PressSolution {
-    /// The solution with the errors that refinement does not reveal, for [`bars::resolve`].
+    /// Input of [`bars::resolve`] for one grid: the solution, and the errors that differences between grids do not reveal.
     ///
     /// A residual of the relative size ε of the contact tolerance changes the depth by the fraction ε, and the force at a given
     /// depth by the fraction n ε on n elements along the contact.

@@ -104,8 +104,8 @@ impl FullContactSurface<'_> {
     }
 }
 
-/// Value for a row of a transform of `rows` rows, from `values` by the number of waves along x in the period. It is conjugate for
-/// negative q_x, and 0 for more waves than there are values.
+/// Amplitude of the waves of one row of a transform of `rows` rows; `values` has the amplitudes for q_x ≥ 0, by the number of waves
+/// in the period. Rows of negative q_x have the complex conjugate, and rows of more waves than `values` has are 0.
 pub(super) fn value_of_row(values: &[Complex<f64>], row: usize, rows: usize) -> Complex<f64> {
     let number = row.min(rows - row);
     let value = values.get(number).copied().unwrap_or(ZERO);

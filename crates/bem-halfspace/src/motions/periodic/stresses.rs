@@ -66,7 +66,7 @@ struct WaveResponse {
 }
 
 /// A step of a path at constant velocity.
-struct Leg {
+struct PathStep {
     /// Duration, \[s].
     duration: f64,
     /// Positions at the beginning and at the end, \[m].
@@ -85,7 +85,7 @@ impl WaveMotion {
         spectra: &Spectra,
     ) -> Result<Self, BemError> {
         // Find the stresses of all waves, in closed form on straight paths and from harmonics on others.
-        let legs = legs(load, steps);
+        let path = path_of(load, steps);
         let is_straight = load
             .stages()
             .iter()
@@ -93,13 +93,13 @@ impl WaveMotion {
         let responses = if is_straight {
             let relaxation = &spectra.relaxation;
             let period = load.is_cycle().then(|| load.duration());
-            let response = |q: &f64| piecewise_linear_response(*q, &legs, relaxation, period);
+            let response = |q: &f64| piecewise_linear_response(*q, &path, relaxation, period);
             wave_numbers.iter().map(response).collect()
         } else {
             harmonic_responses(load, steps.len(), wave_numbers, &spectra.relaxation)?
         };
         // Collect displacements and stresses of all waves at the beginning and at the ends of all steps.
-        let positions = std::iter::once(0.0).chain(legs.iter().map(|leg| leg.ends[1]));
+        let positions = std::iter::once(0.0).chain(path.iter().map(|path_step| path_step.ends[1]));
         let state = |(index, position): (usize, f64)| WaveStates {
             displacement: wave_numbers
                 .iter()
@@ -112,7 +112,7 @@ impl WaveMotion {
             states: positions.enumerate().map(state).collect(),
             work: responses.iter().map(|one| one.work).collect(),
         };
-        motion.update_held(load, &legs, spectra)?;
+        motion.update_held(load, &path, spectra)?;
         Ok(motion)
     }
 
@@ -120,20 +120,20 @@ impl WaveMotion {
     fn update_held(
         &mut self,
         load: &MovingLoad,
-        legs: &[Leg],
+        path: &[PathStep],
         spectra: &Spectra,
     ) -> Result<(), BemError> {
         let creep = &spectra.creep;
         let n_values = 2 * self.work.len();
-        let step_of = |leg: &Leg| ExponentialStep::creep(creep, leg.duration);
-        let n_fields = step_of(&legs[0])?.n_fields();
+        let step_of = |path_step: &PathStep| ExponentialStep::creep(creep, path_step.duration);
+        let n_fields = step_of(&path[0])?.n_fields();
         let mut memory = vec![0.0; n_fields * n_values];
         let elements = creep.elements();
         // Find the history variables at the start: those of the limit cycle, or those of a surface that has always been at the
         // beginning of its path.
         if load.is_cycle() {
-            for (leg, state) in legs.iter().zip(&self.states[1..]) {
-                step_of(leg)?.advance(&real_and_imaginary_parts(&state.stress), &mut memory);
+            for (path_step, state) in path.iter().zip(&self.states[1..]) {
+                step_of(path_step)?.advance(&real_and_imaginary_parts(&state.stress), &mut memory);
             }
             let period = load.duration();
             for (element, field) in elements.iter().zip(memory.chunks_exact_mut(n_values)) {
@@ -161,8 +161,8 @@ impl WaveMotion {
         // March over the steps: the displacement at the end of each follows from the history and from the stress, which is held
         // during the step.
         let mut displaced = vec![0.0; n_values];
-        for (leg, state) in legs.iter().zip(&mut self.states[1..]) {
-            let (step, stress) = (step_of(leg)?, real_and_imaginary_parts(&state.stress));
+        for (path_step, state) in path.iter().zip(&mut self.states[1..]) {
+            let (step, stress) = (step_of(path_step)?, real_and_imaginary_parts(&state.stress));
             step.history(&memory, &mut displaced);
             for (value, stress) in displaced.iter_mut().zip(&stress) {
                 *value += step.response() * stress;
@@ -186,28 +186,28 @@ fn real_and_imaginary_parts(values: &[Complex<f64>]) -> Vec<f64> {
         .collect()
 }
 
-/// The steps of a motion as legs, with positions relative to its beginning and the mean velocity of their stage.
-fn legs(load: &MovingLoad, steps: &[MovingStep]) -> Vec<Leg> {
+/// The steps of a motion at the mean velocity of their stage, with positions relative to the beginning of the motion.
+fn path_of(load: &MovingLoad, steps: &[MovingStep]) -> Vec<PathStep> {
     let start = load.stages()[0].start.position;
     let mut before = 0.0;
-    let leg = |step: &MovingStep| {
+    let path_step = |step: &MovingStep| {
         let stage = &load.stages()[step.stage];
         let ends = [before, step.end.position - start];
         before = ends[1];
-        Leg {
+        PathStep {
             duration: step.duration,
             ends,
             velocity: stage.distance() / stage.duration(),
         }
     };
-    steps.iter().map(leg).collect()
+    steps.iter().map(path_step).collect()
 }
 
 /// Response of a wave of the wave number `q` \[rad/m] along a piecewise linear path, in closed form: spring, dashpot and each
 /// relaxation branch. `period` \[s] is that of a limit cycle; `None` for a path from rest.
 fn piecewise_linear_response(
     q: f64,
-    legs: &[Leg],
+    path: &[PathStep],
     relaxation: &RelaxationSpectrum,
     period: Option<f64>,
 ) -> WaveResponse {
@@ -215,28 +215,28 @@ fn piecewise_linear_response(
     let first = relaxation.equilibrium_modulus() * at(0.0);
     let mut work = 0.0;
     let mut stresses = vec![first];
-    for leg in legs {
+    for path_step in path {
         // Add the stresses of spring and dashpot at the end of the step, and the work on the dashpot. The work on the spring
         // vanishes over a cycle.
-        let frequency = q * leg.velocity;
+        let frequency = q * path_step.velocity;
         let modulus = Complex::new(
             relaxation.equilibrium_modulus(),
             -relaxation.viscosity() * frequency,
         );
-        stresses.push(modulus * at(leg.ends[1]));
-        work += relaxation.viscosity() * frequency * frequency * leg.duration;
+        stresses.push(modulus * at(path_step.ends[1]));
+        work += relaxation.viscosity() * frequency * frequency * path_step.duration;
     }
     // Add the stresses of the relaxation branches and the work on them. In a limit cycle each branch begins with the stress in
     // which it ends.
     for branch in relaxation.branches() {
         let mut start = ZERO;
         if let Some(period) = period {
-            let (end, _) = branch_stress(q, legs, branch, start, |_, _| ());
+            let (end, _) = branch_stress(q, path, branch, start, |_, _| ());
             start = end / -(-period / branch.relaxation_time).exp_m1();
         }
         stresses[0] += start;
         let add = |index: usize, stress| stresses[index + 1] += stress;
-        work += branch_stress(q, legs, branch, start, add).1;
+        work += branch_stress(q, path, branch, start, add).1;
     }
     if let (Some(_), Some(last)) = (period, stresses.last().copied()) {
         stresses[0] = last;
@@ -250,23 +250,23 @@ fn piecewise_linear_response(
 /// step.
 fn branch_stress(
     q: f64,
-    legs: &[Leg],
+    path: &[PathStep],
     branch: &RelaxationBranch,
     start: Complex<f64>,
     mut add: impl FnMut(usize, Complex<f64>),
 ) -> (Complex<f64>, f64) {
     let (mut stress, mut work) = (start, 0.0);
-    for (index, leg) in legs.iter().enumerate() {
+    for (index, path_step) in path.iter().enumerate() {
         // Compute the displacements of the wave at both ends of the step, and the exponent with which it changes in time.
-        let [from, to] = leg.ends.map(|x| Complex::from_polar(1.0, -q * x));
-        let turning = Complex::new(0.0, -q * leg.velocity);
+        let [from, to] = path_step.ends.map(|x| Complex::from_polar(1.0, -q * x));
+        let turning = Complex::new(0.0, -q * path_step.velocity);
         let rate = turning + branch.relaxation_time.recip();
         // The forced part of the stress turns with the wave, the free part relaxes.
         let forced = turning * branch.modulus / rate;
         let free = stress - forced * from;
-        let passed = -exp_m1(-rate * leg.duration) / rate;
-        work += (turning.conj() * (free * from.conj() * passed + forced * leg.duration)).re;
-        stress = free * (-leg.duration / branch.relaxation_time).exp() + forced * to;
+        let passed = -exp_m1(-rate * path_step.duration) / rate;
+        work += (turning.conj() * (free * from.conj() * passed + forced * path_step.duration)).re;
+        stress = free * (-path_step.duration / branch.relaxation_time).exp() + forced * to;
         add(index, stress);
     }
     (stress, work)

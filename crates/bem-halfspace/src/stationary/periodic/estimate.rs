@@ -111,7 +111,7 @@ pub fn indent<'w>(
     refine_stationary(surface, &spring, control, request.into())
 }
 
-/// The result of [`steady`] on its first grid, or on one with `finer` times the elements along both axes, without an error bar.
+/// The result of [`steady`] on its first grid, or on one with `factor` times the elements along both axes, without an error bar.
 ///
 /// It is meant for differences between surfaces, which coarse grids resolve well.
 ///
@@ -121,13 +121,13 @@ pub fn steady_on_coarse_grid(
     surface: &PeriodicSurface,
     elastomer: &dyn Elastomer,
     load: &PeriodicLoad,
-    finer: usize,
+    factor: usize,
 ) -> Result<PeriodicSliding, BemError> {
     let sliding = Sliding::new(elastomer, load.velocity())?;
-    on_coarse_grid(surface, &sliding, load.require_stationary()?, finer)
+    on_coarse_grid(surface, &sliding, load.require_stationary()?, factor)
 }
 
-/// The result of [`indent`] on its first grid, or on one with `finer` times the elements along both axes, as
+/// The result of [`indent`] on its first grid, or on one with `factor` times the elements along both axes, as
 /// [`steady_on_coarse_grid`].
 ///
 /// # Errors
@@ -137,23 +137,23 @@ pub fn indent_on_coarse_grid(
     elastomer: &dyn Elastomer,
     mean_pressure: f64,
     time: f64,
-    finer: usize,
+    factor: usize,
 ) -> Result<PeriodicSliding, BemError> {
     let spring = Sliding::at_rest(elastomer, positive("time", time)?)?;
     let control = PeriodicControl::MeanPressure(positive("mean_pressure", mean_pressure)?);
-    on_coarse_grid(surface, &spring, control, finer)
+    on_coarse_grid(surface, &spring, control, factor)
 }
 
-/// Solves on the first grid of an estimate, or on one with `finer` times the elements along both axes.
+/// Solves on the first grid of an estimate, or on one with `factor` times the elements along both axes.
 fn on_coarse_grid(
     surface: &PeriodicSurface,
     sliding: &Sliding,
     control: PeriodicControl,
-    finer: usize,
+    factor: usize,
 ) -> Result<PeriodicSliding, BemError> {
     // Sample the waves that the first grid resolves. The relative error of the request has no effect on its shape.
     let first = first_shape(surface, &Request::from(ANY_RELATIVE_ERROR))?;
-    let shape = first.map(|edge| finer * edge);
+    let shape = first.map(|edge| factor * edge);
     let SampledSurface { grid, heights, .. } = SampledSurface::new(surface, shape)?;
     let problem = PeriodicContact {
         sliding,

@@ -207,13 +207,13 @@ impl RefinementGoal<'_> {
         }
     }
 
-    /// Fails with [`BemError::GridTooLarge`] if a grid with `finer` times the elements of a shape along both axes is too large.
-    fn check_size(&self, shape: [usize; 2], finer: f64) -> Result<(), BemError> {
+    /// Fails with [`BemError::GridTooLarge`] if a grid with `factor` times the elements of a shape along both axes is too large.
+    fn check_size(&self, shape: [usize; 2], factor: f64) -> Result<(), BemError> {
         let [rows, columns] = shape.map(|n| n as f64);
-        let elements = finer.powi(2) * rows * columns;
+        let elements = factor.powi(2) * rows * columns;
         let limit = match self.steps_per_row {
             None => MAX_ELEMENTS,
-            Some(steps) => MAX_USUAL_GRID.min(MAX_ELEMENT_STEPS / (steps * finer * rows)),
+            Some(steps) => MAX_USUAL_GRID.min(MAX_ELEMENT_STEPS / (steps * factor * rows)),
         };
         if elements <= limit {
             return Ok(());
@@ -237,8 +237,8 @@ impl RefinementGoal<'_> {
         if self.steps_per_row.is_none() {
             return Ok(());
         }
-        let finer = 0.5 * excess.sqrt().log2().ceil().max(1.0).exp2();
-        self.check_size(shape, finer)
+        let factor = 0.5 * excess.sqrt().log2().ceil().max(1.0).exp2();
+        self.check_size(shape, factor)
     }
 
     /// The results on the finest grid with error bars from the last three; `None` with fewer grids.

@@ -225,7 +225,7 @@ pub(super) struct Strip<'a> {
 }
 
 impl<'a> Strip<'a> {
-    /// Strip that stands for an infinite profile, with the length along y that `loading` gives it.
+    /// Strip that replaces an infinite profile; its length along y is that of `loading`.
     fn new(profile: &'a dyn Surface, loading: &Loading) -> Self {
         Self {
             profile,

@@ -140,7 +140,7 @@ impl Mesh {
         self.elements.len()
     }
 
-    /// Bounding box of some candidates, given by their indices, with the places of these candidates in it.
+    /// Bounding box of some candidates, given by their indices, with the indices of these candidates in it.
     pub(super) fn region(&self, elements: impl Iterator<Item = usize> + Clone) -> Region {
         Region::around(elements.map(|element| self.indices(element)))
     }

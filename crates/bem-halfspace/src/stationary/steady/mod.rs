@@ -1,4 +1,4 @@
-//! Stationary sliding of single bodies and profiles, solved directly: no time, no free surface, no window.
+//! Stationary sliding of single bodies and profiles, solved directly in the frame of the indenter, without a march in time.
 //!
 //! In the frame of the indenter the stationary state is one complementarity problem
 //!
@@ -84,9 +84,10 @@ pub struct SteadyOptions {
     /// Rectangle around the lowest point in which contact may occur, \[m].
     pub footprint: Footprint,
     /// Largest residual h + u − d allowed in the contact, and largest penetration outside, relative to the depth scale D.
-    /// That is F_N/(4ηv) on a dashpot, the solution of D = h(a) = 2 (1 − ν) F_N J(a/v)/(4a) on any material, with the mean
-    /// height h(a) at the distance a from the lowest point, and the depth where that is given.
-    /// A residual of some units in the last place of the depth is always allowed.
+    ///
+    /// At a given depth D is the depth. Under a force D = h(a) = 2 (1 − ν) F_N J(a/v)/(4a), with the mean height h(a) at the distance
+    /// a from the lowest point; on a dashpot that is F_N/(4ηv) for every body. A residual of some units in the last place of the
+    /// depth is always allowed.
     pub tolerance: f64,
     /// Largest number of active sets that the search may try.
     pub max_iterations: usize,

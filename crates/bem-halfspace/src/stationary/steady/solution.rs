@@ -72,8 +72,8 @@ impl SteadySliding {
         self.residual * self.mean_slope
     }
 
-    /// The quantities of this state on its grid, for an error estimate from several grids. `kinks` is the strength of the kinks of
-    /// the body in the contact.
+    /// Input of an error estimate for one grid: the quantities of this state, and the errors that differences between grids do not
+    /// reveal. `kinks` is the sum of the squared jumps of the slope, as [`GridPlan::kinks`](crate::estimate::plan::GridPlan::kinks).
     pub(super) fn on_grid(
         self,
         creep: &SlidingCreep,

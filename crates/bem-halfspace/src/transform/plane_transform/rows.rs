@@ -87,7 +87,7 @@ impl<T: Real> RowTransform<T> {
         }
     }
 
-    /// Transforms a whole row without a mirror; `row` is overwritten.
+    /// Real Fourier transform of a row of the whole period, without padding and without a mirror; `row` is overwritten.
     pub(super) fn forward_whole(&self, row: &mut [T], transformed: &mut [Complex<T>]) {
         assert!(!self.has_mirror(), "a whole row");
         if let Self::Fourier { forward, .. } = self {

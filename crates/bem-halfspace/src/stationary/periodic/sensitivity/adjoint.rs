@@ -286,7 +286,7 @@ impl<'a> Adjoint<'a> {
     /// Derivatives by the complex compliance of each row, from those by the heights and the displacements `response` for a
     /// compliance of 1 in each row: their cross-spectrum.
     fn by_rows(&self, by_height: &[f64], response: &[f64]) -> Result<Vec<Complex<f64>>, BemError> {
-        let mut by_row = row_sums(by_height, response, self.grid);
+        let mut by_row = cross_spectrum(by_height, response, self.grid);
         let n_rows = by_row.len();
         if n_rows.is_multiple_of(2) {
             // For the shortest wave along x the kernel has the absolute value of the compliance, and the shift of the gaps its phase.
@@ -364,9 +364,9 @@ fn reversed(field: &[f64], grid: &Grid) -> Vec<f64> {
 
 /// Cross-spectrum of two fields by rows: for each q_x the sum over q_y of conj(left) right, over the number of rows.
 ///
-/// Multiply each row of the transform of `right` by a factor. The sum of left times right over the elements then becomes the sum
-/// of the values of the cross-spectrum times the factors.
-fn row_sums(left: &[f64], right: &[f64], grid: &Grid) -> Vec<Complex<f64>> {
+/// If each row of the transform of `right` is multiplied by a factor, the scalar product of both fields is the sum of the products
+/// of these values and the factors (Parseval).
+fn cross_spectrum(left: &[f64], right: &[f64], grid: &Grid) -> Vec<Complex<f64>> {
     let [rows, columns] = grid.shape();
     let transform = f64::forward(rows);
     let mut scratch = vec![Complex::default(); transform.get_inplace_scratch_len()];

@@ -74,7 +74,7 @@ struct State {
     pressure: Vec<f64>,
     /// Wave number q_x of each row of a transformed field, \[rad/m].
     along_x: Vec<f64>,
-    /// Gradients of friction, depth and area.
+    /// Derivatives of friction, depth and logarithm of the area by heights and kernel, under a constant mean pressure.
     gradients: Change<Gradient>,
 }
 
@@ -349,8 +349,8 @@ impl State {
         ])
     }
 
-    /// The change of all quantities under the given mean pressure or at the given depth. `under_pressure(gradient)` is the change
-    /// of one quantity under a constant mean pressure.
+    /// The change of all quantities while the prescribed mean pressure or depth is held fixed. `under_pressure(gradient)` is the
+    /// change of one quantity under a constant mean pressure.
     fn total_change(&self, under_pressure: impl Fn(&Gradient) -> f64) -> Change<f64> {
         let change = self.gradients.map(under_pressure);
         match self.control {

@@ -249,8 +249,8 @@ impl ContactDerivatives {
         }
     }
 
-    /// The change of all quantities under the given force or at the given depth. `on_fixed_elements(gradient)` is the change of one
-    /// quantity on fixed elements under a constant force.
+    /// The change of all quantities while the prescribed force or depth is held fixed. `on_fixed_elements(gradient)` is the change of
+    /// one quantity on fixed elements under a constant force.
     pub(super) fn total_change(&self, on_fixed_elements: impl Fn(&Gradient) -> f64) -> Change<f64> {
         let under_force = self.under_force(on_fixed_elements);
         match self.control {
