@@ -88,7 +88,7 @@ pub struct WorkProgress<'a> {
 }
 
 impl<'a> WorkProgress<'a> {
-    /// Progress of work of which nothing is done yet, and `expected` is the total amount.
+    /// Progress of an expected amount of work, none of which is completed.
     pub const fn new(watch: &'a dyn Progress, expected: f64) -> Self {
         Self {
             watch,
@@ -97,7 +97,7 @@ impl<'a> WorkProgress<'a> {
         }
     }
 
-    /// Replaces the expected work by the completed one and this remaining one.
+    /// Sets the expected total to the completed work plus this remaining work.
     pub const fn set_remaining_work(&mut self, work: f64) {
         self.expected = self.completed + work;
     }
@@ -112,8 +112,8 @@ impl<'a> WorkProgress<'a> {
         value
     }
 
-    /// Progress for a part of the given work, which begins here and is added by the caller when it is completed. A part of no
-    /// work reports a constant fraction.
+    /// Progress of the next part, of the given amount of work. The caller must [`add`](Self::add) the amount once the part is
+    /// completed. A part of no work reports a constant fraction.
     pub fn partial(&self, work: f64) -> PartialProgress<'a> {
         PartialProgress {
             watch: self.watch,

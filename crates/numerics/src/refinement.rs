@@ -94,7 +94,7 @@ pub struct Goal<'a> {
     pub selection_factor: f64,
 }
 
-/// One number that is refined.
+/// A number whose error the refinement estimates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Quantity {
     /// Value on one resolution, in the unit of the quantity.
@@ -115,7 +115,7 @@ pub struct Quantity {
 }
 
 impl From<f64> for Quantity {
-    /// A number whose only rounding error is that of sums, 1e-12 of its value.
+    /// A number without a rounding error of its own; [`refine`] adds that of sums, 1e-12 of its value.
     fn from(value: f64) -> Self {
         Self {
             value,
@@ -210,11 +210,11 @@ pub const FIRST_ELEMENTS: usize = 16;
 /// Smallest number n of elements whose error estimate also uses 3n/8 elements. Chosen as the default of the first error estimate,
 /// with 6 elements on the coarsest resolution; on fewer, errors need not fall like a power.
 const MIN_ELEMENTS_FOR_THREE_EIGHTHS: usize = FIRST_ELEMENTS;
-/// Factors on the error estimates by n/2, 3n/4 and 3n/8 elements; chosen on random scenes (docs/calibration.md, "What was
-/// measured"; case of `evidence tuning`).
+/// Factors on the three error estimates at the head of this file: by n/2, 3n/4 and 3n/8 elements. Chosen on random scenes
+/// (docs/calibration.md, "What was measured"; case of `evidence tuning`).
 const ESTIMATE_WEIGHTS: [f64; 3] = [1.25, 0.625, 0.85];
-/// Factor on the larger of the estimates by n/2 and 3n/4 elements if there is no third one (docs/calibration.md, "What was
-/// measured").
+/// Factor on the larger of the error estimates by n/2 and 3n/4 elements if there is no third one. Chosen on random scenes
+/// (docs/calibration.md, "What was measured").
 const WEIGHT_OF_TWO_ESTIMATES: f64 = 1.7;
 /// Smallest convergence order that is assumed. Chosen: with it, half of an error takes 2¹⁰ times the elements, which no
 /// refinement affords.
@@ -412,7 +412,8 @@ impl Goal<'_> {
         elements.powf(self.work_exponent)
     }
 
-    /// Work of 3/8, 1/2, 3/4 and all of the first elements, with the other errors.
+    /// Work of the first error estimate on n `elements`: the solutions on 3n/8, n/2, 3n/4 and n elements, of which the first is counted
+    /// even if n is too small for it, and the other errors.
     fn initial_work(&self, elements: usize) -> f64 {
         let work = |part: f64| self.work_on(part * elements as f64);
         work(0.375) + work(0.5) + work(0.75) + (1.0 + self.extra_work) * work(1.0)
@@ -465,7 +466,8 @@ impl ResolutionValues {
     }
 }
 
-/// Absolute error of each quantity: the sum of its parts and of both kinds of rounding.
+/// Absolute error of each quantity: the sum of its parts, of the rounding of sums ([`SUMMATION_ERROR`]) and of its own rounding
+/// error.
 fn errors(fine: &[Quantity], parts: &[ErrorParts]) -> Vec<f64> {
     let error = |(fine, parts): (&Quantity, &ErrorParts)| {
         parts.sum() + SUMMATION_ERROR * fine.value.abs() + fine.rounding_error

@@ -207,7 +207,7 @@ impl<'a> Contact<'a> {
         if let ElementState::Free(centre) =
             self.elements().follow(f64::MIN_POSITIVE, &self.edge_moves)
         {
-            // A contact that begins and ends within one segment is not seen.
+            // A contact that begins and ends within one segment is overlooked.
             if self.elements().gap(&centre, end) > 0.0 {
                 return Ok(end);
             }

@@ -13,12 +13,12 @@ use crate::MdrError;
 pub(crate) const MAX_ELEMENTS: usize = 1 << 22;
 /// Ratio of the distance up to which a line on an infinite domain is sampled to the distance at which it was last below the
 /// largest needed height. Chosen: a part of the body that comes down farther out is overlooked. Each doubling costs 44 samples,
-/// 64 ln 2 by the [`LOOKOUT_STRIDE`].
-const LOOKOUT_DISTANCE_RATIO: usize = 1024;
+/// 64 ln 2 by the [`STRIDE_DIVISOR`].
+const SAMPLED_DISTANCE_RATIO: usize = 1024;
 /// Distance from the anchor, in elements, up to which every element is sampled in the search for the last one below the largest
 /// needed height; farther out the stride is the distance over this number. Chosen: a part that comes down again is overlooked if
 /// it is narrower than 1/64 of its distance. Twice the number finds parts half as wide, with twice as many samples.
-const LOOKOUT_STRIDE: usize = 64;
+const STRIDE_DIVISOR: usize = 64;
 /// Margin above the height asked for, relative to that height, so that rounding cannot lift the contact beyond the last element.
 /// Chosen far above the rounding of heights; the elements that it adds are not in contact.
 const MAX_HEIGHT_MARGIN: f64 = 1e-9;
@@ -162,7 +162,7 @@ impl Ray<'_> {
         let (mut last_below, mut n_needed) = (0, 1);
         // Look ahead with growing strides for the last element below the largest needed height.
         while let Some(position) = self.position(element) {
-            let next = element.saturating_add(1 + element / LOOKOUT_STRIDE);
+            let next = element.saturating_add(1 + element / STRIDE_DIVISOR);
             if checked_height(self.line, position)? <= self.max_height {
                 (last_below, n_needed) = (element, next);
             }
@@ -170,7 +170,7 @@ impl Ray<'_> {
                 return Ok(None);
             }
             if next == usize::MAX
-                || !is_bounded && element > LOOKOUT_DISTANCE_RATIO * (last_below + 1)
+                || !is_bounded && element > SAMPLED_DISTANCE_RATIO * (last_below + 1)
             {
                 break;
             }

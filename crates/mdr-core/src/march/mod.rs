@@ -43,7 +43,7 @@ const MAX_ELEMENTS_ALONG_CONTACT: usize = 4096;
 /// Exponent of the work as a function of the number of elements along the contact. Derived: the number of steps grows in
 /// proportion to it, and so does the work of each step.
 const WORK_EXPONENT: f64 = 2.0;
-/// Largest order of convergence that is assumed. Chosen: smooth bodies have a better one, but the place of their contact boundary
+/// Largest order of convergence that is assumed. Chosen: smooth bodies have a better one, but the position of their contact boundary
 /// between the elements makes it unsafe to assume more. A higher order makes error bars narrower.
 const MAX_ORDER: f64 = 1.0;
 /// Ratio of the number of elements of a foundation to that along the contact, for the estimate of memory. Chosen as an upper
@@ -59,7 +59,7 @@ const MAX_WORK: f64 = 5e8;
 /// Chosen to limit the time: with half of it, a friction that the next halving would resolve may be given up; with twice as many,
 /// one that is never resolved takes four times as long.
 const MIN_ELEMENTS_TO_GIVE_UP: usize = 128;
-/// Order of convergence that is lost against the exponent p of an apex x^p, because its place between two elements is arbitrary.
+/// Order of convergence that is lost against the exponent p of an apex x^p, because its position between two elements is arbitrary.
 /// Chosen (case of `evidence tuning`).
 const TIP_ORDER_LOSS: f64 = 0.5;
 /// Order of convergence behind a steep kink. Derived: the line rises like the root of the distance there, so that its rise over

@@ -130,7 +130,7 @@ impl Trial {
 /// Relative root √(rise of the minimal sum/required rise) with the parameter held at the distance `step` from the minimum; the
 /// others start along the `tangent`. The minimisation ends early at a sum below `target`.
 ///
-/// Infinite where there is no finite sum, or where the required rise is 0: the end is before.
+/// Infinite if the sum is not finite, or if the required rise is 0: the end of the interval is then sought closer to the minimum.
 fn root_rise(
     evaluate: impl FnMut(&[f64]) -> Option<QuadraticModel>,
     best: &Minimum,
