@@ -205,11 +205,11 @@ fn distance_since_lift_off(y: f64) -> f64 {
 /// rounding; two more are a margin.
 const NEWTON_STEPS: usize = 8;
 
-/// Relative distance y from the stationary state at the distance T ≥ 0 since lift-off, as a multiple of x_d: y = −W₀(−½ e^(−1/2 −
-/// T)) ≤ ½ with Lambert's function, or y e^(−y) = ½ e^(−1/2 − T).
+/// Relative distance y from the stationary state at the sliding distance T x_d ≥ 0 since lift-off. It solves y e^(−y) = ½ e^(−1/2 − T),
+/// y ≤ ½, or y = −W₀(−½ e^(−1/2 − T)) with Lambert's function.
 ///
-/// Newton's method for z = ln y in e^z − z = c, c = ½ + ln 2 + T: the function is convex and falls where y < 1, so from
-/// z = −c, which is left of the root, the steps approach it from one side, and neither late nor early times lose digits.
+/// Newton's method solves e^z − z = c for z = ln y, with c = ½ + ln 2 + T. The function is convex and falls where y < 1, so that the
+/// steps from z = −c, left of the root, approach it from one side. Neither late nor early times lose digits.
 fn missing_fraction(since_lift_off: f64) -> f64 {
     let c = 0.5 + LN_2 + since_lift_off;
     if c.is_infinite() {

@@ -212,8 +212,8 @@ impl ContactBox {
         area::boundary_uncertainty(&self.state.load, &self.bounds, mirrors)
     }
 
-    /// Measure of the singularity of the pressure at the contact boundary, from 0 to 1: 1 under a flat punch, of the order 1/a² where
-    /// the pressure vanishes like a root, for a contact radius of a elements.
+    /// Measure of the singularity of the pressure at the contact boundary, from 0 to 1. It is 1 under a flat punch, and of the order
+    /// 1/a² for a contact radius of a elements where the pressure vanishes like a root.
     pub(crate) fn edge_singularity(&self, mirrors: [Mirror; 2]) -> f64 {
         area::edge_singularity(&self.state.load, &self.bounds, mirrors)
     }

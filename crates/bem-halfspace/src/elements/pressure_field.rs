@@ -68,8 +68,8 @@ impl PressureField {
         }
     }
 
-    /// Along an axis the indices of new and old elements that overlap, and the part of the new element that the old one covers,
-    /// for a new grid with the centre of its first element at `origin` \[m].
+    /// Overlaps along an axis of the elements of a new `grid`, whose first element has its centre at `origin` \[m], with the old
+    /// ones: index of the new element, index of the old one, and the part of the new element that the old one covers.
     fn overlaps(&self, axis: usize, grid: &Grid, origin: f64) -> Vec<(usize, usize, f64)> {
         let [old, new] = [&self.grid, grid].map(|grid| grid.spacing()[axis]);
         let n_old = self.grid.shape()[axis];
@@ -111,12 +111,12 @@ impl PressureField {
     }
 
     /// Discretisation error of the friction coefficient by the position of the contact boundary: √(Σ S²) over the straight runs of the
-    /// boundary at its extrema, with S = ½ Σ P (∂h/∂x − μ)/Σ P, the first sum over the outermost elements of the run and the
-    /// second over the contact. 0 under bodies of revolution, whose boundary is nowhere straight.
+    /// boundary at its extrema, with S = ½ Σ P (∂h/∂x − μ)/Σ P. The first sum runs over the outermost elements of the run, the second
+    /// over the contact. 0 under bodies of revolution, whose boundary is nowhere straight.
     ///
-    /// Along a run the true boundary lies within half an element of that of the elements, so that up to half the force of the
-    /// outermost elements belongs to others, whose mean slope is μ. Where the boundary passes obliquely through the elements, errors cancel
-    /// along a run.
+    /// Along a run the true boundary lies within half an element of that of the elements. Up to half the force of the outermost
+    /// elements therefore belongs to others, whose mean slope is μ. Where the boundary passes obliquely through the elements, errors
+    /// cancel along a run.
     pub(crate) fn friction_uncertainty(&self, surface: &dyn Surface) -> f64 {
         if surface.as_axisymmetric().is_some() {
             return 0.0;

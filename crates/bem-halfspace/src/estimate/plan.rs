@@ -41,8 +41,8 @@ pub(crate) struct GridPlan {
     pub(crate) coarsest_spacing: f64,
     /// Exponent p of the sharpest point h ∼ r^p in contact; 2 or more for a smooth surface.
     pub(crate) apex_exponent: f64,
-    /// Sum of the squares of the jumps of the slope in contact over the square of the slope at its end, at most 1: at the edges of a body,
-    /// and between the cells of a height map along the line through its lowest point.
+    /// Sum of the squared jumps of the slope in contact over the squared slope at the end of the contact, at most 1. The jumps are those
+    /// at the edges of a body, or between the cells of a height map along the line through its lowest point.
     pub(crate) kinks: f64,
     /// True if elements resolve edges: those of a body, or those of single cells of a height map.
     pub(crate) has_edges: bool,
@@ -210,8 +210,8 @@ impl CellSlopes {
         squares.sum::<f64>().min(1.0)
     }
 
-    /// True if the contact lies on a few cells, and the slope jumps between two of them away from the lowest point. Elements then resolve an
-    /// edge like that of a flat end.
+    /// True if the contact lies on a few cells, and the slope jumps between two of them away from the lowest point. Elements then
+    /// resolve an edge like that of a flat end.
     fn are_visible(&self) -> bool {
         self.slopes.len() as f64 <= MAX_VISIBLE_CELLS
             && self.relative_jumps().any(|jump| jump.abs() > MIN_EDGE_JUMP)

@@ -165,9 +165,9 @@ impl SurfaceTemperature {
     ///
     /// The error bars are the differences from the same flux on elements with twice the edges. With the convergence order 1, the lowest
     /// that occurs, the difference is the error of the finer grid; with the order 2 of smooth fluxes it is three times the error. The
-    /// bar of the largest rise also contains twice the change over half an element around the hottest centre, because the maximum is
-    /// not at a centre, and the difference of largest values may vanish by chance. Bars do not contain errors of the given flux, such as that of the area of a contact of
-    /// whole elements.
+    /// bar of the largest rise also contains twice the change over half an element around the hottest centre. The maximum is not at a
+    /// centre, and the difference of the largest values may vanish by chance. Bars do not contain errors of the given flux, such as
+    /// that of the area of a contact of whole elements.
     ///
     /// # Errors
     /// [`BemError::LengthMismatch`] for a flux without one value per element; [`BemError::InvalidParameter`] for a flux that is not

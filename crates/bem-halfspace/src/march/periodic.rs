@@ -218,8 +218,8 @@ impl<'a> PeriodicMarch<'a> {
 
     /// Sets the duration \[s] of the next steps, and heights and slopes of the surface at their end.
     ///
-    /// For each row of the transform, `symbols(row)` = [a, b]: the waves of the given heights with its wave number q_x become those of
-    /// the heights, multiplied by a, and those of the slopes, multiplied by b \[1/m].
+    /// `symbols(row)` has the factors [heights, slopes \[1/m]] by which the waves in a row of the transform, those of one q_x, are
+    /// multiplied: the waves of the given surface become those of its heights and slopes at the end of a step.
     pub(crate) fn set_step(
         &mut self,
         time_step: f64,

@@ -58,8 +58,8 @@ impl Foundation {
         lengths.fold(f64::INFINITY, f64::min)
     }
 
-    /// Bound of the change of ∫ w dξ by a change δ of the displacement on a segment of a length \[m], divided by δ, \[m]: a
-    /// branch keeps its stress over its distance of relaxation at most.
+    /// Bound of the change of ∫ w dξ on a segment of a length \[m] by a change δ of the displacement, divided by δ, \[m]. A branch
+    /// keeps its stress over its distance of relaxation at most.
     pub(crate) fn stiffness(&self, length: f64) -> f64 {
         let branches = self.branches.iter();
         let relaxing: f64 = branches.map(|b| b.modulus * length.min(b.length)).sum();

@@ -554,8 +554,8 @@ impl Approach {
         self.integrate_to_edge(0.0);
     }
 
-    /// Computes the integral of the strain of each branch over the contact up to the edge that the search has found, and the
-    /// changes of load and radius by a last `shift` of the depth of the edge, \[m].
+    /// Computes the integral of the strain of each branch over the contact, up to the edge that the search has found. Stores also
+    /// the changes of load and radius by a last `shift` of the depth of the edge, \[m].
     fn integrate_to_edge(&mut self, shift: f64) {
         let EdgeElement { ring, theta, .. } = self.edge;
         let place = self.element_at(ring, theta);
@@ -588,8 +588,8 @@ impl Approach {
     }
 }
 
-/// Largest difference of two durations of about `step` that may be rounding, \[s]: four units in the last place of the `time` up
-/// to which they lead, and at most 1e-12 of the step, so that no real difference counts as rounding.
+/// Largest difference of two durations of about `step`, up to a `time`, that may be rounding, \[s]: four units in the last place of
+/// the time. It is at most 1e-12 of the step, so that no real difference counts as rounding.
 fn duration_rounding(time: f64, step: f64) -> f64 {
     4.0 * f64::EPSILON * time.abs().min(1e3 * step)
 }

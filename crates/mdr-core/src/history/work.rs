@@ -132,7 +132,7 @@ fn is_force_given(curve: &[CurvePoint]) -> bool {
 }
 
 /// Bound of the error of the work by the error of the depth, or of the force, \[J]: the largest error times the total variation
-/// of the other quantity, and for a given force twice its largest value more, for the products at both ends.
+/// of the other quantity. For a given force twice its largest value is added to the variation, for the products at both ends.
 fn work_error(curve: &[CurvePoint]) -> f64 {
     let largest = |of: fn(&CurvePoint) -> f64| curve.iter().map(of).fold(0.0, f64::max);
     let total_variation = |of: fn(&CurvePoint) -> f64| {

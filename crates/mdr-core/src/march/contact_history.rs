@@ -1,16 +1,16 @@
 //! Contacts of the elements in a cycle, and an approximate Newton step to the limit cycle from them.
 //!
-//! In a limit cycle of period T, the amplitude x of an element in the mode of retardation time λ is what decays of it in a
-//! cycle plus what the load w adds, so that F(x) = 0:
+//! In a limit cycle of period T each mode of an element, of the compliance J and the retardation time λ, ends with the amplitude
+//! x with which it began. Its decay and the contribution of the load w balance:
 //!
 //! ```text
-//! F(x) = β ∫ w e^(−(T − t)/λ) dt / (λ (1 − e^(−T/λ))) − x = 0
-//! δ = F − θ β M v,   v = Σ θ δ,   θ = (λ/T)(1 − e^(−T/λ))           the approximate Newton step
+//! F(x) = −J ∫ w e^(−(T − t)/λ) dt / (λ (1 − e^(−T/λ))) − x = 0
+//! δ = F − θ J M v,   v = Σ θ δ,   θ = (λ/T)(1 − e^(−T/λ))           the approximate Newton step
 //! M v = ⟨k (v − d)⟩ over the cycle in contact,   Σ k (v − d) = 0 under a force,   d = 0 at a depth
 //! ```
-//! k is the mean modulus over the time for which an element is in contact without interruption, and M v the change of the
-//! mean load by the change v of the mean free displacement. M is symmetric and positive semidefinite: an element that has
-//! recovered less carries less load.
+//! Amplitudes and free displacements are positive upwards, loads downwards. M v is the change of the mean load by the change v of
+//! the mean free displacement, and k the mean modulus over the time for which an element is in contact without interruption. M is
+//! symmetric and positive semidefinite: an element that has recovered less carries less load.
 
 use super::elements::ElementStep;
 use crate::branches::{Foundation, Mode};
@@ -132,11 +132,11 @@ pub(super) struct CycleJacobian<'a> {
 
 /// Factors of one mode in a step.
 struct ModeFactors {
-    /// Factor on F and β, for a step that covers a finite number of cycles.
+    /// Factor on F and J, for a step that covers a finite number of cycles.
     step_factor: f64,
     /// Factor θ: mean over a cycle of the displacement per amplitude.
     mean_factor: f64,
-    /// Product of θ, β and the factor of the step: amplitude per mean load.
+    /// Product of θ, J and the factor of the step: amplitude per mean load.
     load_compliance: f64,
 }
 
@@ -170,7 +170,7 @@ impl<'a> CycleJacobian<'a> {
         }
     }
 
-    /// Step δ \[m] of all amplitudes that covers n `cycles` instead of all: with κ = e^(−T/λ), F and β are multiplied by
+    /// Step δ \[m] of all amplitudes that covers n `cycles` instead of all: with κ = e^(−T/λ), F and J are multiplied by
     /// (1 − κ)/(1 − κ + κ/n).
     pub(super) fn step(&self, modes: &[Mode], cycles: f64, residual: &[f64]) -> Vec<f64> {
         let n_history = residual.len() / self.contact_history.elements.len();

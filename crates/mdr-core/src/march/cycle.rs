@@ -17,9 +17,9 @@ use crate::history::SUM_ROUNDING;
 /// [`MdrError::NotPeriodic`]. A cycle that is found does not depend on it.
 const MAX_CYCLES: usize = 400;
 /// Deviation from the expected residual, relative to the residual before the step, at which the next step covers as many cycles
-/// as the last one: `fac` times the tolerance in the step size control of Hairer, Nørsett & Wanner 1993, Solving Ordinary
-/// Differential Equations I, (II.4.13), of first order and without limits on the factor. Chosen; from 0.2 to 10 nothing changes
-/// (case of `evidence tuning`).
+/// as the last one. It is the product of `fac` and the tolerance in the step size control of Hairer, Nørsett & Wanner 1993, Solving
+/// Ordinary Differential Equations I, (II.4.13), of first order and without limits on the factor. Chosen; from 0.2 to 10 nothing
+/// changes (case of `evidence tuning`).
 const TARGET_DEVIATION: f64 = 0.4;
 /// Largest number of cycles that a step covers; with it a step is the full Newton step for all but the slowest modes. Chosen;
 /// from 1e8 to 1e30 nothing changes, with 10 a slow material is refused (case of `evidence tuning`).

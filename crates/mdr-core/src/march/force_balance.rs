@@ -35,9 +35,9 @@ impl ForceBalance<'_> {
     ///
     /// If `needed` is 0 the line just touches the first element. After the first step the iterates decrease to the solution,
     /// and their sets of elements are nested. When a step loses no element, the equation is linear between its two depths
-    /// and solved. With f the excess of force and g the number of elements, convexity gives f'/f + g'/g ≤ 1 from step to
-    /// step, so that f g falls by a factor of four or more: the number of steps is logarithmic, with a good guess two or
-    /// three.
+    /// and solved. Let f be the excess of force and g the number of elements, and f', g' their values after the next step.
+    /// Convexity gives f'/f + g'/g ≤ 1, so that f g falls by a factor of four or more. The number of steps is therefore
+    /// logarithmic; with a good guess it is two or three.
     pub(crate) fn solve(&self, needed: f64, guess: f64) -> TrialDepth {
         let first_trial = self.at_depth(guess);
         let mut trial = self.at_depth(match first_trial.n_below {

@@ -152,8 +152,8 @@ impl<'a> MotionProblem<'a> {
         Ok(n_steps * per_step as f64 + n_elements * per_element)
     }
 
-    /// Height of the line about where the contact may end, above its height at x = 0, \[m]: the lower one of both sides, and the
-    /// contact length if that is not positive and finite.
+    /// Guess of the height at which the contact ends, above the height of the line at x = 0, \[m]: that at [`FIRST_CONTACT_REACH`] on
+    /// the lower side, or the contact length if that height is not positive and finite.
     fn rise(&self) -> f64 {
         let lowest = self.line.height(0.0);
         let sides = [

@@ -265,8 +265,8 @@ impl<'a> March<'a> {
         self.slopes.mean_slope_modulus
     }
 
-    /// Measure of the singularity of the pressure at the contact boundary, from 0 to 1: 1 under a flat punch, of the order 1/a² where
-    /// the pressure vanishes like a root, for a contact radius of a elements.
+    /// Measure of the singularity of the pressure at the contact boundary, from 0 to 1. It is 1 under a flat punch, and of the order
+    /// 1/a² for a contact radius of a elements where the pressure vanishes like a root.
     pub(crate) fn edge_singularity(&self) -> f64 {
         self.contact_box.edge_singularity(self.layout.mirrors)
     }

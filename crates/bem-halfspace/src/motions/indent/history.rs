@@ -53,16 +53,17 @@ impl HistoryOptions {
 pub struct IndentHistory {
     /// One row per time that was asked for; force and depth are extrapolated in the length of the steps.
     pub rows: Vec<MotionRow>,
-    /// Estimated error of force and depth by the steps in time, relative to the largest of each in the history: the sum of the
-    /// changes by halving them that are still to come, or the largest effect of elements that yield within a step.
+    /// Estimated error of force and depth by the steps in time, relative to the largest of each in the history. It is the sum of the
+    /// changes by further halvings, or the bound for retardation elements that relax within a step, whichever is larger.
     pub time_error: f64,
     /// Steps made between two rows.
     pub steps_per_row: usize,
 }
 
-/// Presses `surface` into an undeformed half space by a force or depth that is a function of time \[s], and halves the
-/// steps between the `times` at which the state is wanted until the error asked for is met; jumps and kinks of the
-/// control belong among these times, which increase from above zero.
+/// Presses `surface` into an undeformed half space by a force or depth that is a function of time \[s].
+///
+/// The `times` at which the state is wanted increase from above zero, and include the jumps and kinks of the control. The steps
+/// between them are halved until the requested error is met.
 ///
 /// # Errors
 /// [`BemError::TimeNotResolved`] when the error asked for is not met with the steps allowed; otherwise like
@@ -179,8 +180,8 @@ fn extrapolated(coarse: &[MotionRow], fine: &[MotionRow]) -> Vec<MotionRow> {
 }
 
 /// Bound of the relative error by retardation elements that are faster than a step, over all intervals between two rows with `n` steps
-/// each: retardation time over interval, times the element's fraction of the compliance. Halving the steps does not reveal this error
-/// while they are longer than the retardation time.
+/// each: the largest ratio of a retardation time to the interval, times the fraction of the element in the compliance. Halving the
+/// steps does not reveal this error while they are longer than the retardation time.
 fn unresolved_relaxation(creep: &CreepSpectrum, times: &[f64], n: usize) -> Result<f64, BemError> {
     // Only retardation elements that relax within one of the steps cause this error.
     let mut largest = 0.0_f64;

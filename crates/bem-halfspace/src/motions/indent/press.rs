@@ -175,8 +175,8 @@ pub(crate) fn footprint_after(
     Ok(plan.footprint)
 }
 
-/// The elastic contact that is equivalent to that of a material under a constant control (Lee & Radok 1960): an elastic material of
-/// unit compliance, and the factor from forces on the material to forces on it.
+/// The elastic contact that is equivalent to that of a material under a constant control (Lee & Radok 1960). It consists of an elastic
+/// material of unit compliance, and of the factor from forces on the viscoelastic material to forces on the elastic one.
 pub(super) struct Spring {
     /// Elastic material of the compliance 2 (1 − ν)/G = 1/Pa, with the Poisson ratio of the material.
     unit: Compressible,

@@ -39,8 +39,8 @@ const FOOTPRINT_REAR: f64 = 2.0;
 /// length of a cylinder on an elastic half space. Chosen; from 1 to 5 no answer changes by more than 2e-8 of its bar, because a
 /// footprint that is reached grows (case of `evidence tuning`).
 const FOOTPRINT_FRONT: f64 = 2.5;
-/// Shift of the front of the footprint per e-fold of the memory length, in half lengths of the contact on an elastic half space:
-/// the distance ahead at which the surface still rises grows with the logarithm of the memory length. Chosen; from 0.1 to 2 no
+/// Shift of the front of the footprint per e-fold of the memory length, in half lengths of the contact on an elastic half space.
+/// The distance ahead at which the surface still rises grows with the logarithm of the memory length. Chosen; from 0.1 to 2 no
 /// answer changes by more than 1e-8 of its bar (case of `evidence tuning`).
 const FOOTPRINT_FRONT_PER_LOG_MEMORY: f64 = 0.5;
 

@@ -106,9 +106,8 @@ fn invert_causal_factor(transform: &PlaneTransform, column: &mut [Complex<f64>])
     }
 }
 
-/// The mirror image of each factor, together with the inverse of the following creep filter for the wave number α along x, in
-/// radians per element:
-/// `J₀ + 1/(η_f (1 − e^{iα})) + Σ J_k (1 − d_k)/(1 − d_k e^{iα})` over the elements ahead.
+/// The mirror image of each factor, divided by the creep filter of the elements ahead,
+/// `J₀ + 1/(η_f (1 − e^{iα})) + Σ J_k (1 − d_k)/(1 − d_k e^{iα})`, at the wave number α along x in radians per element.
 fn with_inverse_creep(factors: &Spectrum, creep: &ElementCreep, length: usize) -> Spectrum {
     let inverse = |index: usize| {
         let angle = std::f64::consts::TAU * index as f64 / length as f64;

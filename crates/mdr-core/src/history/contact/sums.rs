@@ -118,8 +118,8 @@ impl Contact<'_> {
     }
 }
 
-/// Advances Φ_k \[Pa m²] inside a radius \[m] in which all elements stay in contact, over the time of `lag`: each integral decays, and
-/// gains the radius times the stress that is the same for all elements.
+/// Advances Φ_k \[Pa m²] over the time of `lag`, inside a radius \[m] in which all elements stay in contact. Each integral decays, and
+/// gains the radius times the stress that all elements gain alike.
 fn hold_sums(sums: &mut [f64], radius: f64, lag: &DecayedHistory) {
     for ((sum, decay), stress) in sums.iter_mut().zip(&lag.decays).zip(&lag.stresses) {
         *sum = decay * *sum + radius * stress;

@@ -93,8 +93,8 @@ impl<'a> LoadedContact<'a> {
         Correlation::between(&left, &right, self.region.shape)
     }
 
-    /// Adjoint loads λ, up to the constraint of the force, of quantities with the given derivatives by the loads in contact and the
-    /// gaps next to it: `Kᵀ y = r` in the contact, and −∂J/∂gap outside.
+    /// Adjoint loads of quantities J at a free force, from their derivatives by the loads in contact and by the gaps next to it. In the
+    /// contact they solve `Kᵀ y = r`, outside they are −∂J/∂gap.
     pub(super) fn adjoint_loads(
         &mut self,
         derivatives: &[&[f64]],
