@@ -61,14 +61,14 @@ impl ActiveVectors {
     /// Empty packed vectors with capacity for all elements of the grid, so that a change of the active set does not allocate.
     pub(super) fn new(n_elements: usize) -> Self {
         let mut vectors = Self::default();
-        for vector in vectors.all() {
+        for vector in vectors.vectors_mut() {
             vector.reserve(n_elements);
         }
         vectors
     }
 
     /// Mutable references to all six vectors, for resizing them alike.
-    const fn all(&mut self) -> [&mut Vec<f64>; 6] {
+    const fn vectors_mut(&mut self) -> [&mut Vec<f64>; 6] {
         [
             &mut self.separation,
             &mut self.displacement,
@@ -82,7 +82,7 @@ impl ActiveVectors {
     /// Resizes all vectors to another active set, and gathers the fields of separation \[m] and load on it. The other vectors keep
     /// values without meaning.
     pub(super) fn restrict_to(&mut self, active: &ActiveSet, separation: &[f64], load: &[f64]) {
-        for vector in self.all() {
+        for vector in self.vectors_mut() {
             resize(vector, 0.0, active.len());
         }
         active.gather(separation, &mut self.separation);

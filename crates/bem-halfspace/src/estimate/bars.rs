@@ -10,7 +10,7 @@ use crate::estimate::averages::Refinement;
 use crate::estimate::quantities::{Name, Quantities};
 
 /// Index of the friction from the dissipated power in vectors of quantities, after those of [`Name`].
-const DISSIPATED: usize = Name::IN_ORDER.len();
+const DISSIPATED_FRICTION: usize = Name::IN_ORDER.len();
 /// Error of each end of a contact, in elements. Chosen above one element (case of `evidence tuning`).
 ///
 /// The contact boundary follows the elements, and each outermost element is in contact as a whole or not at all. The test
@@ -187,9 +187,9 @@ pub(crate) fn resolve<S, O, E: Into<Reached>>(
     let (control, target) = (resolution.control, resolution.target_name());
     let quantities = |contact: &OnGrid<S, O>| contact.quantities_for(target);
     let common_errors = |contact: &OnGrid<S, O>, _: &dyn Fn(f64)| {
-        let mut errors = vec![ErrorParts::NONE; DISSIPATED + 1];
+        let mut errors = vec![ErrorParts::NONE; DISSIPATED_FRICTION + 1];
         errors[target.index()] = contact.common_error;
-        errors[DISSIPATED] = contact.common_error;
+        errors[DISSIPATED_FRICTION] = contact.common_error;
         Ok(errors)
     };
     // Refine the grid until the error is reached. The errors that all grids share are added to those of the elements.
@@ -201,10 +201,10 @@ pub(crate) fn resolve<S, O, E: Into<Reached>>(
     let mut friction = known.friction_coefficient;
     let mut error_parts = refined.parts[target.index()];
     if let Some(dissipated) = refined.value.dissipated {
-        let error = errors[DISSIPATED];
+        let error = errors[DISSIPATED_FRICTION];
         if error < resolution.max_dissipation_error_ratio * friction.error {
             friction = Estimate::new(dissipated, error);
-            error_parts = refined.parts[DISSIPATED];
+            error_parts = refined.parts[DISSIPATED_FRICTION];
         }
     }
     // A prescribed force or depth has no error, and replaces the computed one.

@@ -58,18 +58,18 @@ pub struct TemperatureRise {
 struct Averages {
     /// Largest value on elements with a flux.
     largest: f64,
-    /// Mean over the loaded area.
+    /// Mean over the heated area.
     mean: f64,
     /// Mean weighted with the flux.
     flux_weighted_mean: f64,
 }
 
 /// Flux of all sources on one grid.
-struct Loading {
+struct TotalFlux {
     /// Sum of the fluxes per element.
     flux: Vec<f64>,
-    /// Part of each element that is loaded.
-    loaded_fraction: Vec<f64>,
+    /// Fraction of each element that is heated.
+    heated_fraction: Vec<f64>,
 }
 
 impl SurfaceTemperature {
@@ -205,17 +205,17 @@ impl SurfaceTemperature {
         });
 
         // Compare the averages on both grids.
-        let loading = Loading::of(sources, self.grid.n_elements());
-        let coarse_loading = Loading {
-            flux: self.coarsened(loading.flux.clone()),
-            loaded_fraction: self.coarsened(loading.loaded_fraction.clone()),
+        let total = TotalFlux::of(sources, self.grid.n_elements());
+        let coarse_total = TotalFlux {
+            flux: self.coarsened(total.flux.clone()),
+            heated_fraction: self.coarsened(total.heated_fraction.clone()),
         };
-        let averages = Averages::over(&temperature, &loading);
-        let hottest = loading.hottest_element(&temperature);
+        let averages = Averages::over(&temperature, &total);
+        let hottest = total.hottest_element(&temperature);
         let sampling_error = hottest.map_or(0.0, |hottest| {
             sampling_error(&temperature, hottest, self.grid.shape())
         });
-        let coarse_averages = Averages::over(&coarse_temperature, &coarse_loading);
+        let coarse_averages = Averages::over(&coarse_temperature, &coarse_total);
         let power = |source| self.power(source);
         let absorbed_power = |source| absorbed_share(source) * self.power(source);
         Ok(TemperatureRise {
@@ -271,8 +271,8 @@ impl SurfaceTemperature {
     }
 }
 
-impl Loading {
-    /// The loading by `sources` on a grid of `n_elements` elements.
+impl TotalFlux {
+    /// The sum of the fluxes of `sources` on a grid of `n_elements` elements.
     fn of(sources: &[HeatSource<'_>], n_elements: usize) -> Self {
         let mut flux = vec![0.0; n_elements];
         for source in sources {
@@ -280,30 +280,30 @@ impl Loading {
                 *sum += value;
             }
         }
-        let is_loaded = |flux: &f64| if *flux > 0.0 { 1.0 } else { 0.0 };
+        let is_heated = |flux: &f64| if *flux > 0.0 { 1.0 } else { 0.0 };
         Self {
-            loaded_fraction: flux.iter().map(is_loaded).collect(),
+            heated_fraction: flux.iter().map(is_heated).collect(),
             flux,
         }
     }
 
-    /// The loaded element with the largest temperature; `None` if none is loaded.
+    /// The heated element with the largest temperature; `None` if none is heated.
     fn hottest_element(&self, temperature: &[f64]) -> Option<usize> {
-        let loaded = (0..temperature.len()).filter(|element| self.loaded_fraction[*element] > 0.0);
-        loaded.max_by(|left, right| temperature[*left].total_cmp(&temperature[*right]))
+        let heated = (0..temperature.len()).filter(|element| self.heated_fraction[*element] > 0.0);
+        heated.max_by(|left, right| temperature[*left].total_cmp(&temperature[*right]))
     }
 }
 
 impl Averages {
-    /// Averages of a temperature over the loaded elements; 0 if there are none.
-    fn over(temperature: &[f64], loading: &Loading) -> Self {
-        let Some(hottest) = loading.hottest_element(temperature) else {
+    /// Averages of a temperature over the heated elements; 0 if there are none.
+    fn over(temperature: &[f64], total: &TotalFlux) -> Self {
+        let Some(hottest) = total.hottest_element(temperature) else {
             return Self::default();
         };
         Self {
             largest: temperature[hottest],
-            mean: weighted_mean(temperature, &loading.loaded_fraction),
-            flux_weighted_mean: weighted_mean(temperature, &loading.flux),
+            mean: weighted_mean(temperature, &total.heated_fraction),
+            flux_weighted_mean: weighted_mean(temperature, &total.flux),
         }
     }
 }

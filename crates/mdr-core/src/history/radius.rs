@@ -32,14 +32,14 @@ const NEGLIGIBLE_AREA: f64 = 1e-14;
 #[derive(Debug, Clone)]
 pub(super) struct Radii {
     /// Pieces by increasing depth.
-    pieces: Vec<Piece>,
+    pieces: Vec<RadiusPiece>,
     /// Bound of the error of ∫ a dd by the polynomials, \[m²].
     pub(super) area_error: f64,
 }
 
 /// A polynomial of ξ ∈ [−1, 1] between two depths.
 #[derive(Debug, Clone, Copy)]
-struct Piece {
+struct RadiusPiece {
     /// Depths at ξ = −1 and ξ = 1, \[m].
     depths: [f64; 2],
     /// Coefficients of the radius over the powers of ξ, \[m].
@@ -82,7 +82,7 @@ impl Radii {
             let is_root =
                 low == 0.0 && exponent.is_finite() && (exponent - 1.0).abs() > f64::EPSILON;
             if is_tiny || !is_root {
-                let (piece, tail) = Piece::fitted(body, depths, radii_at_depths, &cosines);
+                let (piece, tail) = RadiusPiece::fitted(body, depths, radii_at_depths, &cosines);
                 if is_tiny || tail <= TAIL_TOLERANCE * outer {
                     // At the apex the tail says nothing about a root of the depth, and the radius itself bounds the error.
                     let tail = if is_root { outer } else { tail };
@@ -99,7 +99,7 @@ impl Radii {
     }
 
     /// The piece that begins at a depth or contains it.
-    fn piece_at(&self, depth: f64) -> &Piece {
+    fn piece_at(&self, depth: f64) -> &RadiusPiece {
         let all_but_last = &self.pieces[..self.pieces.len() - 1];
         &self.pieces[all_but_last.partition_point(|piece| piece.depths[1] <= depth)]
     }
@@ -201,7 +201,7 @@ impl Polynomial {
     }
 }
 
-impl Piece {
+impl RadiusPiece {
     /// Taylor coefficients of the radius at ξ = `start`, by repeated synthetic division; only the first `N_TERMS` are exact.
     fn taylor_coefficients<const N_TERMS: usize>(&self, start: f64) -> [f64; N_COEFFICIENTS] {
         let mut coefficients = self.coefficients;

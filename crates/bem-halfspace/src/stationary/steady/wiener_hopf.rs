@@ -29,23 +29,23 @@ use crate::transform::plane_transform::complex_product::{Spectrum, signed_offset
 const FILTER_MARGIN: usize = 4;
 
 /// Index, in the spectra of [`inverse_factors`], of the inverse of the forward factor, which contains the creep filter.
-const SWEEP: usize = 0;
+const FORWARD: usize = 0;
 /// Index, in the spectra of [`inverse_factors`], of the inverse of the backward factor.
-const COUNTER_SWEEP: usize = 1;
+const BACKWARD: usize = 1;
 
 /// Period of the filters for a box of `shape` elements.
 pub(super) fn period(shape: [usize; 2]) -> [usize; 2] {
     shape.map(|n| fast_length(n + FILTER_MARGIN))
 }
 
-/// Spectra of the inverse factors, at the indices [`SWEEP`] and [`COUNTER_SWEEP`].
+/// Spectra of the inverse factors, at the indices [`FORWARD`] and [`BACKWARD`].
 pub(super) fn inverse_factors(table: &WakeTable, transform: &PlaneTransform) -> [Spectrum; 2] {
     let [length, _] = transform.padded;
     let potential =
         |row: usize, column: usize| table.creep_within_element(signed_offset(row, length), column);
-    let counter_sweep = transform.spectrum(potential, invert_causal_factor);
-    let sweep = with_inverse_creep(&counter_sweep, &table.creep, length);
-    [sweep, counter_sweep]
+    let backward = transform.spectrum(potential, invert_causal_factor);
+    let forward = with_inverse_creep(&backward, &table.creep, length);
+    [forward, backward]
 }
 
 /// An approximate inverse of the stationary kernel on a region.
@@ -68,11 +68,11 @@ impl WienerHopf {
     /// Approximate loads that cause the given displacements; both are packed vectors on the elements of `region`.
     pub(super) fn approximate_loads(&mut self, displacements: &[f64], region: &Region) -> Vec<f64> {
         // Apply the inverse factors in both orders. One is exact at a straight front, the other at a straight rear.
-        let [at_front, at_rear] =
-            [[COUNTER_SWEEP, SWEEP], [SWEEP, COUNTER_SWEEP]].map(|[first, second]| {
-                let between = self.inverses.apply(first, displacements, region);
-                self.inverses.apply(second, &between, region)
-            });
+        let orders = [[BACKWARD, FORWARD], [FORWARD, BACKWARD]];
+        let [at_front, at_rear] = orders.map(|[first, second]| {
+            let between = self.inverses.apply(first, displacements, region);
+            self.inverses.apply(second, &between, region)
+        });
         // Blend the two results in proportion to the distances from rear and front.
         let both = at_front.iter().zip(at_rear).zip(&self.front_weights);
         both.map(|((front, rear), weight)| weight * front + (1.0 - weight) * rear)
