@@ -332,7 +332,7 @@ impl Approach {
 
     /// Direction of the edge: positive if the load of its element grows while it stays in contact, negative if it falls.
     fn edge_direction(&self) -> f64 {
-        // The edge was found where the load vanishes; a dashpot makes it jump with the speed since then.
+        // The edge was found where the load vanishes; a parallel dashpot has since changed the load by the change of the speed.
         let jump = self.speed - self.edge.speed;
         let DepthAt { time, depth } = self.point;
         if self.viscosity > 0.0 && jump.abs() > speed_rounding(self.speed, self.step, time, depth) {

@@ -318,8 +318,8 @@ fn follow_to_load(
         if trial.radius() > 0.0 {
             return Ok(trial.load()[0] - needed);
         }
-        // The gap makes the function continuous, so that the root is not only bisected; the rounding keeps a body without
-        // load in contact.
+        // Out of contact the gap continues the function, so that the search can interpolate. The rounding keeps the function
+        // below zero where the gap vanishes, so that the root for a needed load of zero lies in contact.
         let gap = trial.gap(f64::MIN_POSITIVE, trial.path.end()).max(0.0);
         Ok::<f64, MdrError>(-needed - largest * (gap / deepest + ROOT_ROUNDING))
     };

@@ -200,7 +200,7 @@ pub fn slide_memory(
 ) -> Result<f64, MdrError> {
     let problem = SlidingProblem::new(line, material, load)?;
     let Schedule { spacing, n_steps } = problem.schedule(elements)?;
-    // Four records of each step are counted, because a list grows by doubling, and an answer takes its rows out of it.
+    // Four records of each step: a list that grows by doubling holds up to two, and a caller makes rows of a table from them.
     let per_step = 4 * size_of::<SlidingStep>();
     let n_elements =
         (FOUNDATION_PER_CONTACT * problem.contact.length / spacing).min(2.0 * MAX_ELEMENTS as f64);

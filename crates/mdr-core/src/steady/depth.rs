@@ -30,7 +30,7 @@ pub(super) fn depth_of_load(
     target: f64,
 ) -> Result<f64, MdrError> {
     let bracket = bracket(&load, target)?;
-    // The ends of the bracket are depths that the line has; one more digit may be too much.
+    // The line reaches the depths at both ends of the bracket, which the rounding of exp and ln must not exceed.
     let depth = |logarithm: f64| logarithm.exp().clamp(bracket[0], bracket[1]);
     let log_ratio = |logarithm: f64| load(depth(logarithm)).map(|load| (load / target).ln());
     let root = try_bracketed_root(log_ratio, bracket.map(f64::ln))?;
