@@ -103,7 +103,7 @@ pub(super) fn solve(first: Plan, watch: &dyn Progress) -> Result<Answer> {
         Accuracy::RelativeError(asked) => Accuracy::RelativeError(asked.max(SEARCH_ERROR)),
         elements @ Accuracy::Elements(_) => elements,
     };
-    let states = heated.from_below(accuracy)?;
+    let states = heated.search_upwards(accuracy)?;
     let found = &states[states.len() - 1];
     let hot = heated.hotter(&states, accuracy)?;
     // Solve as finely as requested, and complete the answer.
@@ -154,7 +154,7 @@ impl Heated<'_> {
     }
 
     /// The states of the search from the surroundings upwards: the first has their temperature, the last is the fixed point.
-    fn from_below(&self, accuracy: Accuracy) -> Result<Vec<State>> {
+    fn search_upwards(&self, accuracy: Accuracy) -> Result<Vec<State>> {
         let cold = self.state(self.ambient, accuracy)?.without_fields();
         let mut next = cold.caused.min(self.highest);
         // Temperature and excess at both ends of the bracket; there is no upper one before a state is colder than it assumes.

@@ -6,7 +6,7 @@
 //! Theory: docs/theory/heat.md.
 
 use bem_halfspace::heat::{ContactKind, Counterface, HeatConductor, SlidingContact};
-use bem_halfspace::{BemError, Grid, PressureField};
+use bem_halfspace::{Grid, PressureField};
 use numerics::Estimate;
 
 use super::answer::Answer;
@@ -230,7 +230,7 @@ fn pressure_field(answer: &Answer) -> Result<Option<PressureField>> {
         (None, _) => return Ok(None),
     };
     let edge = second[0] - first[0];
-    let grid = Grid::new([fields.line_pressure.len(), 1], [edge; 2]).map_err(BemError::from)?;
+    let grid = Grid::new([fields.line_pressure.len(), 1], [edge; 2])?;
     Ok(Some(PressureField {
         grid,
         origin: [first[0], 0.0],

@@ -173,20 +173,7 @@ impl fmt::Display for Warning {
                 relative_slope,
                 friction_factor,
                 area_factor,
-            } => {
-                let changes = [("friction", friction_factor), ("area", area_factor)];
-                let change = |(name, factor): (&str, &Option<f64>)| {
-                    factor.map(|factor| format!("the {name} would be {factor:.2} times as large"))
-                };
-                let changes: Vec<String> = changes.into_iter().filter_map(change).collect();
-                write!(
-                    out,
-                    "the answer depends on the shortest waves that were kept: without the shortest octave, whose own root mean square \
-                     slope is {} of that of all waves, {}",
-                    percent(*relative_slope),
-                    changes.join(" and ")
-                )
-            }
+            } => write_shortest_waves(out, *relative_slope, [*friction_factor, *area_factor]),
             Self::File(sentence) => out.write_str(sentence),
             Self::NoUncertainty(why) => write!(
                 out,
@@ -199,6 +186,26 @@ impl fmt::Display for Warning {
             } => write!(out, "{warning} (of {surfaces} of {of} surfaces)"),
         }
     }
+}
+
+/// Writes what the answer would be without the shortest octave of waves: factors on friction and area.
+fn write_shortest_waves(
+    out: &mut fmt::Formatter<'_>,
+    relative_slope: f64,
+    [friction_factor, area_factor]: [Option<f64>; 2],
+) -> fmt::Result {
+    let changes = [("friction", friction_factor), ("area", area_factor)];
+    let change = |(name, factor): (&str, Option<f64>)| {
+        factor.map(|factor| format!("the {name} would be {factor:.2} times as large"))
+    };
+    let changes: Vec<String> = changes.into_iter().filter_map(change).collect();
+    write!(
+        out,
+        "the answer depends on the shortest waves that were kept: without the shortest octave, whose own root mean square slope is {:.0} % of that \
+         of all waves, {}",
+        100.0 * relative_slope,
+        changes.join(" and ")
+    )
 }
 
 impl Serialize for Warning {
