@@ -44,6 +44,8 @@ WRONG: list[tuple[str, dict[str, Any]]] = [
     ("interface must be an Interface of this package, but is '1e5'", {"interface": "1e5"}),
     ("one-dimensional model", {"interface": vf.ConstantShear(1e5), "model": "line"}),
     ("no-such-table", {"interface": vf.ShearFile("no-such-table.csv")}),
+    ("heat must be a Heated of this package, but is 0.25", {"heat": 0.25}),
+    ("heat.duration", {"heat": vf.Heat(0.25, diffusivity=1e-7, duration=1.0)}),
     ("no-such-file", {"material": vf.MaterialFile("no-such-file.toml")}),
     ("material", {"material": None}),
 ]
@@ -59,6 +61,8 @@ def test_wrong_input_is_named(name: str, change: dict[str, Any]) -> None:
 MAKERS: list[tuple[str, Callable[[], Any]]] = [
     ("interface.constant.shear_strength must be finite and greater than 0, but is -1", lambda: vf.ConstantShear(-1.0)),
     ("interface.bell.width must be finite and greater than 0, but is 0", lambda: vf.BellShear(1e5, 1e-3, width=0.0)),
+    ("heat: how fast heat spreads is not known", lambda: vf.Heat(0.25)),
+    ("heat.counterface.share must be from 0 to 1, but is 2", lambda: vf.Heat(0.25, diffusivity=1e-7, counterface={"share": 2.0})),
     ("indenter.sphere.radius must be finite and greater than 0, but is -1", lambda: vf.Sphere(-1.0)),
     ("indenter.sphere.radius: invalid type: string \"large\"", lambda: vf.Sphere("large")),  # type: ignore[arg-type]
     ("indenter.cone.slope must be finite and greater than 0, but is 0", lambda: vf.Pyramid(0.0)),

@@ -40,6 +40,22 @@ def test_friction_is_hysteresis_and_shear() -> None:
     assert vf.solve(scene | {"solve": {"relative_error": 0.05}}).friction_from_shear is None
 
 
+def test_a_contact_is_heated_by_its_shear() -> None:
+    # At the Péclet number 1 a uniform disc is 0.55542 q a/k warm in the mean.
+    radius = (3 * 1.0 * 5e-3 / 16e6) ** (1 / 3)
+    velocity = 2 * 1.2e-7 / radius
+    options: dict[str, Any] = {"normal_force": 1.0, "velocity": velocity, "relative_error": 0.05}
+    shear = vf.ConstantShear(1e5)
+    answer = vf.slide(vf.Sphere(5e-3), vf.Elastic(1e6), interface=shear, heat=vf.Heat(0.25, diffusivity=1.2e-7), **options)
+    assert answer.mean_temperature_rise == pytest.approx(0.55542 * 1e5 * velocity * radius / 0.25, rel=0.05)
+    assert answer["largest_temperature_rise"] > answer["mean_temperature_rise"]
+    assert answer.temperature.shape == answer.pressure.shape
+    assert np.isnan(answer["effective_temperature"]), "nothing depends on it"
+    conducting = vf.Heat(0.25, density=1e3, heat_capacity=2e3, counterface={"share": 1.0})
+    cold = vf.slide(vf.Sphere(5e-3), vf.Elastic(1e6), interface=shear, heat=conducting, **options)
+    assert cold.mean_temperature_rise == 0.0
+
+
 def test_every_printed_quantity_is_an_attribute() -> None:
     answer = vf.slide(vf.Cone(0.1), SOLID, normal_force=2.0, velocity=0.1, relative_error=0.1)
     printed = [line.split(":")[0].strip() for line in repr(answer).splitlines()[1:]]

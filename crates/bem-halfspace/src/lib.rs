@@ -60,8 +60,9 @@ pub mod periodic {
     };
     #[cfg(feature = "rough")]
     pub use crate::stationary::periodic::{
-        PeriodicEstimate, elements_for_bars, fewest_elements, indent, indent_on_coarse_grid,
-        largest_grid, memory, sensitivity, slide, steady, steady_on_coarse_grid,
+        PeriodicEstimate, edge_for_bars, elements_for_bars, fewest_elements, indent,
+        indent_on_coarse_grid, largest_grid, memory, sensitivity, slide, steady,
+        steady_on_coarse_grid,
     };
 }
 

@@ -440,7 +440,7 @@ fn where_there_is_no_room_no_part_and_no_half_row_is_left() {
         "sweep --out out/m.csv --merge rows.csv",
     ] {
         let program = env!("CARGO_BIN_EXE_viscofriction");
-        let script = "trap '' XFSZ; ulimit -f 4; exec \"$0\" \"$@\"";
+        let script = "trap '' XFSZ; ulimit -f 8; exec \"$0\" \"$@\"";
         let shell = &mut Command::new("sh");
         let shell = shell.current_dir(&folder.0).args(["-c", script, program]);
         let said = said(shell.args(line.split(' ').map(argument)));

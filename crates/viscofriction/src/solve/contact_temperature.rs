@@ -7,9 +7,11 @@
 //!
 //! Theory: docs/theory/heat.md, "Back on the material".
 
+use bem_halfspace::periodic;
 use numerics::{ErrorParts, Estimate, Progress};
 
 use super::answer::{Answer, Fields};
+use super::body::Body;
 use super::error::{Result, SolveError};
 use super::plan::Plan;
 use super::problem::Problem;
@@ -18,8 +20,8 @@ use super::warning::Warning;
 use crate::quantity::QUANTITIES;
 use crate::scene::{Accuracy, Method};
 
-/// Smallest relative error that is requested of the solutions by which the fixed point is searched. Chosen: the temperature is then
-/// known to a twentieth of its rise, and the solutions cost a small part of the last one.
+/// Smallest relative error that is requested of the solutions by which the fixed point of a body is searched. Chosen: the temperature is
+/// then known to a twentieth of its rise. Periodic surfaces are solved on their coarsest grids with an error bar.
 const SEARCH_ERROR: f64 = 0.05;
 /// Fraction of the rise to which the search determines the temperature. Chosen: below the error of its solutions.
 const RISE_TOLERANCE: f64 = 0.03;
@@ -99,9 +101,12 @@ pub(super) fn solve(first: Plan, watch: &dyn Progress) -> Result<Answer> {
         highest: problem.highest_temperature(),
     };
     // Search the fixed point by coarse solutions, from both sides.
-    let accuracy = match problem.accuracy() {
-        Accuracy::RelativeError(asked) => Accuracy::RelativeError(asked.max(SEARCH_ERROR)),
-        elements @ Accuracy::Elements(_) => elements,
+    let accuracy = match (problem.accuracy(), problem.body()) {
+        (Accuracy::RelativeError(_), Body::Periodic(surface)) => {
+            Accuracy::Elements(periodic::edge_for_bars(surface))
+        }
+        (Accuracy::RelativeError(asked), _) => Accuracy::RelativeError(asked.max(SEARCH_ERROR)),
+        (elements @ Accuracy::Elements(_), _) => elements,
     };
     let states = heated.search_upwards(accuracy)?;
     let found = &states[states.len() - 1];

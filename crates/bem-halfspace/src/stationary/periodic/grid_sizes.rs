@@ -95,6 +95,12 @@ pub fn elements_for_bars(surface: &PeriodicSurface) -> f64 {
     finest_elements(coarsest_first_shape(surface))
 }
 
+/// Smallest number of elements along the longer edge of a period that a request may give: that of the finest grid for an error bar.
+pub fn edge_for_bars(surface: &PeriodicSurface) -> usize {
+    let [along, across] = coarsest_first_shape(surface);
+    FINEST_OVER_COARSEST * along.max(across)
+}
+
 /// Smallest number of elements of the finest grid for a surface with waves of these largest numbers along x and y.
 pub fn fewest_elements(largest_numbers: [usize; 2]) -> f64 {
     finest_elements(largest_numbers.map(|number| number.max(1)))

@@ -60,7 +60,7 @@ pub use estimate::{
     PeriodicEstimate, indent, indent_on_coarse_grid, slide, steady, steady_on_coarse_grid,
 };
 #[cfg(feature = "rough")]
-pub use grid_sizes::{elements_for_bars, fewest_elements, largest_grid, memory};
+pub use grid_sizes::{edge_for_bars, elements_for_bars, fewest_elements, largest_grid, memory};
 use kernel::Sliding;
 pub use load::{PeriodicControl, PeriodicLoad};
 
