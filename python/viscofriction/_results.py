@@ -214,7 +214,7 @@ class Answer(Compared):
 
     @property
     def motion(self) -> dict[str, NDArray[np.float64]]:
-        """Time [s], position [m], tangential and normal force [N] and depth [m] along the motion of a single scene."""
+        """Time [s], position [m], tangential and normal force [N], depth [m], and contact area [m²] on the half space, along a motion."""
         if self.shape != () or "motion" not in (known := self._single()):
             raise AttributeError("a motion belongs to a single scene with [load] stroke, motion or motion_file")
         motion: dict[str, NDArray[np.float64]] = known["motion"]

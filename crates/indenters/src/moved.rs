@@ -9,9 +9,9 @@ use numerics::{ErrorParts, Estimate, Quantity, Refined};
 use crate::{Control, MovingLoad, Stage};
 
 /// Factors on the relative remaining changes per cycle in the test for a limit cycle: those of friction coefficient,
-/// tangential force, normal force and depth. Chosen: a quantity of a single step may still change by ten times the
-/// tolerance, because only the mean over a cycle is required to that.
-const LIMIT_CYCLE_WEIGHTS: [f64; 4] = [1.0, 0.1, 0.1, 0.1];
+/// tangential force, normal force, depth and contact area. Chosen: a quantity of a single step may still change by ten times the
+/// tolerance, because only the mean over a cycle is required to that. The area, which follows from forces and depth, decides nothing.
+const LIMIT_CYCLE_WEIGHTS: [f64; 5] = [1.0, 0.1, 0.1, 0.1, 0.0];
 /// Factor on the relative remaining change of the history variables in the test for a limit cycle. Chosen: equal to that of the
 /// forces.
 const HISTORY_WEIGHT: f64 = 0.1;
@@ -27,8 +27,8 @@ const POINTS_PER_MOTION: usize = 64;
 const FRICTION_ROUNDING: f64 = 1e-12;
 /// Number of quantities of the whole motion, which precede those of its points: friction coefficient, peak friction, work.
 const MOTION_QUANTITIES: usize = 3;
-/// Number of quantities of each point: tangential force, normal force, depth.
-const POINT_QUANTITIES: usize = 3;
+/// Number of quantities of each point: tangential force, normal force, depth, contact area.
+const POINT_QUANTITIES: usize = 4;
 
 /// One step of a motion; values are means over the step unless they belong to its end.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,6 +46,8 @@ pub struct MotionStep {
     pub normal_force: f64,
     /// Indentation depth d of the lowest point, \[m].
     pub indentation_depth: f64,
+    /// Contact area with the error that is known on one resolution, \[m²]; `None` in the one-dimensional model.
+    pub contact_area: Option<Estimate>,
     /// Rearmost and foremost loaded element at the end of the step, relative to the lowest point, \[m]; `None` without contact.
     pub contact: Option<[f64; 2]>,
     /// Number of loaded elements at the end of the step.
@@ -66,6 +68,8 @@ pub struct MovedPoint {
     pub normal_force: Estimate,
     /// Indentation depth d of the lowest point, \[m].
     pub indentation_depth: Estimate,
+    /// Contact area, \[m²]; `None` in the one-dimensional model.
+    pub contact_area: Option<Estimate>,
 }
 
 /// A motion with error estimates, or the limit cycle of a reciprocating one.
@@ -103,8 +107,8 @@ pub struct MotionRecord {
     pub normal_work: f64,
     /// Number of cycles so far.
     pub n_cycles: usize,
-    /// Estimated remaining changes up to the limit cycle: friction coefficient, tangential force, normal force, depth.
-    pub remaining_changes: [f64; 4],
+    /// Estimated remaining changes up to the limit cycle: friction coefficient, tangential force, normal force, depth, contact area.
+    pub remaining_changes: [f64; 5],
     /// Largest change of a history variable by the last cycle, relative to the largest of them; 0 if they were not compared.
     pub history_change: f64,
     /// Work less the energy dissipated by the elements, \[J].
@@ -113,6 +117,13 @@ pub struct MotionRecord {
     pub spacing: f64,
     /// Root mean square slope of a periodic surface; 0 for a body, whose slope follows from depth and contact.
     pub rms_slope: f64,
+}
+
+impl MotionStep {
+    /// Contact area, \[m²]; 0 if it is not known.
+    pub(crate) fn known_area(&self) -> f64 {
+        self.contact_area.map_or(0.0, |area| area.value)
+    }
 }
 
 impl MotionRecord {
@@ -128,7 +139,7 @@ impl MotionRecord {
     /// Changes from the previous cycle to this one consist of a slow drift, which is uniform over the cycle, and of elements
     /// that come and go in single steps. The drift, estimated by the mean change, is extrapolated by the factor `slowness`.
     /// The largest change of a single step is added to it.
-    fn remaining_change(&self, before: &Self, slowness: f64) -> [f64; 4] {
+    fn remaining_change(&self, before: &Self, slowness: f64) -> [f64; 5] {
         let drift_and_scatter = |quantity: fn(&MotionStep) -> f64| {
             let pairs = self.steps.iter().zip(&before.steps);
             let changes = pairs.map(|(now, before)| quantity(now) - quantity(before));
@@ -142,11 +153,13 @@ impl MotionRecord {
             drift_and_scatter(|step| step.tangential_force),
             drift_and_scatter(|step| step.normal_force),
             drift_and_scatter(|step| step.indentation_depth),
+            drift_and_scatter(MotionStep::known_area),
         ]
     }
 
-    /// Scales of the quantities in [`remaining_changes`](Self::remaining_changes): the friction coefficient, and largest forces and depth.
-    fn scales(&self) -> [f64; 4] {
+    /// Scales of the quantities in [`remaining_changes`](Self::remaining_changes): the friction coefficient, and largest forces, depth and
+    /// area.
+    fn scales(&self) -> [f64; 5] {
         let largest = |quantity: fn(&MotionStep) -> f64| {
             self.steps
                 .iter()
@@ -158,6 +171,7 @@ impl MotionRecord {
             largest(|step| step.tangential_force),
             largest(|step| step.normal_force),
             largest(|step| step.indentation_depth),
+            largest(MotionStep::known_area),
         ]
     }
 
@@ -205,25 +219,43 @@ impl MotionRecord {
             0.0
         }
     }
-
-    /// Largest |F_t|/F_N of the steps; 0 without a normal force.
-    fn peak(&self) -> f64 {
-        let pressed = self.steps.iter().filter(|step| step.normal_force > 0.0);
-        let frictions = pressed.map(|step| (step.tangential_force / step.normal_force).abs());
-        frictions.fold(0.0, f64::max)
-    }
 }
 
-/// Quantities at a point: tangential force, normal force, depth.
+/// Largest |F_t|/F_N of some steps; 0 without a normal force.
+pub(crate) fn peak(steps: &[MotionStep]) -> f64 {
+    let pressed = steps.iter().filter(|step| step.normal_force > 0.0);
+    let frictions = pressed.map(|step| (step.tangential_force / step.normal_force).abs());
+    frictions.fold(0.0, f64::max)
+}
+
+/// Quantities at a point: tangential force, normal force, depth, contact area.
 type PointValues = [f64; POINT_QUANTITIES];
 
 /// A position of a motion: a stage and the fraction of it that has passed.
 #[derive(Clone, Copy)]
-struct Station {
+pub(crate) struct Station {
     /// Index of the stage.
-    stage: usize,
+    pub(crate) stage: usize,
     /// Fraction of its duration, from 0 to 1.
-    part: f64,
+    pub(crate) part: f64,
+}
+
+/// Stations of the reported points: the beginning of the motion, then equal parts of each stage.
+pub(crate) fn stations(load: &MovingLoad) -> Vec<Station> {
+    let n_stages = load.stages().len();
+    let per_stage = POINTS_PER_MOTION.div_ceil(n_stages);
+    let in_stage = move |stage| {
+        (1..=per_stage).map(move |k| Station {
+            stage,
+            part: k as f64 / per_stage as f64,
+        })
+    };
+    let start = Station {
+        stage: 0,
+        part: 0.0,
+    };
+    let all = (0..n_stages).flat_map(in_stage);
+    std::iter::once(start).chain(all).collect()
 }
 
 /// A motion as the source of quantities with error estimates.
@@ -238,33 +270,14 @@ pub struct MotionView<'a> {
 }
 
 impl MotionView<'_> {
-    /// Stations of the reported points: the beginning of the motion, then equal parts of each stage.
-    fn stations(&self) -> Vec<Station> {
-        let n_stages = self.load.stages().len();
-        let per_stage = POINTS_PER_MOTION.div_ceil(n_stages);
-        let in_stage = move |stage| {
-            (1..=per_stage).map(move |k| Station {
-                stage,
-                part: k as f64 / per_stage as f64,
-            })
-        };
-        let start = Station {
-            stage: 0,
-            part: 0.0,
-        };
-        let all = (0..n_stages).flat_map(in_stage);
-        std::iter::once(start).chain(all).collect()
-    }
-
     /// Quantities of the whole motion (friction, peak friction, work), then of each point (tangential force, normal force,
-    /// depth).
+    /// depth, contact area).
     ///
     /// The friction coefficient controls a refinement; so do the tangential forces of a single motion.
     pub fn quantities(&self, record: &MotionRecord) -> Vec<Quantity> {
         let mut quantities = self.motion_quantities(record).to_vec();
         let slope_scale = self.slope_scale(record);
-        let points: Vec<Interpolated> = self
-            .stations()
+        let points: Vec<Interpolated> = stations(self.load)
             .iter()
             .map(|station| interpolate(self.load, &record.steps, *station))
             .collect();
@@ -296,7 +309,7 @@ impl MotionView<'_> {
     fn motion_quantities(&self, record: &MotionRecord) -> [Quantity; MOTION_QUANTITIES] {
         // Read friction, its peak and its scale, to which the errors below refer, from the record.
         let friction = record.friction();
-        let peak = record.peak();
+        let peak = peak(&record.steps);
         let slope_scale = self.slope_scale(record);
         let is_cycle = self.load.is_cycle();
         // Add errors that differences between grids may not show: the imbalance of the energy of a cycle, and the effect of few
@@ -358,7 +371,8 @@ impl MotionView<'_> {
             _ => match (quantity - MOTION_QUANTITIES) % POINT_QUANTITIES {
                 0 => "force along x",
                 1 => "normal force",
-                _ => "indentation depth",
+                2 => "indentation depth",
+                _ => "contact area",
             },
         }
     }
@@ -375,11 +389,11 @@ impl MotionView<'_> {
         // Take the remaining change of the peak from that of the tangential force, and the change of the work from those of
         // friction and normal force.
         let [friction, point_errors @ ..] = record.remaining_changes;
-        let [tangential_force, normal_force, _] = point_errors;
+        let [tangential_force, normal_force, ..] = point_errors;
         let force_scale = record.scales()[2];
         let work = friction * record.normal_work + normal_force / force_scale * record.work.abs();
         let motion_errors = [friction, tangential_force / force_scale, work];
-        let all_point_errors = self.stations().into_iter().flat_map(|_| point_errors);
+        let all_point_errors = stations(self.load).into_iter().flat_map(|_| point_errors);
         motion_errors
             .into_iter()
             .chain(all_point_errors)
@@ -405,27 +419,30 @@ impl MotionView<'_> {
         let friction = not_negative(stated[0], error[0]);
         let is_force = matches!(self.load.largest_control(), Control::NormalForce(_));
         let is_prescribed = |k: usize| (k == 1 && is_force) || (k == 2 && !is_force);
+        let has_area = record.steps.iter().all(|step| step.contact_area.is_some());
         // Collect the values at the points of the output: prescribed quantities are exact, the others have the errors of the
         // refinement.
-        let stations = self.stations().into_iter().enumerate();
+        let stations = stations(self.load).into_iter().enumerate();
         let points = stations.map(|(index, station)| {
             let prescribed = self.load.stages()[station.stage].point_at(station.part);
             let values = interpolate(self.load, &record.steps, station).values;
-            let [tangential_force, normal_force, indentation_depth] = std::array::from_fn(|k| {
-                if is_prescribed(k) {
-                    return Estimate::exact(prescribed.control.value());
-                }
-                Estimate::new(
-                    values[k],
-                    error[MOTION_QUANTITIES + POINT_QUANTITIES * index + k],
-                )
-            });
+            let [tangential_force, normal_force, indentation_depth, area] =
+                std::array::from_fn(|k| {
+                    if is_prescribed(k) {
+                        return Estimate::exact(prescribed.control.value());
+                    }
+                    Estimate::new(
+                        values[k],
+                        error[MOTION_QUANTITIES + POINT_QUANTITIES * index + k],
+                    )
+                });
             MovedPoint {
                 time: self.load.start_time() + prescribed.time,
                 position: prescribed.position,
                 tangential_force,
                 normal_force,
                 indentation_depth,
+                contact_area: has_area.then_some(area),
             }
         });
         // Each end of the contact gets the error of two elements, because it is known only to the grid.
@@ -453,23 +470,28 @@ impl MotionView<'_> {
 }
 
 /// Quantities at a station, and the scatter of the steps around it.
-struct Interpolated {
+pub(crate) struct Interpolated {
     /// Interpolated quantities.
-    values: PointValues,
-    /// Scatter of each quantity.
+    pub(crate) values: PointValues,
+    /// Scatter of each quantity, that of the area at least the error known on one resolution.
     scatter: PointValues,
 }
 
 /// Linear interpolation between the middles of the two steps of the stage that are nearest to a station.
 ///
 /// The scatter is the deviation of the middle one of three neighbouring steps from the line through the other two.
-fn interpolate(load: &MovingLoad, steps: &[MotionStep], station: Station) -> Interpolated {
+pub(crate) fn interpolate(
+    load: &MovingLoad,
+    steps: &[MotionStep],
+    station: Station,
+) -> Interpolated {
     let Station { stage, part } = station;
     let values = |step: &MotionStep| {
         [
             step.tangential_force,
             step.normal_force,
             step.indentation_depth,
+            step.known_area(),
         ]
     };
     // Find the two steps of the stage around the station.
@@ -487,14 +509,21 @@ fn interpolate(load: &MovingLoad, steps: &[MotionStep], station: Station) -> Int
     let interpolated = std::array::from_fn(|k| from[k] + along * (to[k] - from[k]));
     // Estimate the interpolation error: the distance of a middle step from the line through its neighbours, if the stage has
     // three steps.
-    let scatter = match steps.get((after + 1).saturating_sub(2).min(count.saturating_sub(3))..) {
-        Some([a, b, c, ..]) => {
-            let middle = (b.time - a.time) / (c.time - a.time);
-            let [a, b, c] = [a, b, c].map(values);
-            std::array::from_fn(|k| (a[k] + middle * (c[k] - a[k]) - b[k]).abs())
-        }
-        _ => [0.0; POINT_QUANTITIES],
-    };
+    let mut scatter: PointValues =
+        match steps.get((after + 1).saturating_sub(2).min(count.saturating_sub(3))..) {
+            Some([a, b, c, ..]) => {
+                let middle = (b.time - a.time) / (c.time - a.time);
+                let [a, b, c] = [a, b, c].map(values);
+                std::array::from_fn(|k| (a[k] + middle * (c[k] - a[k]) - b[k]).abs())
+            }
+            _ => [0.0; POINT_QUANTITIES],
+        };
+    for area in [before, next]
+        .into_iter()
+        .filter_map(|step| step.contact_area)
+    {
+        scatter[3] = scatter[3].max(area.error);
+    }
     Interpolated {
         values: interpolated,
         scatter,

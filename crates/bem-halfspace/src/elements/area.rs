@@ -1,6 +1,7 @@
 //! Contact area from the active elements, with the perimeter correction of Yastrebov, Anciaux & Molinari (2017).
 
 use std::f64::consts::{LN_2, PI};
+use std::ops::Range;
 
 use crate::elements::bounds::Bounds;
 use crate::elements::mirror::Mirror;
@@ -155,6 +156,35 @@ pub(crate) struct BoundaryRun {
     pub(crate) is_extremum: bool,
 }
 
+/// Rows (axis 0) or columns of a box and of its images. Those behind a mirror, which is at the first one of the field, are negative.
+pub(crate) fn unfolded_range(bounds: &Bounds, mirrors: [Mirror; 2], axis: usize) -> Range<isize> {
+    let [lower, upper] = [bounds.lower, bounds.upper].map(|end| end[axis].cast_signed());
+    match mirrors[axis] {
+        Mirror::None => lower..upper,
+        Mirror::Centre => 1 - upper..upper,
+        Mirror::Edge => -upper..upper,
+    }
+}
+
+/// Row-major index in a box of an element with signed indices, or of the element that it is the image of; `None` outside the box.
+pub(crate) fn folded_index(
+    bounds: &Bounds,
+    mirrors: [Mirror; 2],
+    index: [isize; 2],
+) -> Option<usize> {
+    let shape = bounds.shape();
+    let [row, column] = [0, 1].map(|axis| {
+        let folded = match mirrors[axis] {
+            Mirror::Centre => index[axis].abs(),
+            Mirror::Edge if index[axis] < 0 => -1 - index[axis],
+            _ => index[axis],
+        };
+        // Beyond either end of the box the difference is no index, and is rejected below.
+        (folded - bounds.lower[axis].cast_signed()).cast_unsigned()
+    });
+    (row < shape[0] && column < shape[1]).then(|| row * shape[1] + column)
+}
+
 /// All straight runs of the boundary of the loaded elements, those of mirror images included. `weight` takes the index of an element in
 /// the box.
 pub(crate) fn boundary_runs(
@@ -163,28 +193,9 @@ pub(crate) fn boundary_runs(
     mirrors: [Mirror; 2],
     weight: impl Fn(usize) -> f64,
 ) -> Vec<BoundaryRun> {
-    let lower = bounds.lower.map(usize::cast_signed);
-    let shape = bounds.shape();
-    let upper = [0, 1].map(|axis| lower[axis] + shape[axis].cast_signed());
-    // This closure gives the range of the whole field along an axis. Rows and columns behind a mirror have negative numbers.
-    let range = |axis: usize| match mirrors[axis] {
-        Mirror::None => lower[axis]..upper[axis],
-        Mirror::Centre => 1 - upper[axis]..upper[axis],
-        Mirror::Edge => -upper[axis]..upper[axis],
-    };
-    // This closure returns the index in the box of a loaded element, or of the element that it is the image of.
+    let range = |axis: usize| unfolded_range(bounds, mirrors, axis);
     let loaded = |index: [isize; 2]| {
-        let [row, column] = [0, 1].map(|axis| {
-            let folded = match mirrors[axis] {
-                Mirror::Centre => index[axis].abs(),
-                Mirror::Edge if index[axis] < 0 => -1 - index[axis],
-                _ => index[axis],
-            };
-            // Beyond either end of the box the difference is no index, and is rejected below.
-            (folded - lower[axis]).cast_unsigned()
-        });
-        let index = (row < shape[0] && column < shape[1]).then(|| row * shape[1] + column);
-        index.filter(|index| loads[*index] > 0.0)
+        folded_index(bounds, mirrors, index).filter(|index| loads[*index] > 0.0)
     };
     let mut runs = Vec::new();
     for axis in 0..2 {

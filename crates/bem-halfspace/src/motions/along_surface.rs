@@ -241,6 +241,7 @@ fn record(steps: &[MovingStep], rows: &[MotionRow], spacing: f64) -> MotionRecor
             tangential_force: row.tangential_force,
             normal_force: row.normal_force,
             indentation_depth: row.indentation_depth,
+            contact_area: Some(row.divided_area),
             contact: row.contact_x,
             n_contact: row.n_contact,
         });

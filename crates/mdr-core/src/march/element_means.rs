@@ -82,6 +82,7 @@ mod tests {
             tangential_force,
             normal_force: 1.0,
             indentation_depth: 0.0,
+            contact_area: None,
             contact: None,
             n_contact: 0,
         };

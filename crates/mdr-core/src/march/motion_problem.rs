@@ -308,6 +308,7 @@ fn motion_step(
         tangential_force: force_unit * result.sums.tangential_load,
         normal_force,
         indentation_depth: start.depth.midpoint(result.depth),
+        contact_area: None,
         contact: result.contact,
         n_contact: result.sums.n_loaded,
     }

@@ -9,7 +9,7 @@ use bem_halfspace::{
 };
 use friction_analytic::{EnergyFactor, PerssonSliding, RoughLoad, SurfaceWave, persson_of_waves};
 use indenters::rough::{PeriodicSurface, Wave};
-use indenters::{Control, Moved};
+use indenters::{Control, FrictionParts, Moved};
 use numerics::{ErrorParts, Estimate, Request};
 
 use super::answer::{Answer, ContactBox, Grid, HistoryRow, Persson};
@@ -298,12 +298,19 @@ pub(crate) fn answer_from_slide(estimate: SlideEstimate) -> Result<Answer> {
 }
 
 /// The answer of a motion, without the unbounded depth of a periodic surface on a half space.
-pub(crate) fn answer_from_moved(problem: &Problem, found: Moved) -> Answer {
+pub(crate) fn answer_from_moved(problem: &Problem, mut found: Moved) -> Result<Answer> {
+    let parts = problem.add_shear_to_motion(&mut found)?;
     let mut answer = answer_from_motion(Method::BemTransient, Model::HalfSpace, found);
+    if let Some(FrictionParts { hysteresis, shear }) = parts {
+        answer.friction_from_hysteresis = Some(hysteresis);
+        answer.friction_from_shear = Some(shear);
+        answer.error_parts =
+            (answer.error_parts).plus(ErrorParts::discretisation_only(shear.error));
+    }
     if matches!(problem.body(), Body::Periodic(_)) && !problem.thickness().is_finite() {
         answer.indentation_depth = None;
     }
-    answer
+    Ok(answer)
 }
 
 /// Converts an indentation: quantities extrapolated over the grids; pressure, work and grid of the finest one. No friction.
@@ -349,7 +356,7 @@ pub(crate) fn reached(problem: &Problem, rough: Option<Rough>, found: Reached) -
         Reached::Slide(found) => answer_from_slide(found),
         Reached::Press(found) => answer_from_press(found),
         Reached::Curve(found) => answer_from_curve(&found),
-        Reached::Moved(found) => Ok(answer_from_moved(problem, found)),
+        Reached::Moved(found) => answer_from_moved(problem, found),
         Reached::Periodic(found) if matches!(problem.motion(), Motion::Pressing(_)) => {
             Ok(answer_from_pressed(problem, rough?, found))
         }

@@ -10,7 +10,7 @@ use numerics::{ErrorParts, Estimate};
 use rheology::Material;
 
 use super::answer::{Answer, ContactBox, HistoryRow};
-use super::curve::{Curve, DEPTH, FORCE, OfPoint, POSITION, RADIUS, TANGENTIAL};
+use super::curve::{AREA, Curve, CurveColumn, DEPTH, FORCE, OfPoint, POSITION, RADIUS, TANGENTIAL};
 use super::error::Result;
 use super::problem::Problem;
 use crate::scene::{Method, Model};
@@ -68,7 +68,7 @@ pub(crate) fn answer_from_march(state: Sliding) -> Answer {
     answer
 }
 
-/// The answer of a motion: friction over all of it, force and depth at its last point.
+/// The answer of a motion: friction over all of it; force, depth and area at its last point.
 pub(crate) fn answer_from_motion(method: Method, model: Model, found: Moved) -> Answer {
     let last = found.points.last();
     let force = last.map_or(Estimate::exact(0.0), |point| point.normal_force);
@@ -77,6 +77,7 @@ pub(crate) fn answer_from_motion(method: Method, model: Model, found: Moved) -> 
         peak_friction: Some(found.peak_friction),
         dissipated_energy: found.dissipated_energy,
         indentation_depth: last.map(|point| point.indentation_depth),
+        contact_area: last.and_then(|point| point.contact_area),
         error_parts: found.error_parts,
         contact_box: found.ends.map(contact_box),
         unknowns: found.steps.last().map_or(0, |step| step.n_contact),
@@ -90,6 +91,10 @@ pub(crate) fn answer_from_motion(method: Method, model: Model, found: Moved) -> 
         (DEPTH, |point| point.indentation_depth),
     ];
     answer.fields.curve = Curve::of(&found.points, |point| point.time, columns);
+    let areas: Option<Vec<Estimate>> =
+        (found.points.iter().map(|point| point.contact_area)).collect();
+    let area = |values| CurveColumn { name: AREA, values };
+    answer.fields.curve.columns.extend(areas.map(area));
     answer.fields.motion_steps = found
         .steps
         .iter()

@@ -6,10 +6,12 @@
 //!
 //! Theory: docs/theory/shear.md.
 
+use indenters::{FrictionParts, Moved, Shape};
 use numerics::{ErrorParts, Estimate, Progress};
 
 use super::answer::Answer;
 use super::error::{Result, SolveError};
+use super::half_space::Simple;
 use super::plan::{Plan, plan};
 use super::problem::{Motion, Problem};
 use super::work::work;
@@ -89,24 +91,44 @@ impl Problem {
         }
         match self.motion() {
             Motion::Sliding(_) => self.shear_strength().map(drop),
-            Motion::Moving(_) => refused(
-                "the contact area along a motion is not computed; shear acts on a body that slides at a constant load.velocity",
-            ),
+            Motion::Moving(load) => load.stages().iter().try_for_each(|stage| {
+                let fastest = stage.fastest();
+                if stage.shape() == Shape::Sinusoidal && shear.strength(f64::MIN_POSITIVE).is_err() {
+                    return refused(&format!(
+                        "a sinusoidal motion passes all speeds from 0 to {fastest} m/s, and a table does not begin at 0; load.shape = \
+                         \"triangular\" has one speed"
+                    ));
+                }
+                // A body that dwells has no shear.
+                if fastest > 0.0 { shear.strength(fastest).map(drop) } else { Ok(()) }
+            }),
             Motion::Pressing(_) | Motion::History { .. } => {
                 refused("nothing slides here, and without sliding there is no shear; leave it out")
             }
         }
     }
 
-    /// Adds the shear of the contact area to the friction of an answer.
+    /// Adds the shear of the contact area to a motion; `None` if the scene has no interface or the method no area.
+    pub(super) fn add_shear_to_motion(&self, found: &mut Moved) -> Result<Option<FrictionParts>> {
+        let (Some(shear), Motion::Moving(load)) = (self.shear(), self.motion()) else {
+            return Ok(None);
+        };
+        Ok(found.add_shear(load, |speed| shear.strength(speed))?)
+    }
+
+    /// Adds the shear of the contact area to the friction of an answer to sliding at a constant velocity.
     pub(super) fn with_shear(&self, answer: Answer) -> Result<Answer> {
         let Some(strength) = self.shear_strength()? else {
-            return Ok(answer);
+            let lacks_shear = self.shear().is_some() && answer.friction_from_shear.is_none();
+            return if lacks_shear {
+                no_area(&answer)
+            } else {
+                Ok(answer)
+            };
         };
         let (Some(hysteresis), Some(area)) = (answer.friction_coefficient, answer.contact_area)
         else {
-            let method = answer.method;
-            return Err(SolveError::NoAreaForShear { method });
+            return no_area(&answer);
         };
         let shear = over_force(area * strength, answer.normal_force);
         let mut answer = Answer {
@@ -130,6 +152,12 @@ impl Problem {
         }
         Ok(answer)
     }
+}
+
+/// The error of a method that does not compute the contact area.
+const fn no_area<T>(answer: &Answer) -> Result<T> {
+    let method = answer.method;
+    Err(SolveError::NoAreaForShear { method })
 }
 
 /// Quotient of a tangential and a normal force \[N], or of a mean stress and a mean pressure \[Pa]. The error is infinite if the normal
@@ -182,7 +210,10 @@ pub(super) fn solve(first: Plan, watch: &dyn Progress) -> Result<Answer> {
                 ..answer
             });
         }
-        let too_coarse = (solutions == MAX_SOLUTIONS).then(|| {
+        // An elastic body that moves has no friction but shear, on any grid, so that no request refines the area.
+        let is_elastic = problem.simple() == Some(&Simple::Elastic);
+        let is_stuck = is_elastic && matches!(problem.motion(), Motion::Moving(_));
+        let too_coarse = (is_stuck || solutions == MAX_SOLUTIONS).then(|| {
             Box::new(SolveError::ShearNotReached {
                 asked,
                 friction,
@@ -198,7 +229,14 @@ pub(super) fn solve(first: Plan, watch: &dyn Progress) -> Result<Answer> {
             return Err(SolveError::NotReached { answer, why });
         }
         let [smallest, largest] = REQUEST_RATIOS;
-        request *= (AIMED_SHARE * allowed / friction.error).clamp(smallest, largest);
+        // The error that was reached may be far smaller than the request, which the same grid would then meet again. The next grid of a
+        // motion has eight times the work, so that none is left out.
+        let reached = answer.hysteresis().map_or(request, |h| h.relative_error());
+        let ratio = (AIMED_SHARE * allowed / friction.error).clamp(smallest, largest);
+        request = match problem.motion() {
+            Motion::Moving(_) => AIMED_SHARE * request.min(reached),
+            _ => ratio * request.min(reached),
+        };
     }
 }
 

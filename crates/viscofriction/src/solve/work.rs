@@ -226,14 +226,14 @@ fn moved<'a>(
             require(problem.realisations() == 1, ONE_SURFACE)?;
             on_grids(accuracy, move |request| {
                 let found = periodic::move_along(surface, &problem.elastomer()?, load, request)?;
-                Ok(elements::answer_from_moved(problem, found))
+                elements::answer_from_moved(problem, found)
             })
         }
         (BemTransient, body) => {
             let surface = body.surface().ok_or(MOTION_OF_CYLINDER)?;
             on_grids(accuracy, move |request| {
                 let found = move_along(surface, &problem.elastomer()?, load, request)?;
-                Ok(elements::answer_from_moved(problem, found))
+                elements::answer_from_moved(problem, found)
             })
         }
     }

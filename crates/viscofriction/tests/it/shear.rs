@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::path::Path;
 
-use numerics::SilentProgress;
+use numerics::{Estimate, SilentProgress};
 use serde_json::Value;
 use viscofriction::solve::{Source, plan, sampled, with_sensitivity};
 use viscofriction::{Answer, Problem, Scene, WrongInput, solve};
@@ -180,6 +180,109 @@ fn errors_of_a_table_enter_the_budget() {
     assert!(refused.to_string().contains(expected), "{refused}");
 }
 
+/// A reciprocating elastic ball has the contact of Hertz all the time: F_t = ±τ A, and a cycle dissipates τ A times its length.
+#[test]
+fn an_elastic_ball_rubs_with_the_area_of_hertz_to_and_fro() {
+    let folder = Folder::new("shear-strokes");
+    let radius = (3.0 * 5e-3 / (4.0 * 4e6_f64)).cbrt();
+    let force = 1e5 * PI * radius * radius;
+    for shape in ["triangular", "sinusoidal"] {
+        let text = format!(
+            "[indenter.paraboloid]\ncurvature = 100.0\n[material.elastic]\nshear_modulus = 1e6\n[interface.constant]\nshear_strength \
+             = 1e5\n[load]\nnormal_force = 1.0\nstroke = 5e-4\nfrequency = 2.0\nshape = \"{shape}\"\n[solve]\nelements = 16\n"
+        );
+        folder.write("stroke.toml", text);
+        let answer = folder.solved("stroke.toml").answer;
+        let check = |what: &str, found: Option<Estimate>, expected: f64| {
+            let found = found.expect("an estimate");
+            let holds = (found.value - expected).abs() <= found.error + 1e-9 * expected;
+            assert!(
+                holds && found.error < 0.03 * expected,
+                "{shape}, {what}: {found} for {expected}"
+            );
+        };
+        check("friction", answer.friction_coefficient, force);
+        check("shear", answer.friction_from_shear, force);
+        check("peak", answer.peak_friction, force);
+        check("energy", answer.dissipated_energy, 2.0 * 5e-4 * force);
+        check("area", answer.contact_area, PI * radius * radius);
+        let [found, places] = ["tangential_force", "position"]
+            .map(|name| &answer.fields.curve.column(name).expect("a column").values);
+        for (index, pair) in places.windows(2).enumerate() {
+            // A sinusoidal motion is at rest where it turns.
+            let turns = shape == "sinusoidal" && places[index + 1].value.abs() > 2.499_999e-4;
+            let sign = if turns {
+                0.0
+            } else {
+                (pair[1].value - pair[0].value).signum()
+            };
+            let off = (found[index + 1].value - sign * force).abs();
+            assert!(
+                off <= found[index + 1].error + 1e-9 * force,
+                "{shape}: {} for {sign} {force}",
+                found[index + 1]
+            );
+        }
+    }
+}
+
+/// Along a path the shear has the sign of the velocity and its strength at that speed, and a dwell has none.
+#[test]
+fn shear_along_a_path_follows_the_velocity() {
+    let folder = Folder::new("shear-path");
+    let path = BALL.replace(
+        "velocity = 0.01",
+        "motion = [{ time = 1.0, position = 0.0 }, { time = 1.1, position = 4e-4 }, { time = 1.2, position = 4e-4 }, { time = 1.25, \
+         position = 0.0 }]",
+    );
+    let asked = format!("{path}[solve]\nelements = 12\n");
+    let bell = "[interface.bell]\nshear_strength = 1e5\nvelocity = 4e-3\nwidth = 0.5\n";
+    folder.write("alone.toml", &asked);
+    folder.write("sum.toml", format!("{asked}{bell}"));
+    let [alone, sum] = ["alone.toml", "sum.toml"].map(|file| folder.solved(file).answer);
+    let column = |answer: &Answer, name: &str| {
+        answer
+            .fields
+            .curve
+            .column(name)
+            .expect("a column")
+            .values
+            .clone()
+    };
+    let [without, with] = [&alone, &sum].map(|answer| column(answer, "tangential_force"));
+    let areas = column(&sum, "contact_area");
+    // The bell has its maximum at 4 mm/s; at twice the speed it is exp(−(log₁₀ 2/w)²) of it.
+    let back = -1e5 * (-(2.0_f64.log10() / 0.5).powi(2)).exp();
+    for (index, time) in sum.fields.curve.times.iter().enumerate().skip(1) {
+        let strength = match time {
+            time if *time < 1.1 + 1e-9 => 1e5,
+            time if *time < 1.2 + 1e-9 => 0.0,
+            _ => back,
+        };
+        let shear = with[index].value - without[index].value;
+        assert_close(
+            "shear",
+            1.0 + shear,
+            1.0 + strength * areas[index].value,
+            1e-12,
+        );
+        let error = with[index].error - without[index].error;
+        assert_close(
+            "error",
+            1.0 + error,
+            1.0 + strength.abs() * areas[index].error,
+            1e-12,
+        );
+    }
+    let [hysteresis, same] = [sum.friction_from_hysteresis, alone.friction_coefficient];
+    assert_eq!(hysteresis, same, "hysteresis");
+    assert!(
+        sum.peak_friction.expect("a peak").value
+            > alone.peak_friction.expect("a peak").value + 0.02,
+        "{sum:?}"
+    );
+}
+
 /// After a distance from first touch the steps before the end have shear too.
 #[test]
 fn steps_from_first_touch_have_shear() {
@@ -295,6 +398,7 @@ fn scenes_without_shear_are_refused() {
     let constant = "[interface.constant]\nshear_strength = 1e5\n";
     let pressed = BALL.replace("velocity = 0.01", "velocity = 0.0\n[solve]\nduration = 1.0");
     let stroke = BALL.replace("velocity = 0.01", "stroke = 1e-3\nfrequency = 1.0");
+    let slow = stroke.replace("frequency = 1.0", "frequency = 0.1\nshape = \"triangular\"");
     for (text, needed) in [
         (
             format!("{BALL}{}", constant.replace("1e5", "-1e5")),
@@ -305,7 +409,18 @@ fn scenes_without_shear_are_refused() {
             "one-dimensional",
         ),
         (format!("{pressed}{constant}"), "nothing slides"),
-        (format!("{stroke}{constant}"), "interface: "),
+        (
+            format!("{stroke}[solve]\nmodel = \"line\"\n{constant}"),
+            "one-dimensional",
+        ),
+        (
+            format!("{stroke}[interface.table]\nfile = \"table.csv\"\n"),
+            "interface: a sinusoidal motion passes all speeds from 0 to 0.0031",
+        ),
+        (
+            format!("{slow}[interface.table]\nfile = \"table.csv\"\n"),
+            "velocity [m/s] must be from 0.001 to 0.005",
+        ),
         (
             format!("{BALL}[interface.table]\nfile = \"table.csv\"\n"),
             "velocity [m/s] must be from 0.001 to 0.005",

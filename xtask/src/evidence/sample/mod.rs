@@ -357,7 +357,7 @@ pub(super) fn sample(random: &mut Random, source: &Source, folder: &Path) -> Res
         }
     }
     // Draw the shear of the contact and its heat last and from a copy of the generator, so that all other numbers of this scene and of the next
-    // ones are those that they have without shear. Scenes in which nothing slides at a constant velocity stay without.
+    // ones are those that they have without shear. Scenes in which nothing slides stay without.
     let mut copied = sample.random.clone();
     sample.random = &mut copied;
     let interface = sample.interface();
@@ -385,7 +385,7 @@ pub(super) fn sample(random: &mut Random, source: &Source, folder: &Path) -> Res
     Ok(case)
 }
 
-/// Part of the scenes that have a shear strength, if something slides at a constant velocity. Chosen.
+/// Part of the scenes that have a shear strength, if something slides. Chosen.
 const SHEAR_SHARE: f64 = 0.4;
 
 /// Part of the scenes that have heat, if something slides at a constant velocity. Chosen smaller, because each takes several solutions.

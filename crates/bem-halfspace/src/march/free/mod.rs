@@ -17,7 +17,7 @@ use std::fmt;
 use std::ops::Range;
 
 use indenters::{Control, SlidingLoad, Surface};
-use numerics::positive;
+use numerics::{Estimate, positive};
 use rheology::{CreepSpectrum, ExponentialStep, Material as _, check_spectra};
 
 use crate::contact::{ContactBox, check_heights};
@@ -373,6 +373,7 @@ impl<'a> March<'a> {
             contact_area_uncertainty: self.contact_box.area_uncertainty(self.layout.mirrors)
                 * dx
                 * dy,
+            divided_area: Estimate::exact(0.0),
             contact_x: edges.map(|[x, _]| x),
             contact_y: edges.map(|[_, y]| y),
             n_contact,

@@ -1,6 +1,7 @@
 //! Input and result of one step of a march.
 
 use indenters::Control;
+use numerics::Estimate;
 
 /// End of one step of an indenter. The control holds during the whole step, so that a change of it is a jump.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,6 +36,9 @@ pub struct MotionRow {
     pub contact_area: f64,
     /// Discretisation error of the contact area, \[m²]: the contact boundary lies anywhere within the elements at the edge.
     pub(crate) contact_area_uncertainty: f64,
+    /// Contact area with a boundary that divides elements, \[m²].
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub(crate) divided_area: Estimate,
     /// Rear and front of the contact relative to the lowest point, \[m]; `None` without contact.
     pub contact_x: Option<[f64; 2]>,
     /// Sides of the contact relative to the lowest point, \[m]; `None` without contact.

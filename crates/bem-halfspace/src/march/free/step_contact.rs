@@ -60,6 +60,10 @@ impl March<'_> {
                     Control::IndentationDepth(_) => solved.total_load / self.load_per_force(),
                 },
                 iterations: solved.iterations,
+                divided_area: self
+                    .contact_box
+                    .divided_area(self.layout.mirrors, solved.indentation_depth)
+                    * self.options.spacing.iter().product(),
                 ..self.motion_row(step)
             });
         }

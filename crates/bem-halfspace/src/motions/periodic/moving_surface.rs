@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 
 use indenters::rough::PeriodicSurface;
 use indenters::{Control, MotionRecord, MotionStep, MovingLoad, MovingStep};
-use numerics::Accuracy;
+use numerics::{Accuracy, Estimate};
 use rheology::{Material as _, check_spectra};
 use rustfft::num_complex::Complex;
 
@@ -24,6 +24,7 @@ use crate::march::periodic::PeriodicMarch;
 use crate::motions::any_motion::{LimitCycle, TOUCH_DURATION_RATIO};
 use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
 use crate::stationary::periodic::nested::interpolated;
+use crate::stationary::periodic::perimeter_error::area_fraction;
 use crate::{BemError, ContactOptions, Elastomer, Grid};
 
 /// Largest product of the number of elements and the number of steps of a cycle or path. Chosen: grids with a larger product are
@@ -69,6 +70,8 @@ struct StepEnd {
     normal_force: f64,
     /// Depth of the mean plane, \[m].
     depth: f64,
+    /// Contact area with the error of its perimeter correction, \[m²].
+    contact_area: Estimate,
     /// Number of elements in contact.
     n_contact: usize,
 }
@@ -244,6 +247,7 @@ impl<'a> MovingSurface<'a> {
             tangential_force: stress * area,
             normal_force,
             depth,
+            contact_area: Estimate::exact(area),
             n_contact: on_grid.grid.n_elements(),
         };
         // The limit cycle begins with the state in which it ends, so that the last state is repeated in front of the first one.
@@ -264,7 +268,7 @@ impl<'a> MovingSurface<'a> {
         let touch = TOUCH_DURATION_RATIO * steps[0].duration;
         let mut march = PeriodicMarch::new(grid, heights, self.elastomer, touch)?;
         let start = self.load.stages()[0].start.control;
-        let touched = self.solve_step(&mut march, touch, start, &on_grid.waves.states[0])?;
+        let touched = self.solve_step(&mut march, grid, touch, start, &on_grid.waves.states[0])?;
         let Some(limit_cycle) = &self.limit_cycle else {
             let mut ends = vec![touched];
             ends.extend(self.solve_steps(&mut march, on_grid, report)?);
@@ -304,13 +308,15 @@ impl<'a> MovingSurface<'a> {
     fn solve_steps(
         &self,
         march: &mut PeriodicMarch<'_>,
-        MotionOnGrid { steps, waves, .. }: &MotionOnGrid,
+        MotionOnGrid {
+            grid, steps, waves, ..
+        }: &MotionOnGrid,
         report: &dyn Fn(f64),
     ) -> Result<Vec<StepEnd>, BemError> {
         let pairs = steps.iter().zip(&waves.states[1..]).enumerate();
         let end = |(index, (step, state)): (usize, (&MovingStep, &WaveStates))| {
             report(index as f64 / steps.len() as f64);
-            self.solve_step(march, step.duration, step.end.control, state)
+            self.solve_step(march, grid, step.duration, step.end.control, state)
         };
         pairs.map(end).collect()
     }
@@ -319,6 +325,7 @@ impl<'a> MovingSurface<'a> {
     fn solve_step(
         &self,
         march: &mut PeriodicMarch<'_>,
+        grid: &Grid,
         duration: f64,
         control: Control,
         state: &WaveStates,
@@ -339,6 +346,7 @@ impl<'a> MovingSurface<'a> {
         let normal_force = control.value();
         let row = march.step(normal_force / self.area(), &options)?;
         let presses = normal_force > 0.0;
+        let area = area_fraction(grid, march.state.pressure(), self.surface);
         Ok(StepEnd {
             tangential_force: if presses {
                 row.friction_coefficient * normal_force
@@ -347,6 +355,7 @@ impl<'a> MovingSurface<'a> {
             },
             normal_force,
             depth: row.mean_depth,
+            contact_area: area * self.area(),
             n_contact: march.state.contact().len(),
         })
     }
@@ -366,6 +375,10 @@ impl<'a> MovingSurface<'a> {
                 tangential_force: mean(|end| end.tangential_force),
                 normal_force: mean(|end| end.normal_force),
                 indentation_depth: mean(|end| end.depth),
+                contact_area: Some(Estimate::new(
+                    mean(|end| end.contact_area.value),
+                    mean(|end| end.contact_area.error),
+                )),
                 contact: None,
                 n_contact: ends[1].n_contact,
             };
@@ -380,7 +393,6 @@ impl<'a> MovingSurface<'a> {
 mod tests {
     use indenters::rough::Wave;
     use indenters::{Shape, Stroke};
-    use numerics::Estimate;
     use rheology::{Prony, RelaxationBranch, RelaxationSpectrum};
 
     use super::super::move_along;
@@ -472,7 +484,7 @@ mod tests {
             heat = 0.0;
             for (step, state) in steps.iter().zip(&waves.states[1..]) {
                 let _end = problem
-                    .solve_step(&mut march, step.duration, step.end.control, state)
+                    .solve_step(&mut march, &grid, step.duration, step.end.control, state)
                     .expect("a contact");
                 let pressure = march.state.pressure();
                 for (element, springs) in creep.elements().iter().zip(&mut springs) {

@@ -210,7 +210,7 @@ pub fn slide<'w>(
         let found = GridResult {
             friction: last.friction_coefficient,
             from_dissipation: None,
-            area_fraction: area_fraction(&state.pressure, surface),
+            area_fraction: area_fraction(&state.pressure.grid, &state.pressure.pressure, surface),
             in_contact: n_in_contact(&state.pressure),
             has_all_waves: sampled.has_all_waves,
             subgrid_gaps: SubgridGapBound::new(&state.pressure, surface),
@@ -253,7 +253,7 @@ fn refine_stationary(
         let found = GridResult {
             friction: state.friction_coefficient,
             from_dissipation: Some(state.friction_from_dissipation),
-            area_fraction: area_fraction(&state.pressure, surface),
+            area_fraction: area_fraction(&state.pressure.grid, &state.pressure.pressure, surface),
             in_contact: n_in_contact(&state.pressure),
             has_all_waves: sampled.has_all_waves,
             subgrid_gaps: SubgridGapBound::new(&state.pressure, surface),

@@ -36,7 +36,7 @@ pub(crate) mod kernel;
 mod load;
 pub(crate) mod nested;
 #[cfg(feature = "rough")]
-mod perimeter_error;
+pub(crate) mod perimeter_error;
 #[cfg(feature = "rough")]
 pub(crate) mod refinement;
 

@@ -10,8 +10,8 @@
 use indenters::rough::{PeriodicSurface, Wave};
 use numerics::Estimate;
 
+use crate::Grid;
 use crate::elements::area::{self, EXCESS_PER_EDGE};
-use crate::{Grid, PressureField};
 
 /// Remaining error of the area of a rough contact, as a fraction of the perimeter correction.
 ///
@@ -23,9 +23,9 @@ const REMAINING_FRACTION: f64 = 0.15;
 const MAX_WAVINESS: f64 = 0.5;
 
 /// Fraction of the period in contact, with the error of its perimeter correction.
-pub(super) fn area_fraction(field: &PressureField, surface: &PeriodicSurface) -> Estimate {
-    let found = area::area_fraction(field.grid.shape()[1], &field.pressure);
-    let part = match groove_direction(surface, &field.grid) {
+pub(crate) fn area_fraction(grid: &Grid, pressure: &[f64], surface: &PeriodicSurface) -> Estimate {
+    let found = area::area_fraction(grid.shape()[1], pressure);
+    let part = match groove_direction(surface, grid) {
         Some([along_x, along_y]) => 0.5 / (EXCESS_PER_EDGE * (along_x + along_y) as f64),
         None => 0.0,
     };

@@ -4,7 +4,9 @@
 
 use crate::BemError;
 use crate::elements::bounds::Bounds;
-use crate::elements::contact_boundary::{AreaMeasure, BoundaryField};
+use crate::elements::contact_boundary::{
+    BoundaryField, LINE_SECOND_DIFFERENCE, root_load_gap_ratios,
+};
 use crate::error::check_contact_elements;
 use crate::influence;
 use crate::stationary::search::Search;
@@ -16,13 +18,6 @@ use crate::stationary::steady::plans::Plans;
 /// from 1e-5 to 1e-2 no answer changes by more than 4 % of its bar (case of `evidence tuning`).
 const INNER_TOLERANCE_OVER_OPENING: f64 = 1e-3;
 
-/// Product κ b of the load–gap ratio κ at a straight boundary and the second difference b of the kernel of a line of elements, where the
-/// pressure vanishes like a root. Measured under a parabolic cylinder on an elastic half plane: with it the fraction of a pair is linear
-/// in the position of the boundary, to 0.001 (case of `evidence tuning`).
-const ROOT_LOAD_GAP_RATIO: f64 = 0.6;
-/// Second difference k₀ − (k₁ + k₋₁)/2 of the kernel of an infinite line of elements, over their width. Derived: 3 ln 3, from the
-/// integral of −2 ln |x| over an element.
-const LINE_SECOND_DIFFERENCE: f64 = 3.295_836_866_004_329;
 /// Mean excess of the area of bodies, in elements, per edge along the boundary. Measured under an elastic paraboloid and an elastic cone,
 /// both with this limit, on elements half as wide as long; 0.133 on square elements (case of `evidence tuning`).
 const BODY_EXCESS_PER_EDGE: f64 = 0.1445;
@@ -100,7 +95,8 @@ fn contact_area(mesh: &Mesh, loads: &[f64], gaps: &[f64]) -> f64 {
     else {
         return 0.0;
     };
-    let margin = [1, usize::from(!mesh.loading.is_strip)];
+    let (is_strip, edges) = (mesh.loading.is_strip, [1.0, mesh.aspect()]);
+    let margin = [1, usize::from(!is_strip)];
     let bounds = Bounds {
         lower: [0, 1].map(|axis| contact.lower[axis].saturating_sub(margin[axis])),
         upper: [0, 1].map(|axis| contact.upper[axis] + margin[axis]),
@@ -108,7 +104,7 @@ fn contact_area(mesh: &Mesh, loads: &[f64], gaps: &[f64]) -> f64 {
     let mut field = BoundaryField {
         shape: bounds.shape(),
         is_periodic: false,
-        aspect: mesh.aspect(),
+        aspect: edges[1],
         inside: vec![false; bounds.n_elements()],
         values: vec![f64::NAN; bounds.n_elements()],
         second_difference: [0, 1].map(|axis| mesh.kernel_second_difference(axis)),
@@ -124,33 +120,26 @@ fn contact_area(mesh: &Mesh, loads: &[f64], gaps: &[f64]) -> f64 {
             }
         }
     }
-    field.contact_area(&area_measure(mesh))
-}
 
-/// Ratios of loads to gaps, and the excess per edge, of a boundary at which the pressure vanishes like a root. A straight boundary moves
-/// past a line of elements at once, so that the second difference of their kernel is that of a line.
-fn area_measure(mesh: &Mesh) -> AreaMeasure {
-    let edges = [1.0, mesh.aspect()];
-    let ratio = |axis: usize| {
-        let ratio = ROOT_LOAD_GAP_RATIO / mesh.kernel_second_difference(axis);
-        if mesh.loading.is_strip {
-            return ratio;
-        }
-        // A material changes the second differences of an element and of a line by about the same factor.
-        let mut next = [0.0; 2];
-        next[axis] = edges[axis];
-        let of_element = influence([0.0; 2], edges) - influence(next, edges);
-        ratio * of_element / (LINE_SECOND_DIFFERENCE * edges[axis])
-    };
-    let elastic_excess = if mesh.loading.is_strip {
+    // A material changes the second differences of an element and of a line by about the same factor.
+    let elastic_ratios = root_load_gap_ratios(edges);
+    let ratios = [0, 1].map(|axis| {
+        let elastic_difference = if is_strip {
+            LINE_SECOND_DIFFERENCE * edges[axis]
+        } else {
+            let mut next = [0.0; 2];
+            next[axis] = edges[axis];
+            influence([0.0; 2], edges) - influence(next, edges)
+        };
+        elastic_ratios[axis] * elastic_difference / field.second_difference[axis]
+    });
+    let elastic_excess = if is_strip {
         STRIP_EXCESS_PER_EDGE
     } else {
         BODY_EXCESS_PER_EDGE
     };
-    AreaMeasure {
-        load_gap_ratios: [ratio(0), ratio(1)],
-        excess_per_edge: elastic_excess + CREEP_EXCESS * mesh.loading.creep.collocation_shift.abs(),
-    }
+    let excess = elastic_excess + CREEP_EXCESS * mesh.loading.creep.collocation_shift.abs();
+    field.polygon_area(ratios).corrected(excess)
 }
 
 /// Loosest RMS residual on active sets of about `n_elements` elements, in units of the depth scale. Over one element at the front
