@@ -388,8 +388,9 @@ pub(super) fn sample(random: &mut Random, source: &Source, folder: &Path) -> Res
 /// Part of the scenes that have a shear strength, if something slides. Chosen.
 const SHEAR_SHARE: f64 = 0.4;
 
-/// Part of the scenes that have heat, if something slides at a constant velocity. Chosen smaller, because each takes several solutions.
-const HEAT_SHARE: f64 = 0.25;
+/// Part of the scenes that have heat, if it is computed for them. Chosen: many are on layers, compressible or in the one-dimensional model,
+/// which have none.
+const HEAT_SHARE: f64 = 0.7;
 
 /// Largest number of motions that are drawn for a body and a material until some method takes one. Chosen; the last one stays
 /// even if it is refused, since refusals have to be right too.
