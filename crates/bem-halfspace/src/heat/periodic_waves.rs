@@ -73,8 +73,7 @@ impl PeriodicWaves {
                     [0, 0] => Complex::from(depth.uniform_rise(self.mean_length * unit) / unit),
                     _ => match depth {
                         SourceDepth::Plane(_) => {
-                            let beta = self.decay_constant([along, &across].map(Alias::resolved));
-                            depth.wave_ratio(beta / unit) / beta
+                            self.multiplier([along, &across].map(Alias::resolved), depth, unit)
                         }
                         _ => self.sum_of_aliases(along, &across, depth, unit),
                     },
@@ -121,11 +120,23 @@ impl PeriodicWaves {
         let mut sum = ZERO;
         for x in along.iter().filter(|alias| alias.weight.abs() > 0.0) {
             for y in across.iter().filter(|alias| alias.weight.abs() > 0.0) {
-                let beta = self.decay_constant([x.wave_number, y.wave_number]);
-                sum += depth.wave_ratio(beta / unit) / beta * (x.weight * y.weight);
+                let q = [x.wave_number, y.wave_number];
+                sum += self.multiplier(q, depth, unit) * (x.weight * y.weight);
             }
         }
         sum
+    }
+
+    /// Ratio S(β)/β of temperature and flux of a wave. One with crests along x stays at its place on the elastomer, and grows with the
+    /// time in which the mean grows.
+    fn multiplier(&self, q: [f64; 2], depth: &SourceDepth, unit: f64) -> Complex<f64> {
+        let beta = self.decay_constant(q);
+        let stationary = depth.wave_ratio(beta / unit) / beta;
+        if q[0] == 0.0 {
+            stationary * depth.grown_part(q[1].abs() / unit, self.mean_length * unit)
+        } else {
+            stationary
+        }
     }
 
     /// Decay constant β of the temperature over the depth, with a positive real part.

@@ -124,6 +124,20 @@ impl SourceDepth {
         }
     }
 
+    /// Part of the stationary temperature of a standing wave of the wave number q \[rad/m] that is reached after the time in which heat
+    /// diffuses over the length √(4Dt) \[m] (Carslaw & Jaeger 1959, § 2.5).
+    ///
+    /// A profile over the depth is taken to grow like a source at the surface.
+    pub(super) fn grown_part(&self, wave_number: f64, length: f64) -> f64 {
+        let time = 0.5 * wave_number * length;
+        let Self::Plane(depth) = self else {
+            return libm::erf(time);
+        };
+        let (exponent, arrival) = (2.0 * wave_number * depth, depth / length);
+        let late = exponent.min(MAX_EXPONENT).exp() * libm::erfc(arrival + time);
+        (0.5 * (libm::erfc(arrival - time) - late)).clamp(0.0, 1.0)
+    }
+
     /// Mean rise k T̄/Q̄ by a uniform flux after the time in which heat diffuses over `length` = √(4Dt), \[m]: the integral
     /// (1/√π) ∫_0^length of [`pulse_ratio`](Self::pulse_ratio).
     pub(super) fn uniform_rise(&self, length: f64) -> f64 {
@@ -157,6 +171,8 @@ impl Counterface {
     }
 }
 
+/// Largest exponent of e that is computed. Derived: above it the other factor is below the smallest number of f64.
+const MAX_EXPONENT: f64 = 700.0;
 /// Relative tolerance of the mean rise by a uniform flux. Chosen below the error 8e-9 of the time rule (`time_rule.rs`).
 const UNIFORM_RISE_TOLERANCE: f64 = 1e-9;
 /// Value of c = qs up to which the ratio of pulses is computed from its closed form. Chosen: the closed form loses 15 c⁴ units in

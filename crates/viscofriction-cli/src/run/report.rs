@@ -232,6 +232,9 @@ fn caption(name: &str) -> &'static str {
         "pressure" => {
             "Pressure over the contact. For a finite body the cross is the lowest point, and the arrow points along the motion."
         }
+        "temperature" => {
+            "Rise of the temperature of the surface above that of the surroundings. The body moves to the right."
+        }
         "line_load" => "Load per length along the line of the one-dimensional model.",
         "line_pressure" => "Pressure along the middle of the contact.",
         "motion" => "Tangential force over the position; the arrowheads follow the motion.",

@@ -36,6 +36,8 @@ const MAX_RISE: f64 = 500.0;
 /// Number of temperatures above the fixed point at which a second one is looked for. Chosen: the friction of a rubber has half its
 /// maximum over twenty kelvin and more.
 const SCANNED_TEMPERATURES: u32 = 7;
+/// Difference of assumed and caused temperature that counts as none, \[K]. Chosen: no shift law is known so well.
+const NEGLIGIBLE_EXCESS: f64 = 1e-3;
 /// Smallest distance of two temperatures, as a fraction of the rise, between which slopes are taken. Chosen: over smaller ones the errors
 /// of the solutions of the search would be taken for slopes.
 const SLOPE_DISTANCE: f64 = 0.1;
@@ -44,7 +46,7 @@ const SLOPE_DISTANCE: f64 = 0.1;
 const SLOPE_SAFETY_FACTOR: f64 = 2.0;
 /// Largest number of solutions at the requested accuracy, each at a corrected temperature or with a smaller requested error. Derived:
 /// a correction leaves [`RISE_TOLERANCE`] of the one before, and three requests fall by a factor of a hundred.
-const MAX_SOLUTIONS: usize = 6;
+const MAX_SOLUTIONS: usize = 8;
 /// Fraction of the allowed error that the next request aims at, because errors on successive grids scatter about their trend. Chosen, as
 /// for shear.
 const AIMED_SHARE: f64 = 0.7;
@@ -53,8 +55,9 @@ const AIMED_SHARE: f64 = 0.7;
 const MIN_REQUEST_RATIO: f64 = 0.2;
 /// Ratio of the error of a solution to the least one before, above which its smaller request was in vain. Chosen.
 const MIN_PROGRESS: f64 = 0.9;
-/// Number of requests in vain after which smaller ones are given up. Chosen: one may have led to the grid of the request before.
-const MAX_STALLED: usize = 2;
+/// Number of requests in vain after which smaller ones are given up. Chosen: one may have led to the grid of the request before, and
+/// others to a temperature that was not yet known well.
+const MAX_STALLED: usize = 3;
 
 /// The solution with material and shear strength at one temperature.
 struct State {
@@ -118,6 +121,13 @@ pub(super) fn solve(first: Plan, watch: &dyn Progress) -> Result<Answer> {
         temperature_model_spread: spread,
         ..answer
     };
+    let hottest = (answer.largest_temperature_rise).map_or(ambient, |rise| ambient + rise.value);
+    if hottest > heated.highest {
+        answer.warnings.push(Warning::HotterThanLaws {
+            temperature: hottest,
+            highest: heated.highest,
+        });
+    }
     answer.warnings.extend(hot.map(|hot| {
         Warning::SecondTemperature {
             temperature: hot.temperature,
@@ -171,7 +181,8 @@ impl Heated<'_> {
             let [temperature, excess] = [state.temperature, state.excess()];
             let rise = temperature - self.ambient;
             let slope = (state.caused - states[0].caused) / rise;
-            let is_hot = excess > 0.0 && next >= self.highest;
+            let is_highest = excess > 0.0 && next >= self.highest;
+            let is_hot = is_highest && excess > NEGLIGIBLE_EXCESS;
             states.push(state);
             if is_hot {
                 return Err(self.too_hot(&states[states.len() - 1]));
@@ -192,7 +203,7 @@ impl Heated<'_> {
             };
             // A small correction alone is no proof: where friction falls steeply, secants over a wide bracket are far too steep.
             let width = above.map_or(f64::INFINITY, |above| above[0] - below[0]);
-            if excess.abs().min(width) <= RISE_TOLERANCE * rise || rise <= 0.0 {
+            if excess.abs().min(width) <= RISE_TOLERANCE * rise || rise <= 0.0 || is_highest {
                 return Ok(states);
             }
             // Every other step halves the bracket, which secants of a convex function shrink from one side only.
@@ -243,8 +254,9 @@ impl Heated<'_> {
         let mut hotter = highest;
         let mut colder = None;
         for step in 0..SCANNED_TEMPERATURES {
-            let temperature =
-                self.ambient + (highest - self.ambient) * ratio.powi(step.cast_signed());
+            let rise = (highest - self.ambient) * ratio.powi(step.cast_signed());
+            // The sum may exceed the highest temperature by rounding.
+            let temperature = (self.ambient + rise).min(highest);
             let state = self.state(temperature, accuracy)?.without_fields();
             if state.excess() >= 0.0 {
                 colder = Some(state);
@@ -279,7 +291,7 @@ impl Heated<'_> {
         let mut accuracy = self.problem.accuracy();
         let mut response = response([neighbour.point(), found.point()]);
         let mut temperature = self.within(found.temperature + response * found.excess());
-        let mut before: Option<[f64; 2]> = None;
+        let mut before: Option<State> = None;
         let mut least = f64::INFINITY;
         let mut stalled = 0;
         let mut solutions = 0;
@@ -288,25 +300,31 @@ impl Heated<'_> {
             let state = self.state(temperature, accuracy)?;
             // Two solutions at the requested accuracy tell the response better than those of the search.
             let distance = SLOPE_DISTANCE * RISE_TOLERANCE * (temperature - self.ambient);
-            if let Some(before) = before.filter(|before| (before[0] - temperature).abs() > distance)
-            {
-                response = self::response([before, state.point()]);
+            let is_far = |before: &&State| (before.temperature - temperature).abs() > distance;
+            let far = before.as_ref().filter(is_far);
+            if let Some(before) = far {
+                response = self::response([before.point(), state.point()]);
             }
-            before = Some(state.point());
             let correction = response * state.excess();
+            let allowed_correction = RISE_TOLERANCE * (temperature - self.ambient);
+            let is_settled = correction.abs() <= allowed_correction.max(NEGLIGIBLE_EXCESS);
+            // Slopes between two such solutions are nearer to the fixed point.
+            let numbers = state.numbers();
+            let slopes_from = [far.map_or(near, |before| [before, &numbers]), near];
             let State { answer, missed, .. } = state;
             let rise = answer.dissipation_weighted_rise;
             let unknown = response * rise.map_or(0.0, |rise| rise.error);
             let effective = Estimate::new(temperature, correction.abs() + unknown);
             let answer = Answer {
                 effective_temperature: Some(effective),
-                ..widened(answer, near, effective.error)
+                ..widened(answer, slopes_from, effective.error)
             };
             let Some(friction) = answer.friction_coefficient else {
                 return Ok((answer, missed));
             };
-            let by_correction = slope_of(near, |answer| answer.friction_coefficient)
+            let by_correction = largest_slope(slopes_from, |answer| answer.friction_coefficient)
                 .map_or(0.0, |slope| slope * correction.abs());
+            before = Some(numbers);
             let Some(asked) = asked else {
                 // With given elements the temperature is corrected until that changes little.
                 if by_correction <= RISE_TOLERANCE * friction.error || solutions == MAX_SOLUTIONS {
@@ -316,7 +334,7 @@ impl Heated<'_> {
                 continue;
             };
             let allowed = asked * friction.value.abs();
-            if friction.error <= allowed {
+            if friction.error <= allowed && is_settled {
                 return Ok((answer, None));
             }
             // Request a smaller error if the correction of the temperature alone does not suffice, as long as that helps.
@@ -337,8 +355,13 @@ impl Heated<'_> {
             if others > AIMED_SHARE * allowed
                 && let Accuracy::RelativeError(request) = accuracy
             {
+                let is_in_vain = others > MIN_PROGRESS * least;
                 least = least.min(others);
-                let ratio = (AIMED_SHARE * allowed / others).max(MIN_REQUEST_RATIO);
+                let ratio = if is_in_vain {
+                    MIN_REQUEST_RATIO
+                } else {
+                    (AIMED_SHARE * allowed / others).max(MIN_REQUEST_RATIO)
+                };
                 accuracy = Accuracy::RelativeError(request * ratio);
             }
         }
@@ -381,6 +404,19 @@ impl Heated<'_> {
 }
 
 impl State {
+    /// The numbers of the state, without its fields and the reason why it misses a request.
+    fn numbers(&self) -> Self {
+        Self {
+            temperature: self.temperature,
+            caused: self.caused,
+            answer: Answer {
+                fields: Fields::default(),
+                ..self.answer.clone()
+            },
+            missed: None,
+        }
+    }
+
     /// Assumed and caused temperature, \[°C].
     const fn point(&self) -> [f64; 2] {
         [self.temperature, self.caused]
@@ -431,13 +467,22 @@ fn slope_of(
     })
 }
 
-/// The answer with the errors of all quantities widened by that of the temperature \[K]; the two states give their slopes.
-fn widened(mut answer: Answer, states: [&State; 2], error: f64) -> Answer {
-    let of_friction = slope_of(states, |answer| answer.friction_coefficient).unwrap_or_default();
+/// The larger of the slopes of two pairs of states.
+fn largest_slope(
+    [one, other]: [[&State; 2]; 2],
+    quantity: impl Fn(&Answer) -> Option<Estimate>,
+) -> Option<f64> {
+    Some(slope_of(one, &quantity)?.max(slope_of(other, &quantity)?))
+}
+
+/// The answer with the errors of all quantities widened by that of the temperature \[K]; pairs of states give their slopes.
+fn widened(mut answer: Answer, states: [[&State; 2]; 2], error: f64) -> Answer {
+    let of_friction =
+        largest_slope(states, |answer| answer.friction_coefficient).unwrap_or_default();
     let part = ErrorParts::discretisation_only(of_friction * error);
     answer.error_parts = answer.error_parts.plus(part);
     for quantity in &QUANTITIES {
-        let slope = slope_of(states, quantity.of);
+        let slope = largest_slope(states, quantity.of);
         if let (Some(field), Some(slope)) = (quantity.field, slope)
             && let Some(known) = field(&mut answer)
         {

@@ -88,7 +88,7 @@ pub enum SolveError {
     /// The friction at the temperature of the contact does not have the requested error.
     #[error(
         "the friction coefficient was not reached to the relative error {}: it is {friction} at the temperature of the contact, \
-         {temperature} °C, whose error is a part of it; give a larger solve.relative_error",
+         {temperature} °C, whose error is a part of it; give another solve.relative_error, or solve.elements",
         MessageNumber(*asked)
     )]
     HeatNotReached {

@@ -7,7 +7,8 @@
 
 use bem_halfspace::heat::{ContactKind, Counterface, HeatConductor, SlidingContact};
 use bem_halfspace::{Grid, PressureField};
-use numerics::Estimate;
+use numerics::{Estimate, in_range};
+use rheology::KELVIN_AT_ZERO_CELSIUS;
 
 use super::answer::Answer;
 use super::body::Body;
@@ -61,12 +62,16 @@ impl Heating {
             );
             return Err(SceneError::at("heat.ambient_temperature", problem));
         }
+        let ambient = table.ambient_temperature;
+        if let Some(celsius) = ambient {
+            let holds = celsius.is_finite() && celsius > -KELVIN_AT_ZERO_CELSIUS;
+            let allowed = "finite and above absolute zero, -273.15 °C";
+            in_range("heat.ambient_temperature", celsius, holds, allowed)?;
+        }
         Ok(Some(Self {
             conductor: table.conductor()?,
             counterface: table.counterface.into(),
-            ambient: table
-                .ambient_temperature
-                .or_else(|| half_space.temperature()),
+            ambient: ambient.or_else(|| half_space.temperature()),
             duration: table.duration,
         }))
     }
@@ -117,6 +122,18 @@ impl Problem {
                 "where the power is dissipated below the surface is known for an incompressible material; give poisson_ratio = 0.5",
             );
         }
+        if let (Body::Periodic(surface), Some(duration)) = (self.body(), heating.duration) {
+            let period = surface.period()[0];
+            let distance = load.velocity() * duration;
+            if distance < period {
+                let problem = format!(
+                    "in {duration:e} s the surface slides over {distance:.3e} m, less than its period of {period:e} m, and its temperature is not \
+                     yet stationary; give at least {:.3e} s",
+                    period / load.velocity()
+                );
+                return refused("heat.duration", &problem);
+            }
+        }
         match (self.body(), heating.duration) {
             (Body::Periodic(_), None) => refused(
                 "heat",
@@ -160,7 +177,8 @@ impl Problem {
             Body::Cylinder(_) => ContactKind::Line,
             Body::Revolution(_) | Body::HeightMap(_) => ContactKind::Body,
         };
-        let found = contact.temperature(&heating.conductor, heating.counterface, kind)?;
+        let found = contact.temperature(&heating.conductor, heating.counterface, kind);
+        let found = found.map_err(|error| SceneError::at("heat", error.to_string()))?;
         // The temperature is proportional to the dissipated power.
         let power = shear + bulk;
         let relative_error = if power.value > 0.0 {

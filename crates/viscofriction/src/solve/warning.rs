@@ -42,6 +42,13 @@ pub enum Warning {
     },
     /// Heat does not change the moduli, because the material has no shift law.
     ModuliWithoutTemperature,
+    /// The hottest place of the contact is hotter than the laws of material and shear strength are known for.
+    HotterThanLaws {
+        /// Largest temperature in the contact, \[°C].
+        temperature: f64,
+        /// Highest temperature of the laws, \[°C].
+        highest: f64,
+    },
     /// The friction heats the contact to one of two temperatures; the answer is that of the lower one.
     SecondTemperature {
         /// The higher temperature, \[°C].
@@ -120,18 +127,20 @@ impl fmt::Display for Warning {
                 "on a layer the shear of the contact also moves the surface vertically, and its effect on pressure and area is neglected",
             ),
             Self::NeglectedCoupling { poisson_ratio, .. } => {
-                // Ratio of the vertical displacements by a tangential and by a normal traction (Johnson 1985, § 3.2).
-                let coupling = (1.0 - 2.0 * poisson_ratio) / (2.0 * (1.0 - poisson_ratio));
-                write!(
-                    out,
-                    "with a Poisson ratio of {} the shear of the contact also moves the surface vertically, which is neglected: pressure \
-                     and area change by a part of the order of {coupling:.2} times the friction coefficient from shear",
-                    Rounded(*poisson_ratio)
-                )
+                write_neglected_coupling(out, *poisson_ratio)
             }
             Self::ModuliWithoutTemperature => out.write_str(
                 "the material has no shift law, so that its moduli are the same at every temperature; fit-material finds one from moduli \
                  at several temperatures",
+            ),
+            Self::HotterThanLaws {
+                temperature,
+                highest,
+            } => write!(
+                out,
+                "the hottest place of the contact has {temperature:.1} °C, and material and shear strength are known up to {} °C, so that the \
+                 temperature model spread is not known",
+                Rounded(*highest)
             ),
             Self::SecondTemperature {
                 temperature,
@@ -186,6 +195,18 @@ impl fmt::Display for Warning {
             } => write!(out, "{warning} (of {surfaces} of {of} surfaces)"),
         }
     }
+}
+
+/// Writes how much the shear of the contact would change pressure and area for a Poisson ratio below 1/2.
+fn write_neglected_coupling(out: &mut fmt::Formatter<'_>, poisson_ratio: f64) -> fmt::Result {
+    // Ratio of the vertical displacements by a tangential and by a normal traction (Johnson 1985, § 3.2).
+    let coupling = (1.0 - 2.0 * poisson_ratio) / (2.0 * (1.0 - poisson_ratio));
+    write!(
+        out,
+        "with a Poisson ratio of {} the shear of the contact also moves the surface vertically, which is neglected: pressure and area change by a \
+         part of the order of {coupling:.2} times the friction coefficient from shear",
+        Rounded(poisson_ratio)
+    )
 }
 
 /// Writes what the answer would be without the shortest octave of waves: factors on friction and area.

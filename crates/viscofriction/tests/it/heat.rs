@@ -156,6 +156,35 @@ fn two_temperatures_are_told() {
     assert!(number(&hot, "effective_temperature") > 20.0, "{hot}");
 }
 
+/// Where friction falls steeply with temperature, an answer to a tenth agrees with a finer one: the temperature is corrected until it
+/// causes itself.
+#[test]
+fn a_steep_law_has_the_temperature_that_it_causes() {
+    let folder = Folder::new("heat-steep");
+    let steep = with(BALL, ["normal_force = 1.0", "normal_force = 5.0"]);
+    let steep = with(&steep, ["velocity = 0.1", "velocity = 0.5"]);
+    let bell = "[interface.bell]\nshear_strength = 1e6\nvelocity = 1e-2\nactivation_energy = 200e3\nwidth = 1.0\n";
+    let at = |error: &str| {
+        let asked = with(&steep, ["relative_error = 0.05", error]);
+        folder.answer(format!("{asked}{bell}{HEAT}"))
+    };
+    let [coarse, fine] = ["relative_error = 0.1", "relative_error = 0.04"].map(at);
+    for key in ["friction_coefficient", "effective_temperature"] {
+        assert_within_bars(key, [&coarse, &fine]);
+    }
+}
+
+/// The highest temperature of a law is not exceeded by rounding when a second state is looked for.
+#[test]
+fn the_highest_temperature_is_within_the_range_of_the_law() {
+    let folder = Folder::new("heat-rounding");
+    let text = with(BALL, ["120.0]", "59.93]"]);
+    folder.answer(format!("{text}{HEAT}ambient_temperature = 21.7\n"));
+    let highest = folder.answer(format!("{text}{HEAT}ambient_temperature = 59.93\n"));
+    let temperature = number(&highest, "effective_temperature");
+    assert!((temperature - 59.93).abs() < 1e-3, "{temperature}");
+}
+
 /// A periodic surface that slides for longer is hotter, and a material without a shift law keeps its moduli, with a warning.
 #[test]
 fn a_rough_surface_grows_hotter_with_time() {
@@ -168,11 +197,11 @@ fn a_rough_surface_grows_hotter_with_time() {
              {duration}\n"
         ))
     };
-    let [early, late] = [1.0, 100.0].map(at);
+    let [early, late] = [1e3, 4e3].map(at);
     let [of_early, of_late] = [&early, &late].map(|answer| rise(answer, "mean"));
     // The waves are as hot as before; the mean flux has heated the surface by 2 Q √(t/(π k ρ c)).
     let flux = number(&late, "friction_coefficient") * 1e5 * 0.1;
-    let growth = 2.0 * flux / 0.25 * (1.2e-7 / PI).sqrt() * (10.0 - 1.0);
+    let growth = 2.0 * flux / 0.25 * (1.2e-7 / PI).sqrt() * (4e3_f64.sqrt() - 1e3_f64.sqrt());
     let off = (of_late[0] - of_early[0]) / growth - 1.0;
     assert!(off.abs() < 0.02, "{of_early:?} {of_late:?} {growth}");
     let warnings = late["warnings"].as_array().expect("a list");
@@ -188,103 +217,107 @@ fn a_rough_surface_grows_hotter_with_time() {
     );
 }
 
+/// Requires that a scene is refused with these words.
+#[track_caller]
+fn assert_refused(text: &str, words: &str) {
+    let refused = text
+        .parse::<Scene>()
+        .map_err(|error| error.to_string())
+        .and_then(|scene| Problem::try_from(&scene).map_err(|error| error.to_string()));
+    let refused = refused.err().unwrap_or_default();
+    assert!(refused.contains(words), "{words}: {refused:?}\n{text}");
+}
+
 #[test]
-fn heat_is_refused_where_it_is_not_computed() {
-    let heated = |more: &str| format!("{BALL}{HEAT}{more}");
-    let periodic = "[indenter.self-affine]\nperiod = [1e-2, 1e-2]\nhurst_exponent = 0.8\nrms_slope = 0.1\nlongest_wavelength = \
-         1e-2\nshortest_wavelength = 5e-3\nseed = 1\n";
-    let periodic = with(
-        &heated(""),
-        ["[indenter.sphere]\nradius = 5e-3\n", periodic],
-    );
-    for (text, words) in [
+fn wrong_numbers_of_heat_are_refused() {
+    // Words in the table of heat with what stands in their place, and what the refusal says.
+    for (from, to, words) in [
+        ("diffusivity = 1.2e-7\n", "", "give diffusivity [m²/s]"),
         (
-            with(&heated(""), ["diffusivity = 1.2e-7\n", ""]),
-            "give diffusivity [m²/s]",
-        ),
-        (
-            with(&heated(""), ["diffusivity = 1.2e-7", "density = 1e3"]),
+            "diffusivity = 1.2e-7",
+            "density = 1e3",
             "heat.density: beside density",
         ),
         (
-            with(&heated(""), ["diffusivity = 1.2e-7", "heat_capacity = 1e3"]),
+            "diffusivity = 1.2e-7",
+            "heat_capacity = 1e3",
             "heat.heat_capacity: beside",
         ),
         (
-            heated("density = 1e3\n"),
+            "diffusivity",
+            "density = 1e3\ndiffusivity",
             "heat.diffusivity: the diffusivity follows",
         ),
         (
-            with(&heated(""), ["0.25", "-0.25"]),
+            "0.25",
+            "-0.25",
             "heat.conductivity must be finite and greater than 0",
         ),
         (
-            heated("counterface = { share = 1.5 }\n"),
+            "diff",
+            "counterface = { share = 1.5 }\ndiff",
             "heat.counterface.share must be from 0 to 1",
         ),
-        (heated("counterface = \"wet\"\n"), "heat.counterface"),
+        ("diff", "counterface = \"wet\"\ndiff", "heat.counterface"),
         (
-            heated("duration = 1.0\n"),
+            "diff",
+            "duration = 1.0\ndiff",
             "heat.duration: the temperature under a body",
         ),
         (
-            heated("ambient_temperature = 300.0\n"),
+            "diff",
+            "ambient_temperature = 300.0\ndiff",
             "heat.ambient_temperature",
         ),
         (
-            with(
-                &heated(""),
-                ["relative_error", "model = \"line\"\nrelative_error"],
-            ),
+            "diff",
+            "ambient_temperature = -300.0\ndiff",
+            "above absolute zero",
+        ),
+    ] {
+        assert_refused(&format!("{BALL}{}", with(HEAT, [from, to])), words);
+    }
+}
+
+#[test]
+fn heat_is_refused_where_it_is_not_computed() {
+    for (from, to, words) in [
+        (
+            "relative_error",
+            "model = \"line\"\nrelative_error",
             "boundary elements do",
         ),
         (
-            with(
-                &heated(""),
-                ["relative_error", "duration = 1.0\nrelative_error"],
-            ),
+            "relative_error",
+            "duration = 1.0\nrelative_error",
             "stationary state",
         ),
         (
-            with(
-                &heated(""),
-                ["velocity = 0.1", "stroke = 1e-3\nfrequency = 1.0"],
-            ),
+            "velocity = 0.1",
+            "stroke = 1e-3\nfrequency = 1.0",
             "constant load.velocity",
         ),
         (
-            with(
-                &heated(""),
-                ["velocity = 0.1", "velocity = 0.1\ntrack = 1.0"],
-            ),
+            "velocity = 0.1",
+            "velocity = 0.1\ntrack = 1.0",
             "leave load.track out",
         ),
         (
-            with(&heated("[layer]\nthickness = 1e-2\n"), ["1e6", "1e6"]),
+            "[load]",
+            "[layer]\nthickness = 1e-2\n[load]",
             "leave the layer out",
         ),
-        (
-            with(
-                &heated(""),
-                [
-                    "equilibrium_modulus",
-                    "poisson_ratio = 0.4\nequilibrium_modulus",
-                ],
-            ),
-            "poisson_ratio = 0.5",
-        ),
-        (
-            with(&periodic, ["normal_force = 1.0", "mean_pressure = 1e4"]),
-            "duration [s]",
-        ),
+        ("equil", "poisson_ratio = 0.4\nequil", "poisson_ratio = 0.5"),
     ] {
-        let refused = text
-            .parse::<Scene>()
-            .map_err(|error| error.to_string())
-            .and_then(|scene| Problem::try_from(&scene).map_err(|error| error.to_string()));
-        let refused = refused.err().unwrap_or_default();
-        assert!(refused.contains(words), "{words}: {refused:?}\n{text}");
+        assert_refused(&format!("{}{HEAT}", with(BALL, [from, to])), words);
     }
+    let rough = "[indenter.self-affine]\nperiod = [1e-2, 1e-2]\nhurst_exponent = 0.8\nrms_slope = 0.1\nlongest_wavelength = \
+         1e-2\nshortest_wavelength = 5e-3\nseed = 1\n";
+    let periodic = with(BALL, ["[indenter.sphere]\nradius = 5e-3\n", rough]);
+    let periodic = with(&periodic, ["normal_force = 1.0", "mean_pressure = 1e4"]);
+    assert_refused(&format!("{periodic}{HEAT}"), "duration [s]");
+    let short = "duration = 0.05\n";
+    assert_refused(&format!("{periodic}{HEAT}{short}"), "less than its period");
 }
 
 /// A contact that heats itself beyond the range of its laws says so, with what was reached.
