@@ -166,6 +166,7 @@ impl BoundaryField {
 
     /// Part of the polygons in the rectangle between the centres of an element and its neighbours ahead.
     fn area_ahead_of(&self, first: usize, load_gap_ratios: [f64; 2]) -> PolygonArea {
+        /// Corners of the rectangle in counter-clockwise order, in units of its edges.
         const CORNERS: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
         let ([rows, columns], [row, column]) =
             (self.shape, [first / self.shape[1], first % self.shape[1]]);

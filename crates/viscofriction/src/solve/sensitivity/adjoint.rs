@@ -257,6 +257,7 @@ impl AnswerChange {
 
     /// The change of a contact whose shear strength grows by one e-fold.
     pub(super) const fn of_shear_strength() -> Self {
+        /// Change of a quantity that does not depend on the shear strength.
         const NO_CHANGE: Estimate = Estimate::exact(0.0);
         Self {
             contact: Change {
