@@ -42,7 +42,7 @@ __all__ = [
 
 # Words of a scene.
 Edges = Literal["wall", "periodic", "mirrored"]
-EnergyUnit = Literal["J/mol", "eV"]
+EnergyUnit = Literal["J/mol", "kJ/mol", "eV"]
 HeightsAre = Literal["surface", "gap"]
 LengthUnit = Literal["m", "mm", "um", "nm"]
 Method = Literal["analytic", "mdr-steady", "mdr-transient", "bem-steady", "bem-transient"]
@@ -476,7 +476,7 @@ class BellShear(Interface):
     velocity: float
     _: KW_ONLY
     activation_energy: float | None = None
-    activation_energy_unit: Literal["J/mol", "eV"] = "J/mol"
+    activation_energy_unit: Literal["J/mol", "kJ/mol", "eV"] = "J/mol"
     reference_temperature: float = 20.0
     width: float = 3.1622776601683795
     _kind = "bell"

@@ -41,8 +41,11 @@ fn growth_is_measured_with_its_error() {
     for row in &growth {
         // One grid of a thousand elements is within a few tenths of a per cent.
         assert!(number(row, "relative_deviation").abs() < 5e-3, "{row:?}");
-        let half = number(row, "elements_in_contact") / number(row, "unknowns");
-        assert!((half - 2.0).abs() < 0.1, "mirror symmetry: {row:?}");
+        // The number in contact is that of the area, which the elements that touch exceed along its edge, and with the row in the mirror.
+        let in_contact = number(row, "elements_in_contact");
+        let half = in_contact / number(row, "unknowns");
+        let allowed = 5.0 / in_contact.sqrt();
+        assert!((half - 2.0).abs() < allowed, "mirror symmetry: {row:?}");
     }
     let said = "exponent of growth";
     assert!(printed.contains(said), "expected '{said}' in {printed}");

@@ -127,13 +127,14 @@ impl PeriodicWaves {
         sum
     }
 
-    /// Ratio S(β)/β of temperature and flux of a wave. One with crests along x stays at its place on the elastomer, and grows with the
-    /// time in which the mean grows.
+    /// Ratio S(β)/β of temperature and flux of a wave. One with crests along x, and at rest every one, stays at its place on the
+    /// elastomer, and grows with the time in which the mean grows.
     fn multiplier(&self, q: [f64; 2], depth: &SourceDepth, unit: f64) -> Complex<f64> {
         let beta = self.decay_constant(q);
         let stationary = depth.wave_ratio(beta / unit) / beta;
-        if q[0] == 0.0 {
-            stationary * depth.grown_part(q[1].abs() / unit, self.mean_length * unit)
+        if q[0] == 0.0 || self.velocity_over_diffusivity == 0.0 {
+            let wave_number = q[0].hypot(q[1]) / unit;
+            stationary * depth.grown_part(wave_number, self.mean_length * unit)
         } else {
             stationary
         }

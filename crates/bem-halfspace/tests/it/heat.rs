@@ -401,7 +401,9 @@ fn a_body_on_a_long_period_is_as_hot_as_alone() {
     for peclet_number in [0.0, 1.0] {
         let velocity = velocity(peclet_number);
         let grid = Grid::new([n; 2], [edge; 2]).expect("a grid");
-        let periodic = SurfaceTemperature::periodic(&grid, &rubber(), velocity, 0.0);
+        // Standing waves have grown after the longest one has diffused over many periods.
+        let duration = 100.0 * (n as f64 * edge).powi(2) / DIFFUSIVITY;
+        let periodic = SurfaceTemperature::periodic(&grid, &rubber(), velocity, duration);
         let [alone, periodic] = [
             SurfaceTemperature::new(&grid, &rubber(), velocity).expect("an operator"),
             periodic.expect("an operator"),
@@ -463,8 +465,12 @@ fn one_wave_of_bulk_dissipation_has_its_closed_form() {
             let flux: Vec<f64> = (0..n * n)
                 .map(|element| 1.0 + phase(element).cos())
                 .collect();
-            let operator = SurfaceTemperature::periodic(&grid, &rubber(), velocity, 0.0);
-            let found = rise_at(&operator.expect("an operator"), &flux, &one_wave(depth));
+            let duration = 100.0 * period * period / DIFFUSIVITY;
+            let operator = SurfaceTemperature::periodic(&grid, &rubber(), velocity, duration);
+            let mut found = rise_at(&operator.expect("an operator"), &flux, &one_wave(depth));
+            // Without the mean, which has grown.
+            let mean = found.temperature.iter().sum::<f64>() / (n * n) as f64;
+            found.temperature.iter_mut().for_each(|rise| *rise -= mean);
             // β² = q² − i q_x v/D, and the amplitude 8 depth³/((2 depth + β)³ k β) times the transform of an element.
             let square = q[0] * q[0] + q[1] * q[1];
             let (modulus, angle) = (
@@ -492,6 +498,35 @@ fn one_wave_of_bulk_dissipation_has_its_closed_form() {
                     "{along}, {across}, {velocity} m/s, {element}: {error:e}"
                 );
             }
+        }
+    }
+}
+
+/// A wave with crests along the motion stays at its place: k T̂ = (1/√π) ∫ e^(−z²/s²) e^(−q²s²/4) ds up to s = √(4Dt), per flux in a
+/// plane at the depth z.
+#[test]
+fn a_standing_wave_grows_by_diffusion() {
+    let (n, edge) = (32, 1e-4);
+    let grid = Grid::new([n; 2], [edge; 2]).expect("a grid");
+    let q = 2.0 * PI / (n as f64 * edge);
+    let flux: Vec<f64> = (0..n * n)
+        .map(|element| 1.0 + (q * (element % n) as f64 * edge).cos())
+        .collect();
+    for diffusion_length in [0.2 / q, 1.0 / q, 5.0 / q] {
+        let duration = diffusion_length * diffusion_length / (4.0 * DIFFUSIVITY);
+        let operator = SurfaceTemperature::periodic(&grid, &rubber(), 0.1, duration);
+        let operator = operator.expect("an operator");
+        for depth in [1e-3 / q, 0.3 / q, 1.0 / q] {
+            let found = rise_at(&operator, &flux, &SourceDepth::Plane(depth));
+            let pulse = |s: f64| (-(depth / s).powi(2) - (0.5 * q * s).powi(2)).exp();
+            let integral = integrate(pulse, [0.0, diffusion_length], 1e-10).value;
+            let expected = integral / PI.sqrt() / CONDUCTIVITY;
+            let amplitude = 0.5 * (found.temperature[0] - found.temperature[n / 2]);
+            let error = (amplitude / expected - 1.0).abs();
+            assert!(
+                error < 1e-8,
+                "{diffusion_length} m, {depth} m: {amplitude}, not {expected}"
+            );
         }
     }
 }

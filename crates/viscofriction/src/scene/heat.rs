@@ -121,6 +121,6 @@ impl TryFrom<Table> for Heat {
     type Error = SceneError;
 
     fn try_from(table: Table) -> Result<Self, SceneError> {
-        checked(table, &["heat"]).map(|alone: HeatAlone| alone.heat)
+        checked(table, &[]).map(|alone: HeatAlone| alone.heat)
     }
 }

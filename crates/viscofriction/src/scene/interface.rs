@@ -60,6 +60,9 @@ pub enum EnergyUnit {
     #[default]
     #[serde(rename = "J/mol")]
     JoulePerMole,
+    /// Kilojoule per mole.
+    #[serde(rename = "kJ/mol")]
+    KilojoulePerMole,
     /// Electronvolt per bond.
     #[serde(rename = "eV")]
     Electronvolt,
@@ -70,6 +73,7 @@ impl EnergyUnit {
     pub(crate) const fn joule_per_mole(self) -> f64 {
         match self {
             Self::JoulePerMole => 1.0,
+            Self::KilojoulePerMole => 1e3,
             Self::Electronvolt => ELECTRONVOLT,
         }
     }
