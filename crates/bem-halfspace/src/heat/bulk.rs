@@ -29,10 +29,10 @@ use crate::{BemError, PressureField};
 /// Step of ln z in the integral over the depth z. Derived: the trapezoidal rule of (qz)³ e^(−2qz) over ln z has the relative error
 /// 2 |Γ(3 + 2πi/0.6)|/Γ(3) = 7e-5.
 const LOG_DEPTH_STEP: f64 = 0.6;
-/// Depths from this product with the largest wave number on. Derived: above it lie less than 1e-3 of the power of that wave, and none of
-/// the power of longer ones.
+/// Depths from this product with the largest wave number on. Derived: above it lies 1.2e-3 of the power of that wave, and less of that
+/// of longer ones.
 const MIN_DEPTH: f64 = 0.1;
-/// Depths up to this product with the smallest wave number. Derived: below it lie 4e-7 of the power of the longest wave.
+/// Depths up to this product with the smallest wave number. Derived: below it lie 5e-7 of the power of the longest wave.
 const MAX_DEPTH: f64 = 10.0;
 /// Product of depth and wave number beyond which waves are left out. Derived: their stress is below 12 e^(−12) = 7e-5 of the pressure.
 const MAX_STRESS_DEPTH: f64 = 12.0;

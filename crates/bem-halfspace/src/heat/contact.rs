@@ -96,7 +96,8 @@ impl SlidingContact<'_> {
     /// element of the surface, also outside the contact.
     ///
     /// # Errors
-    /// [`BemError::InvalidParameter`] for a velocity that is not positive, a negative power, and results that overflow.
+    /// [`BemError::InvalidParameter`] for a velocity that is not positive, a negative power, a contact without pressure, and results that
+    /// overflow.
     pub fn temperature(
         &self,
         conductor: &HeatConductor,
@@ -106,6 +107,8 @@ impl SlidingContact<'_> {
         positive("velocity", self.velocity)?;
         let shear_power = not_negative("power of the shear", self.shear_power)?;
         let bulk_power = not_negative("power of the bulk", self.bulk_power)?;
+        let largest = self.pressure.pressure.iter().copied().fold(0.0, f64::max);
+        positive("largest pressure", largest)?;
         wake_length(&self.pressure.grid, conductor, self.velocity)?;
         let share = counterface.elastomer_share()?;
         let heated = Heated {
@@ -131,7 +134,7 @@ impl SlidingContact<'_> {
         });
         let [fine, coarse] = [fine?, coarse?];
         let within = |rise: f64, coarse: f64| {
-            estimate(rise, coarse).map(|rise| rise.widened(fine.unresolved * rise.value))
+            estimate(rise, coarse).map(|rise| rise.widened(fine.unresolved * rise.value.abs()))
         };
         Ok(TemperatureRise {
             grid: self.pressure.grid,

@@ -295,6 +295,8 @@ fn a_line_contact_has_the_temperature_of_a_long_body() {
 #[test]
 fn impossible_contacts_are_refused() {
     let field = hertz(8);
+    let mut unloaded = field.clone();
+    unloaded.pressure.fill(0.0);
     let material = Viscous::new(1e4).expect("a material");
     let contact = SlidingContact {
         pressure: &field,
@@ -310,6 +312,13 @@ fn impossible_contacts_are_refused() {
                 ..contact
             },
             "velocity",
+        ),
+        (
+            SlidingContact {
+                pressure: &unloaded,
+                ..contact
+            },
+            "largest pressure",
         ),
         (
             SlidingContact {

@@ -186,7 +186,7 @@ impl Problem {
         } else {
             0.0
         };
-        let widened = |rise: Estimate| rise.widened(relative_error * rise.value);
+        let widened = |rise: Estimate| rise.widened(relative_error * rise.value.abs());
         let mut answer = Answer {
             largest_temperature_rise: Some(widened(found.largest)),
             mean_temperature_rise: Some(widened(found.mean)),

@@ -132,7 +132,7 @@ impl Problem {
         };
         let shear = over_force(area * strength, answer.normal_force);
         let mut answer = Answer {
-            friction_coefficient: Some(sum(hysteresis, shear)),
+            friction_coefficient: Some(hysteresis + shear),
             friction_from_hysteresis: Some(hysteresis),
             friction_from_shear: Some(shear),
             error_parts: (answer.error_parts).plus(ErrorParts::discretisation_only(shear.error)),
@@ -144,7 +144,7 @@ impl Problem {
         {
             let shear = over_force(without.area_fraction * strength, pressure);
             without.friction_coefficient =
-                (without.friction_coefficient).map(|hysteresis| sum(hysteresis, shear));
+                (without.friction_coefficient).map(|hysteresis| hysteresis + shear);
         }
         // The steps before the end have the shear of their own areas.
         for row in &mut answer.fields.history {
@@ -171,11 +171,6 @@ fn over_force(tangential: Estimate, normal: Estimate) -> Estimate {
         f64::INFINITY
     };
     Estimate::new(ratio, error)
-}
-
-/// Sum of two parts of the friction, whose errors may have the same sign.
-fn sum(a: Estimate, b: Estimate) -> Estimate {
-    Estimate::new(a.value + b.value, a.error + b.error)
 }
 
 /// Solves for the sum of hysteresis and shear to the requested relative error, without shear like [`Plan::solve_once`].
