@@ -53,6 +53,8 @@ def test_a_shear_strength_comes_back() -> None:
     assert fit.interface is not None
     assert fit.interface["constant"]["shear_strength"] == pytest.approx(3e4, rel=5e-3)
     assert list(fit.findings) == ["interface.constant.shear_strength"]
+    axes = fit.plot()
+    assert axes.get_xscale() == "log" and axes.get_xlabel() == "speed v a_T [m/s]"
 
 
 def test_a_table_is_what_the_program_fits(program: Callable[..., str], tmp_path: Path) -> None:

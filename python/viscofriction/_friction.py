@@ -77,9 +77,8 @@ class FrictionFit(Compared):
         order = np.argsort(self.shifted_velocity)
         axes.errorbar(self.shifted_velocity, self.mu, self.standard_error, fmt=".", color="0.5", label="measured")
         axes.plot(self.shifted_velocity[order], self.fitted_mu[order], label="fit")
-        axes.set_xscale("log")
         axes.legend()
-        return _plotting.tidy(axes, "speed v a_T [m/s]", "friction coefficient μ", (None, None))
+        return _plotting.tidy(axes, "speed v a_T [m/s]", "friction coefficient μ", (self.shifted_velocity, None))
 
 
 def fit_friction(
