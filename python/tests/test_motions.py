@@ -27,6 +27,16 @@ def test_a_stroke_has_a_loop_whose_area_is_the_energy() -> None:
     assert axes.get_xlabel().startswith("position x [")
 
 
+def test_the_shear_of_an_interface_adds_to_the_forces_of_a_motion() -> None:
+    options = {"stroke": 2e-3, "frequency": 5.0, "normal_force": 2.0, "elements": 8}
+    bare = vf.move(BALL, SOLID, **options)  # type: ignore[arg-type]
+    dry = vf.move(BALL, SOLID, interface=vf.ConstantShear(1e5), **options)  # type: ignore[arg-type]
+    assert dry.friction_from_shear is not None and dry.friction_from_hysteresis is not None
+    assert dry.friction_from_shear > 0.0
+    assert dry.friction_from_hysteresis == pytest.approx(float(bare.mu), rel=1e-12)
+    assert dry.mu == pytest.approx(float(dry.friction_from_hysteresis) + float(dry.friction_from_shear), rel=1e-12)
+
+
 def test_strokes_and_frequencies_fit_together() -> None:
     answer = vf.move(
         BALL, SOLID, stroke=[5e-4, 4e-3], frequency=2.0, shape="triangular", normal_force=2.0, model="line", relative_error=1e-2

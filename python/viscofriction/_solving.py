@@ -95,6 +95,7 @@ def move(
     normal_force: ArrayLike | None = None,
     indentation_depth: ArrayLike | None = None,
     mean_pressure: ArrayLike | None = None,
+    interface: Interface | None = None,
     model: Model | None = None,
     method: Method | None = None,
     relative_error: float | None = None,
@@ -107,8 +108,8 @@ def move(
     Either a ``stroke`` [m] from end to end and a ``frequency`` [1/s], numbers or arrays that fit together, with ``shape`` "sinusoidal"
     or "triangular": the answer is the cycle in which the motion ends; or ``time`` and ``position``, straight from point to point, from
     an undeformed surface on. Force or depth is held, or the mean pressure [Pa] of a periodic surface, whose forces and energy are those
-    of one period. ``.motion`` has the forces over time, ``.mu`` is their mean over the path.
-    Otherwise as ``slide``.
+    of one period. ``.motion`` has the forces over time, ``.mu`` is their mean over the path. With an ``interface`` the forces contain
+    the shear in the contact. Otherwise as ``slide``.
     """
     pressed = given(normal_force=normal_force, indentation_depth=indentation_depth, mean_pressure=mean_pressure)
     loads = given(stroke=stroke, frequency=frequency) | pressed
@@ -117,7 +118,7 @@ def move(
         times, places = checked_columns(**given(time=time, position=position))
         load["motion"] = [{"time": t, "position": x} for t, x in zip(times.tolist(), places.tolist(), strict=True)]
     options = given(model=model, method=method, relative_error=relative_error, elements=elements, threads=threads)
-    scene = {"indenter": body, "material": material, "load": load, "solve": options}
+    scene = {"indenter": body, "material": material, "load": load, "solve": options, "interface": interface}
     return cast("MovingAnswer", ask(scene, *together(loads), progress))
 
 
