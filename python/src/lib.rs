@@ -26,7 +26,7 @@ mod native {
         expand_relaxation, fit_oscillation, fit_relaxation, material_curve, scaling_factor,
     };
     #[pymodule_export]
-    use super::moduli::{fit_isotherms, read_moduli, shift_factors};
+    use super::moduli::{fit_isotherms, read_moduli, shifted};
     #[pymodule_export]
     use super::roughness::{check_height_map, surface_numbers};
     #[pymodule_export]

@@ -179,11 +179,13 @@ fn name_of(vertical: VerticalShift) -> Option<&'static str> {
     named.find_map(|(name, kind)| (kind == vertical).then_some(name))
 }
 
-/// Factors a_T and b_T on all times and moduli at a temperature \[°C], by a shift law as JSON.
+/// Factors a_T and b_T on all times and moduli at a temperature \[°C], by a shift law as JSON, and the law about this temperature.
 #[pyfunction]
-pub(crate) fn shift_factors(shift: &str, temperature: f64) -> PyResult<(f64, f64)> {
+pub(crate) fn shifted(shift: &str, temperature: f64) -> PyResult<(f64, f64, String)> {
     let shift: Shift = serde_json::from_str(shift).map_err(wrong)?;
     let log10_factor = shift.log10_factor(temperature).map_err(wrong)?;
     let modulus_factor = shift.modulus_factor(temperature).map_err(wrong)?;
-    Ok((10_f64.powf(log10_factor), modulus_factor))
+    let law = shift.with_reference(temperature).map_err(wrong)?;
+    let law = serde_json::to_string(&law).map_err(wrong)?;
+    Ok((10_f64.powf(log10_factor), modulus_factor, law))
 }

@@ -121,7 +121,7 @@ class Table(dict[str, Any]):
 
 
 LAW = {"temperature": 20.0, "temperature_range": [0.0, 40.0], "law": {"wlf": [8.0, 100.0]}}
-SHIFTED = vf.Fit(RUBBER, 0.0, 0.0, temperature=20.0, shift=LAW)
+SHIFTED = vf.Fit(vf.Prony(1e6, [(1e7, 1e-3)], shift=LAW), 0.0, 0.0, temperature=20.0)
 CURVE = {name: np.arange(40.0) for name in ("time", "depth", "force")}
 
 CALLS: list[tuple[str, Callable[[Any], Any], list[Any]]] = [

@@ -158,6 +158,14 @@ def test_a_table_of_an_instrument_has_the_fit_of_the_program(
         assert np.allclose(shifted.loss_modulus(frequency), wanted.material.loss_modulus(frequency), rtol=0.02)
         by_file = vf.MaterialFile(tmp_path / "fit" / "material.toml", temperature=24.0)
         assert np.array_equal(shifted.loss_modulus(frequency), by_file.loss_modulus(frequency))
+        assert "covariance" not in repr(fit.material), "a matrix hides all else"
+        # A fit is heated by its shift law as the file of the program is.
+        hot: dict[str, Any] = {"normal_force": 2.0, "velocity": 0.1, "relative_error": 1e-2}
+        hot["interface"] = vf.BellShear(1e5, 1e-2, activation_energy=80.0, activation_energy_unit="kJ/mol")
+        hot["heat"] = vf.Heat(0.25, diffusivity=1e-7)
+        ours, theirs = (vf.slide(vf.Sphere(5e-3), rubber, **hot) for rubber in (shifted, by_file))
+        assert ours.mu == theirs.mu and ours.effective_temperature == theirs.effective_temperature
+        assert ours.effective_temperature is not None and ours.effective_temperature > 24.0
         with pytest.raises(ValueError, match="from 10 °C to 30 °C"):
             fit.at(31.0)
     else:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import os
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
@@ -27,64 +28,67 @@ __all__ = ["Fit", "IsothermShift", "Moduli", "fit_material", "fit_relaxation", "
 
 @dataclass(frozen=True)
 class IsothermShift:
-    """Where an isotherm is on a master curve: G*(ω, T) = b_T G*(a_T ω, T_r)."""
+    """Where an isotherm is on a master curve: G*(ω, T) = b_T G*(a_T ω, T_r).
 
-    #: In the unit of the table.
+    ``temperature``: In the unit of the table.
+    ``log10_factor``, ``log10_factor_error``: log₁₀ a_T, and its standard error.
+    ``modulus_factor``, ``modulus_factor_error``: b_T, and its standard error.
+    ``placed_by_law``: Whether it overlaps too little with its neighbour, and the law of the other shifts places it, or one that
+    it follows.
+    """
+
     temperature: float
-    #: log₁₀ a_T, and its standard error.
     log10_factor: float
     log10_factor_error: float | None
-    #: b_T, and its standard error.
     modulus_factor: float
     modulus_factor_error: float | None
-    #: Whether it overlaps too little with its neighbour, and the law of the other shifts places it, or one that it follows.
     placed_by_law: bool
-
 
 @dataclass(frozen=True)
 class Fit:
-    """A Prony series, and how well it fits."""
+    """A Prony series, and how well it fits.
+
+    ``material``: The series, of several isotherms with its shift law.
+    ``rms_relative_error``: Root mean square over all points of the relative error of the modulus.
+    ``max_relative_error``: The largest of these errors.
+    ``storage_error``: Root mean square and largest error of G' by itself, relative to its own size; None of a relaxation modulus.
+    ``loss_error``: The same of G''.
+    ``log10_factors``: Of several isotherms that were shifted onto one another, pairs of temperature and log₁₀ of the factor of
+    frequency.
+    ``shifts``: Of several isotherms what is known of each of them on the master curve.
+    ``vertical``: How the moduli of several isotherms change with temperature; None of a single curve.
+    ``vertical_is_found``: Whether that was asked for or is what the isotherms show; without it they do not show whether moduli
+    change, and b_T = 1.
+    ``temperature``: Of isotherms the temperature of the material, in the unit of the table.
+    ``covariance``: Covariance [Pa²] of the moduli: the equilibrium modulus, and the branches in their order.
+    ``covariance_method``: How it was found.
+    """
 
     material: Prony
-    #: Root mean square over all points of the relative error of the modulus.
     rms_relative_error: float
-    #: The largest of these errors.
     max_relative_error: float
-    #: Root mean square and largest error of G' by itself, relative to its own size; None of a relaxation modulus.
     storage_error: tuple[float, float] | None = None
-    #: The same of G''.
     loss_error: tuple[float, float] | None = None
-    #: Of several isotherms that were shifted onto one another, pairs of temperature and log₁₀ of the factor of frequency.
     log10_factors: tuple[tuple[float, float], ...] = ()
-    #: Of several isotherms what is known of each of them on the master curve.
     shifts: tuple[IsothermShift, ...] = ()
-    #: How the moduli of several isotherms change with temperature; None of a single curve.
     vertical: Vertical | None = None
-    #: Whether that was asked for or is what the isotherms show; without it they do not show whether moduli change, and b_T = 1.
     vertical_is_found: bool = True
-    #: Of isotherms the temperature of the material, in the unit of the table.
     temperature: float | None = None
-    #: The shift law as in a scene's ``shift``, in °C, where several isotherms have one.
-    shift: dict[str, Any] | None = None
-    #: Covariance [Pa²] of the moduli: the equilibrium modulus, and the branches in their order.
     covariance: Numbers | None = field(default=None, compare=False, repr=False)
-    #: How it was found.
     covariance_method: str | None = None
 
     @property
     def material_with_error(self) -> Prony:
         """The material with its largest relative error, which is then in all bars, for times 1/ω within the measured frequencies."""
-        material = self.material
-        lowest, highest = material.valid_frequencies or (0.0, 0.0)
+        lowest, highest = self.material.valid_frequencies or (0.0, 0.0)
+        branches: Any = [{"modulus": modulus, "relaxation_time": time} for modulus, time in self.material.branches]
         approximation = (self.max_relative_error, (1 / highest, 1 / lowest))
-        branches = [{"modulus": modulus, "relaxation_time": time} for modulus, time in material.branches]
-        return Prony(
-            material.equilibrium_modulus,
-            branches,
-            poisson_ratio=material.poisson_ratio,
-            valid_frequencies=material.valid_frequencies,
-            approximation=approximation,
-        )
+        return replace(self.material, branches=branches, approximation=approximation, relative_covariance=None)
+
+    @property
+    def shift(self) -> Mapping[str, Any] | None:
+        """The shift law of the material, as in a scene's ``shift``, in °C, where several isotherms have one."""
+        return self.material.shift
 
     def at(self, temperature: float) -> Prony:
         """The material at another temperature, in the unit of the table, by the shift law; the frequencies at which it was
@@ -94,33 +98,24 @@ class Fit:
         """
         if self.shift is None or self.temperature is None:
             raise ValueError("temperature: the fit has no shift law, which needs isotherms of several temperatures")
-        celsius = number("temperature", temperature) + (self.shift["temperature"] - self.temperature)
-        factor, stiffer = _native.shift_factors(json.dumps(self.shift), celsius)
-        material = self.material
-        window = material.valid_frequencies
-        return Prony(
-            material.equilibrium_modulus * stiffer,
-            [{"modulus": modulus * stiffer, "relaxation_time": time * factor} for modulus, time in material.branches],
-            poisson_ratio=material.poisson_ratio,
-            valid_frequencies=window and (window[0] / factor, window[1] / factor),
-            relative_covariance=material.relative_covariance,
-        )
+        return self.material.at(number("temperature", temperature) + (self.shift["temperature"] - self.temperature))
 
 
 @dataclass(frozen=True, eq=False)
 class Moduli(Compared):
-    """What an instrument has measured: moduli in shear [Pa] as flat arrays; those that were not measured are None."""
+    """What an instrument has measured: moduli in shear [Pa] as flat arrays; those that were not measured are None.
 
-    #: Angular frequency [rad/s], with storage and loss modulus.
+    ``angular_frequency``, ``storage``, ``loss``: Angular frequency [rad/s], with storage and loss modulus.
+    ``temperature``: Of several isotherms the temperature of each point, in the unit of the table.
+    ``time``, ``modulus``: Time [s], with the relaxation modulus.
+    """
+
     angular_frequency: Numbers | None = None
     storage: Numbers | None = None
     loss: Numbers | None = None
-    #: Of several isotherms the temperature of each point, in the unit of the table.
     temperature: Numbers | None = None
-    #: Time [s], with the relaxation modulus.
     time: Numbers | None = None
     modulus: Numbers | None = None
-
 
 def read_moduli(file: File, *, poisson_ratio: float = 0.5, deformation: Deformation | None = None) -> Moduli:
     """The moduli of a table as an instrument exports it; names and units, separator, decimal mark and encoding are found.
@@ -211,11 +206,7 @@ def _fit_table(
         omega, storage, loss = isotherms[0][1]
         return _fit(_native.fit_oscillation(omega, storage, loss, options), poisson_ratio)
     found = _native.fit_isotherms(isotherms, celsius, superposition, options)
-    fit = replace(
-        _fit(found, poisson_ratio),
-        temperature=found["temperature"],
-        shift=json.loads(found["shift"]) if found["shift"] else None,
-    )
+    fit = replace(_fit(found, poisson_ratio), temperature=found["temperature"])
     if len(isotherms) == 1:
         return fit
     errors = found.get("shift_errors") or [(None, None)] * len(isotherms)
@@ -278,6 +269,7 @@ def _fit(found: dict[str, Any], poisson_ratio: float) -> Fit:
         poisson_ratio=poisson_ratio,
         valid_frequencies=found["valid_frequencies"],
         relative_covariance=relative,
+        shift=json.loads(found["shift"]) if found.get("shift") else None,
     )
     errors = (found[name] for name in ("rms_relative_error", "max_relative_error", "storage_error", "loss_error"))
     fit = Fit(material, *errors)

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import KW_ONLY, dataclass
+from dataclasses import KW_ONLY, dataclass, field, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
-from ._arrays import columns, text_of
+from ._arrays import columns, number, text_of
 from ._tables import Material
 
 __all__ = ["Material", "Prony"]
@@ -34,6 +35,9 @@ class Prony(Material):
 
     Of a fit, ``relative_covariance`` says how well the moduli are known: covariances over the products of the two moduli, of the spring
     and of the branches in their order, as many rows as columns.
+
+    ``shift`` is the change of times and moduli with temperature, a dictionary as the key ``shift`` of a scene, by which ``at`` and the
+    heat of sliding take the material to other temperatures.
     """
 
     equilibrium_modulus: float
@@ -43,7 +47,8 @@ class Prony(Material):
     poisson_ratio: float = 0.5
     valid_frequencies: tuple[float, float] | None = None
     approximation: tuple[float, tuple[float, float]] | None = None
-    relative_covariance: tuple[tuple[float, ...], ...] | None = None
+    relative_covariance: tuple[tuple[float, ...], ...] | None = field(default=None, repr=False)
+    shift: Mapping[str, Any] | None = field(default=None, hash=False)
     _kind = "prony"
     _lists = {"branches": ("modulus", "relaxation_time")}
 
@@ -59,6 +64,7 @@ class Prony(Material):
         valid_frequencies: tuple[float, float] | None = None,
         approximation: tuple[float, tuple[float, float]] | None = None,
         relative_covariance: ArrayLike | None = None,
+        shift: Mapping[str, Any] | None = None,
     ) -> None:
         if branches is not None:
             if moduli is not None or relaxation_times is not None:
@@ -76,6 +82,7 @@ class Prony(Material):
             "poisson_ratio": poisson_ratio,
             "valid_frequencies": valid_frequencies,
             "approximation": approximation,
+            "shift": shift,
         }
         rows = None
         if relative_covariance is not None:
@@ -107,6 +114,26 @@ class Prony(Material):
         approximation = (found["relative_error"], (first, last))
         modulus = found["equilibrium_modulus"]
         return cls(modulus, branches, poisson_ratio=poisson_ratio, approximation=approximation)
+
+    def at(self, temperature: float) -> Prony:
+        """The material at another temperature [°C] by its ``shift`` law; the frequencies at which it was measured shift along.
+
+        Raises ValueError without a law, and outside of its range of temperatures.
+        """
+        if self.shift is None:
+            raise ValueError("temperature: the material has no shift law, which a fit of isotherms of several temperatures finds")
+        factor, stiffer, law = _native.shifted(json.dumps(self.shift), number("temperature", temperature))
+        window, known = self.valid_frequencies, self.approximation
+        branches: Any = [{"modulus": modulus * stiffer, "relaxation_time": time * factor} for modulus, time in self.branches]
+        return replace(
+            self,
+            equilibrium_modulus=self.equilibrium_modulus * stiffer,
+            branches=branches,
+            viscosity=self.viscosity * stiffer * factor,
+            valid_frequencies=window and (window[0] / factor, window[1] / factor),
+            approximation=known and (known[0], (known[1][0] * factor, known[1][1] * factor)),
+            shift=json.loads(law),
+        )
 
     def _table(self) -> dict[str, Any]:
         [(kind, keys)] = super()._table().items()

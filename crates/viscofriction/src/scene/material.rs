@@ -115,7 +115,8 @@ materials! {
         viscosity: f64,
         /// Maxwell branches.
         branches: Vec<Branch>,
-        /// Change of its times and moduli with temperature, for scenes that name this material as a file.
+        /// Change of its times and moduli with temperature, for heat, for shear that depends on the temperature, and for scenes that
+        /// name this material as a file.
         shift: Option<Shift>,
         /// Error of a series that approximates another law; all bars contain it.
         approximation: Option<Approximation>,
