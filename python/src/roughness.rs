@@ -70,8 +70,11 @@ fn prepared(
     heights: &PyReadonlyArray2<'_, f64>,
     keys: &Bound<'_, PyDict>,
 ) -> PyResult<(HeightMapTable, Topography)> {
-    // In Python the keys are arguments without a path.
-    let named = |error: SceneError| wrong(error.to_string().replace("indenter.height-map.", ""));
+    // In Python the keys are arguments without a path, and the heights are no file.
+    let named = |error: SceneError| {
+        let text = error.to_string().replace("indenter.height-map.", "");
+        wrong(text.replacen("file: heights: ", "heights: ", 1))
+    };
     let table = HeightMapTable::try_from(table(keys, "")?).map_err(named)?;
     let surface = topography(heights, &table).and_then(|surface| {
         let surface = table.prepared(surface);

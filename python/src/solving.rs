@@ -429,9 +429,17 @@ impl Sweep<'_> {
         let samples =
             samples.map(|samples| samples.map_err(|why| wrong(why.replacen("N ", "samples ", 1))));
         let vary = vary.chain(samples).collect::<PyResult<Vec<_>>>()?;
-        let mut plan = Plan::new(source, &vary, read_file).map_err(wrong)?;
+        let mut plan = Plan::new(source, &vary, read_file).map_err(|error| self.wrong(&error))?;
         plan.sensitivity = self.sensitivity || self.samples.is_some();
         Ok(plan)
+    }
+
+    /// Exception with a message about the scene, without the line of its text, which was not written by the caller.
+    fn wrong(&self, error: &impl std::fmt::Display) -> PyErr {
+        let text = error.to_string();
+        let of_scene = text.strip_prefix(&*self.folder.join("scene").to_string_lossy());
+        let problem = of_scene.and_then(|located| located.split_once(": "));
+        wrong(problem.map_or(&*text, |(_, problem)| problem))
     }
 }
 
@@ -440,7 +448,8 @@ impl Sweep<'_> {
 pub(crate) fn sweep_plan(sweep: Sweep<'_>) -> PyResult<(Vec<String>, usize)> {
     let plan = sweep.plan()?;
     let points: Vec<usize> = (0..plan.n_points()).collect();
-    plan.validate(&points).map_err(wrong)?;
+    plan.validate(&points)
+        .map_err(|error| sweep.wrong(&error))?;
     Ok((header(&plan), plan.n_points()))
 }
 

@@ -41,13 +41,14 @@ WRONG: list[tuple[str, dict[str, Any]]] = [
     ("model", {"model": "line", "method": "bem-steady"}),
     ("indenter", {"body": "ball"}),
     ("indenter must be a Body of this package, but is 5e-06", {"body": 5e-6}),
-    ("interface must be an Interface of this package, but is '1e5'", {"interface": "1e5"}),
+    ("interface must be a ConstantShear, BellShear or ShearFile of this package, but is '1e5'", {"interface": "1e5"}),
     ("one-dimensional model", {"interface": vf.ConstantShear(1e5), "model": "line"}),
     ("no-such-table", {"interface": vf.ShearFile("no-such-table.csv")}),
-    ("heat must be a Heated of this package, but is 0.25", {"heat": 0.25}),
+    ("heat must be a Heat of this package, but is 0.25", {"heat": 0.25}),
     ("heat.duration", {"heat": vf.Heat(0.25, diffusivity=1e-7, duration=1.0)}),
     ("no-such-file", {"material": vf.MaterialFile("no-such-file.toml")}),
     ("material", {"material": None}),
+    ("material must be a Material of this package, but is a Fit; give its .material", {"material": vf.Fit(RUBBER, 0.0, 0.0)}),
 ]
 
 
@@ -100,6 +101,7 @@ def test_files_are_those_of_the_folder_where_the_object_is_made(monkeypatch: pyt
     ("name", "heights", "spacing"),
     [
         ("heights", np.ones(3), 1.0),
+        ("^heights: the map is flat", np.ones((3, 3)), 1.0),
         ("heights", np.full((3, 3), np.nan), 1.0),
         ("heights", np.ones((3, 3), dtype=object), 1.0),
         ("heights", np.ones((0, 3)), 1.0),
@@ -137,6 +139,7 @@ CALLS: list[tuple[str, Callable[[Any], Any], list[Any]]] = [
     ("scene must be the name of a scene file", lambda scene: vf.sweep(scene, {}), [None]),
     ("vary must be a dictionary of keys", lambda vary: vf.sweep({"indenter": BALL, "material": RUBBER}, vary), [None, 1.0]),
     ("temperature must be", SHIFTED.at, [np.ones(2), None, "warm", np.nan]),
+    ("^material.file.temperature: ", lambda key: vf.sweep({"indenter": BALL, "material": RUBBER, "load": {}}, {key: [20.0]}), ["material.file.temperature"]),
     ("exponent must be", vf.scaling_factor, [np.ones(2), None, np.inf]),
     ("body must be a Body", lambda body: vf.fit_indentation(CURVE, body=body), [5e-6, None]),
     (

@@ -75,7 +75,7 @@ def slide(
         thickness=thickness,
     )
     if not (numbers("velocity", velocity) > 0).all():
-        raise ValueError(f"velocity must be greater than 0, but is {velocity!r}")
+        raise ValueError(f"velocity must be greater than 0, but is {text_of(velocity)}")
     options = given(
         model=model, method=method, relative_error=relative_error, elements=elements, threads=threads
     )
@@ -230,8 +230,13 @@ def read(scene: Scene) -> tuple[dict[str, Any], str, Any]:
     body = table.get("indenter")
     if isinstance(body, HeightMap):
         heights = body.heights
-    families = {"indenter": Body, "material": Material, "interface": Interface, "heat": Heated}
-    for key, kind in families.items():
+    families: dict[str, tuple[type[Table], str]] = {
+        "indenter": (Body, "a Body"),
+        "material": (Material, "a Material"),
+        "interface": (Interface, "a ConstantShear, BellShear or ShearFile"),
+        "heat": (Heated, "a Heat"),
+    }
+    for key, (kind, needed) in families.items():
         value = table.get(key)
         if key in ("interface", "heat") and value is None:
             table.pop(key, None)
@@ -239,8 +244,8 @@ def read(scene: Scene) -> tuple[dict[str, Any], str, Any]:
         if isinstance(value, kind):
             table[key] = value._table()
         elif not isinstance(value, Mapping):
-            article = "an" if kind is Interface else "a"
-            raise ValueError(f"{key} must be {article} {kind.__name__} of this package, but is {value!r}")
+            held = "; give its .material" if isinstance(getattr(value, "material", None), kind) else ""
+            raise ValueError(f"{key} must be {needed} of this package, but is {text_of(value)}{held}")
     return table, "", heights
 
 
