@@ -24,37 +24,39 @@ __all__ = ["FrictionFit", "fit_friction"]
 
 @dataclass(frozen=True, eq=False, repr=False)
 class FrictionFit(Compared):
-    """The material behind measured friction, and the shear strength of its contact."""
+    """The material behind measured friction, and the shear strength of its contact.
 
-    #: By the path of each number below ``material``: "prony.branches[0].modulus"; of a shift law "C1" and "C2", or "E_a"; of an
-    #: interface the whole path: "interface.bell.velocity".
+    ``findings``: By the path of each number below ``material``: "prony.branches[0].modulus"; of a shift law "C1" and "C2", or
+    "E_a"; of an interface the whole path: "interface.bell.velocity".
+    ``free``: What was sought: "moduli", "shift", "interface".
+    ``material``: The material that was found, as a table for scenes: ``vf.solve({"material": fit.material, …})``.
+    ``interface``: The interface that was found, as a table for scenes; None where the scene has none.
+    ``velocity``, ``shifted_velocity``: Speeds [m/s] as measured, and at the temperature of the material.
+    ``mu``, ``fitted_mu``: Friction coefficients as measured, and of the fit.
+    ``standard_error``: Standard errors, where all points have one.
+    ``residual``: Standard deviation of the residuals: over the standard errors where they are given, else relative to the
+    friction, or of the friction coefficient (``noise="absolute"``).
+    ``freedom``: Points and priors less parameters.
+    ``solver_error``: Largest relative error of the computed friction.
+    ``prior``: What was taken to be known of the moduli before the fit: "covariance", "none" or {"relative": spread}.
+    ``notes``: How a table was read where that is not plain: signs, means of runs.
+    ``flags``: What is doubtful about it.
+    """
+
     findings: Mapping[str, Finding]
-    #: What was sought: "moduli", "shift", "interface".
     free: tuple[Free, ...]
-    #: The material that was found, as a table for scenes: ``vf.solve({"material": fit.material, …})``.
     material: Mapping[str, Any]
-    #: The interface that was found, as a table for scenes; None where the scene has none.
     interface: Mapping[str, Any] | None
-    #: Speeds [m/s] as measured, and at the temperature of the material.
     velocity: Numbers
     shifted_velocity: Numbers
-    #: Friction coefficients as measured, and of the fit.
     mu: Numbers
     fitted_mu: Numbers
-    #: Standard errors, where all points have one.
     standard_error: Numbers | None
-    #: Standard deviation of the residuals: over the standard errors where they are given, else relative to the friction, or of
-    #: the friction coefficient (``noise="absolute"``).
     residual: float
-    #: Points and priors less parameters.
     freedom: int
-    #: Largest relative error of the computed friction.
     solver_error: float
-    #: What was taken to be known of the moduli before the fit: "covariance", "none" or {"relative": spread}.
     prior: Literal["covariance", "none"] | Mapping[str, float]
-    #: How a table was read where that is not plain: signs, means of runs.
     notes: tuple[str, ...]
-    #: What is doubtful about it.
     flags: tuple[str, ...]
 
     def __repr__(self) -> str:

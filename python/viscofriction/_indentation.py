@@ -26,25 +26,28 @@ __all__ = ["Finding", "IndentationFit", "Indentation", "fit_indentation", "inden
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Indentation(Compared):
-    """A history, point by point, and the largest error of each quantity, 0 of what was given; all in SI."""
+    """A history, point by point, and the largest error of each quantity, 0 of what was given; all in SI.
 
-    #: Time [s], force [N], and depth of the lowest point [m].
+    ``time``, ``normal_force``, ``indentation_depth``: Time [s], force [N], and depth of the lowest point [m].
+    ``normal_force_error``, ``indentation_depth_error``: Absolute errors that hold at every point.
+    ``contact_radius``, ``contact_radius_error``: Radius of the contact [m] of a body of revolution on a half space, and on a
+    layer where the contact grows and shrinks once.
+    ``work``, ``work_error``: Work since the first point [J], of the same.
+    ``contact_area``, ``contact_area_error``: Area of the contact [m²] of other bodies and histories.
+    ``warnings``: Sentences about the validity of the answer.
+    """
+
     time: Numbers
     normal_force: Numbers
     indentation_depth: Numbers
-    #: Absolute errors that hold at every point.
     normal_force_error: float
     indentation_depth_error: float
-    #: Radius of the contact [m] of a body of revolution on a half space, and on a layer where the contact grows and shrinks once.
     contact_radius: Numbers | None = None
     contact_radius_error: float | None = None
-    #: Work since the first point [J], of the same.
     work: Numbers | None = None
     work_error: float | None = None
-    #: Area of the contact [m²] of other bodies and histories.
     contact_area: Numbers | None = None
     contact_area_error: float | None = None
-    #: Sentences about the validity of the answer.
     warnings: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
@@ -64,13 +67,15 @@ class Indentation(Compared):
 
 @dataclass(frozen=True)
 class Finding:
-    """What a curve says about one quantity."""
+    """What a curve says about one quantity.
 
-    #: Value and standard error in this unit; None where the curve does not determine it.
+    ``value``, ``error``, ``unit``: Value and standard error in this unit; None where the curve does not determine it.
+    ``interval``: Ends of the 95 % interval; None on a side on which the curve sets no bound.
+    """
+
     value: float | None
     error: float | None
     unit: str
-    #: Ends of the 95 % interval; None on a side on which the curve sets no bound.
     interval: tuple[float | None, float | None]
 
     def times(self, factor: float) -> Finding:
@@ -90,27 +95,30 @@ class Finding:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class IndentationFit(Compared):
-    """The material behind a curve."""
+    """The material behind a curve.
 
-    #: By name: moduli and times, ``contact_point``, ``baseline`` and ``tilt``.
+    ``findings``: By name: moduli and times, ``contact_point``, ``baseline`` and ``tilt``.
+    ``correlation``: Correlation of the errors of the findings in their order (of the logarithms of moduli and times).
+    ``material``: The material, of a power law its expansion over the times of the curve.
+    ``noise``, ``residual``: Standard deviation of the force before the contact [N], where there are at least 10 points, and of
+    all points.
+    ``correlated_points``: How many points one independent point stands for.
+    ``time``, ``depth``, ``force``, ``fitted_force``: The points that were fitted [s, m, N], and the force of the fit [N].
+    ``flags``: What is doubtful about it.
+    ``notes``: What was decided or guessed.
+    """
+
     findings: Mapping[str, Finding]
-    #: Correlation of the errors of the findings in their order (of the logarithms of moduli and times).
     correlation: Numbers
-    #: The material, of a power law its expansion over the times of the curve.
     material: Prony
-    #: Standard deviation of the force before the contact [N], where there are at least 10 points, and of all points.
     noise: float | None
     residual: float
-    #: How many points one independent point stands for.
     correlated_points: float
-    #: The points that were fitted [s, m, N], and the force of the fit [N].
     time: Numbers
     depth: Numbers
     force: Numbers
     fitted_force: Numbers
-    #: What is doubtful about it.
     flags: tuple[str, ...]
-    #: What was decided or guessed.
     notes: tuple[str, ...]
 
     def __repr__(self) -> str:

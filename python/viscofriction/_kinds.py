@@ -215,14 +215,27 @@ class HeightMapFile(Body):
     NumPy of the shape (n_y, n_x), float64 or float32; with the extensions asc, gsf, sdf, sur, x3p and xyz a measured surface.
     ``direction``: Direction in which the body moves, degrees from x towards y, 0, 90, 180 or 270. Results have x along the motion.
     ``edges``: What is beyond the grid.
+    ``"wall"``: The body ends with a wall.
+    ``"periodic"``: The grid repeats itself without limit; it takes load.mean_pressure.
+    ``"mirrored"``: The grid and its mirror images repeat themselves: no height jumps at an edge. The periods are twice as long.
     ``fill_missing``: True to fill heights that were not measured with the mean of their known neighbours, from the edges of holes inwards.
     ``heights_are``: What the heights are.
+    ``"surface"``: Heights of the surface, out of the rigid body: the largest touch first.
+    ``"gap"``: The gap between the surface and a plane that it touches, into the body: the smallest touch first.
     ``lateral_unit``: Unit of x and y in files that have positions and do not state it (xyz, asc, gsf); without it metres, or in xyz `unit`.
+    ``"m"``: Metre.
+    ``"mm"``: Millimetre.
+    ``"um"``: Micrometre.
+    ``"nm"``: Nanometre.
     ``level``: True to subtract the least-squares plane, after `fill_missing`.
     ``shortest_wavelength``: Wavelength > 0 below which waves are left out of a periodic surface, [m]; without it all waves of the grid are kept.
     ``spacing``: Distances of neighbouring heights along x and y, > 0, [m]; not of a measured surface, which has its own, nor of a text
     that states its size.
     ``unit``: Unit of the heights; files that state it (gsf, sdf, sur, x3p, heads of texts) keep their own; without it metres.
+    ``"m"``: Metre.
+    ``"mm"``: Millimetre.
+    ``"um"``: Micrometre.
+    ``"nm"``: Nanometre.
     """
 
     file: str | os.PathLike[str]
@@ -278,6 +291,8 @@ class Spectrum(Body):
     ``period``: Periods along x and y, > 0, [m].
     ``seed``: Another seed draws another surface.
     ``convention``: What the densities are.
+    ``"persson"``: ⟨h²⟩ = 2π ∫ q C dq (Persson 2001).
+    ``"surface-topography"``: ⟨h²⟩ = ∫ q C dq/(2π), 4π² times as much (``SurfaceTopography``, Jacobs, Junge & Pastewka 2017).
     ``realisations``: Number of surfaces, with this seed and the next ones, from 1 to 1000: the answer is their mean; without it 1, or with
     `standard_error` at most 1000.
     ``shortest_wavelength``: Wavelength > 0 below which waves are left out, [m]; without it all waves of the table are kept.
@@ -468,6 +483,9 @@ class BellShear(Interface):
     ``velocity``: Velocity v_0 > 0 of the largest shear strength at the reference temperature, [m/s].
     ``activation_energy``: Activation energy > 0 of a_T by Arrhenius' law, by default in J/mol; without it the temperature has no influence.
     ``activation_energy_unit``: Unit of the activation energy.
+    ``"J/mol"``: Joule per mole.
+    ``"kJ/mol"``: Kilojoule per mole.
+    ``"eV"``: Electronvolt per bond.
     ``reference_temperature``: Temperature at which a_T = 1, [°C]; without it 20.
     ``width``: Decades w > 0 of velocity over which the shear strength falls to τ_0/e; without it √10.
     """
@@ -500,6 +518,9 @@ class Heat(Heated):
     ``conductivity``: Thermal conductivity k of the elastomer > 0, [W/m/K].
     ``ambient_temperature``: Temperature of the elastomer far from the contact, [°C]; without it that of the material.
     ``counterface``: What the body does with the heat of the interface.
+    ``"insulating"``: It takes no heat.
+    ``"conducting"``: It takes all heat of the interface.
+    ``{"share": …}``: It takes this share of the heat of the interface, from 0 to 1.
     ``density``: Density ρ of the elastomer > 0, [kg/m³].
     ``diffusivity``: Thermal diffusivity k/(ρc) of the elastomer > 0, [m²/s]; without it density and heat_capacity are given.
     ``duration``: Time > 0 for which a periodic surface has been sliding, [s]; its mean temperature grows with the root of it. Other bodies reach

@@ -55,13 +55,15 @@ def slide(
 ) -> SlidingAnswer:
     """Friction of a body that slides over a half space of the material, or a layer of it bonded to a rigid base.
 
-    Speed > 0 [m/s], and either normal force [N] or depth [m], or of a periodic surface mean pressure [Pa], are numbers or arrays that fit together; so are a sliding
-    distance [m] from first touch, without which the state is stationary, and the thickness [m] of a layer. ``model="line"`` asks for the one-dimensional
-    model, ``method`` for one of the program's methods. A ``track`` [m] is the length after which the body comes back to the
-    same place. With an ``interface`` the friction is the sum of hysteresis and shear in the contact; with ``heat`` the temperature of the contact is
-    computed, and material and shear strength are those at this temperature. ``relative_error`` is asked of the friction coefficient, 1e-3 unless
-    given; ``elements`` is a fixed resolution in its place. With ``sensitivity`` the answer has its derivatives by all numbers of
-    the scene, too, and with ``spectral_sensitivity`` those by the storage and the loss modulus at each frequency.
+    Speed > 0 [m/s], and either normal force [N] or depth [m], or of a periodic surface mean pressure [Pa], are numbers or arrays
+    that fit together; so are a sliding distance [m] from first touch, without which the state is stationary, and the thickness [m]
+    of a layer. ``model="line"`` asks for the one-dimensional model, ``method`` for one of the program's methods. A ``track`` [m] is
+    the length after which the body comes back to the same place. With an ``interface`` the friction is the sum of hysteresis and
+    shear in the contact; with ``heat`` the temperature of the contact is computed, and material and shear strength are those at
+    this temperature, by the material's ``shift`` law. ``relative_error`` is asked of the friction coefficient, 1e-3 unless given;
+    ``elements`` is a fixed resolution in its place. With ``sensitivity`` the answer has its derivatives by all numbers of the
+    scene, too, and with ``spectral_sensitivity`` those by the storage and the loss modulus at each frequency. ``progress`` is
+    called with how many loads are done and how many there are; True shows a bar of tqdm.
 
     Raises ValueError for wrong input and NotReached where there is no answer.
     """
@@ -140,10 +142,10 @@ def press(
 ) -> Answer:
     """Contact of a body that is pressed into a half space of the material, or a layer of it, without sliding.
 
-    Either normal force [N] or depth [m], or of a periodic surface mean pressure [Pa], is held for a duration [s], which an elastic material does not need; ``thickness`` [m] is that
-    of a layer bonded to a rigid base. ``method=
-    "bem-transient"`` gives the field of pressure of every body; ``relative_error`` is asked of the depth, of the force at a
-    given depth, or of the area of a periodic surface. Otherwise as ``slide``.
+    Either normal force [N] or depth [m], or of a periodic surface mean pressure [Pa], is held for a duration [s], which an elastic
+    material does not need; ``thickness`` [m] is that of a layer bonded to a rigid base. ``method="bem-transient"`` gives the field
+    of pressure of every body; ``relative_error`` is asked of the depth, of the force at a given depth, or of the area of a
+    periodic surface. Otherwise as ``slide``.
     """
     if duration is None and isinstance(material, Elastic):
         duration = 1.0

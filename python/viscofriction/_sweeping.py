@@ -31,7 +31,10 @@ Finished = list[tuple[int, Row]]
 
 
 class Sweep(Compared):
-    """The rows of a sweep, in the order of the points; the last key varies fastest."""
+    """The rows of a sweep, in the order of the points; the last key varies fastest.
+
+    ``keys`` are those that vary; ``table["friction_coefficient"]`` is a column, and ``pandas.DataFrame(table.to_dict())`` has all.
+    """
 
     def __init__(self, header: Row, rows: list[Row], vary: dict[str, Any]) -> None:
         self._header = header
@@ -97,7 +100,8 @@ class Sweep(Compared):
         return html_table(f"{len(self)} points", head, rows, [*self.warnings, *failed])
 
     def plot(self, ax: Any = None, quantity: str = "friction_coefficient") -> Any:
-        """Draws a quantity with its bars over the key that has the most values, a line for each combination of the others where they are few, or as colours over two; returns the axes of matplotlib."""
+        """Draws a quantity with its bars over the key that has the most values, a line for each combination of the others where they
+        are few, or as colours over two; returns the axes of matplotlib."""
         from . import _plotting
 
         keys = {key: self[key] for key in self.keys}

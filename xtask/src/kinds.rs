@@ -248,15 +248,21 @@ fn cells(key: &Key) -> String {
         Json::Null => stated,
         default => format!("`{default}`"),
     };
+    let list: String = choices(key)
+        .map(|(name, meaning)| format!(" `{name}`: {meaning}"))
+        .collect();
+    format!("{unit} | {range} | {default} | {meaning}{list}")
+}
+
+/// The words in quotes or keys of tables that a key may have, each with its meaning.
+fn choices(key: &Key) -> impl Iterator<Item = (String, String)> {
     let choices = resolved(key.words)["oneOf"].as_array();
-    let described = choices.into_iter().flatten().map(|choice| {
+    choices.into_iter().flatten().map(|choice| {
         let table = keys(choice).next().map(|key| key.name.to_owned());
         let name = table.unwrap_or_else(|| choice["const"].to_string());
-        let description = choice["description"].as_str().unwrap_or_default();
-        format!(" `{name}`: {}", description.replace('\n', " "))
-    });
-    let list: String = described.collect();
-    format!("{unit} | {range} | {default} | {meaning}{list}")
+        let meaning = choice["description"].as_str().unwrap_or_default();
+        (name, meaning.replace('\n', " "))
+    })
 }
 
 /// Name of the class in Python: of [`CLASS_NAMES`], or the kind in camel case.
@@ -287,6 +293,15 @@ fn class(kind: &Kind, (definition, base): (&str, &str)) -> String {
             .replace('\\', "")
             .replace('\n', "\n    ");
         docs += &format!("    ``{name}``: {description}\n");
+        for (choice, meaning) in choices(key) {
+            let is_word = choice.starts_with('"');
+            let literal = if is_word {
+                choice
+            } else {
+                format!("{{\"{choice}\": …}}")
+            };
+            docs += &format!("    ``{literal}``: {}\n", meaning.replace('`', "``"));
+        }
         if let Some(items) = list_of(key) {
             let pair = items.replace(", ", " and ");
             docs += &format!("    Each is a pair of {pair}.\n");
