@@ -11,6 +11,9 @@
 //! * [`slide()`]: sliding in time from first touch;
 //! * [`steady()`]: stationary sliding, solved directly; [`steady_line`] in plane strain.
 //!
+//! The request of a relative error may also be an [`Accuracy::Elements`], or a [`Request`] with a receiver of the [`Progress`], which
+//! decides whether finer grids are begun.
+//!
 //! The variants on one grid are [`slide_on_grid`], [`steady_on_grid`] and [`steady_line_on_grid`]. Histories of force and depth are
 //! in [`mod@indent`], arbitrary motions in [`mod@slide`], single contacts on given heights in [`contact`], and the temperature under
 //! moving heat sources in [`heat`].
@@ -83,7 +86,8 @@ pub use estimate::reached::Reached;
 pub use indent::{indent_along, press};
 pub use indenters::{Control, HistoryPoint, PressingLoad, SlidingLoad};
 pub use motions::{indent, move_along, move_along_memory, slide};
-pub use numerics::InvalidParameter;
+#[doc(inline)]
+pub use numerics::{Accuracy, ErrorParts, Estimate, InvalidParameter, Progress, Request};
 #[cfg(feature = "rough")]
 pub use periodic::PeriodicEstimate;
 pub use periodic::{
