@@ -34,5 +34,5 @@ mod native {
         printed, quantities, shared_warnings, solve_loads, sweep_plan, sweep_points, sweep_problem,
     };
     #[pymodule_export]
-    use super::tables::check_table;
+    use super::tables::{check_table, toml_text};
 }

@@ -55,6 +55,12 @@ pub(crate) fn check_table(dictionary: &Bound<'_, PyDict>) -> PyResult<()> {
     .map_err(wrong)
 }
 
+/// Text of a file with these tables.
+#[pyfunction]
+pub(crate) fn toml_text(dictionary: &Bound<'_, PyDict>) -> PyResult<String> {
+    Ok(table(dictionary, "")?.to_string())
+}
+
 /// Files of the current folder, for objects that are built without any.
 fn no_files() -> Files<'static> {
     Files {

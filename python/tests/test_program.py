@@ -166,6 +166,12 @@ def test_a_table_of_an_instrument_has_the_fit_of_the_program(
         ours, theirs = (vf.slide(vf.Sphere(5e-3), rubber, **hot) for rubber in (shifted, by_file))
         assert ours.mu == theirs.mu and ours.effective_temperature == theirs.effective_temperature
         assert ours.effective_temperature is not None and ours.effective_temperature > 24.0
+        written = tmp_path / "ours.toml"
+        written.write_text(fit.material.to_toml())
+        known = tomllib.loads(written.read_text())["material"]["prony"]
+        assert known.pop("covariance")["relative"] == relative.tolist() and known["shift"] == fit.shift
+        again = vf.MaterialFile(written, temperature=24.0)
+        assert np.array_equal(shifted.loss_modulus(frequency), again.loss_modulus(frequency))
         with pytest.raises(ValueError, match="from 10 °C to 30 °C"):
             fit.at(31.0)
     else:

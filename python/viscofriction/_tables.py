@@ -87,6 +87,10 @@ class Material(Table):
         """J(t) [1/Pa] at times ≥ 0 [s]."""
         return self._curve("creep_compliance", "time", time)
 
+    def to_toml(self) -> str:
+        """Text of a material file, which scenes and a ``MaterialFile`` name: ``Path("rubber.toml").write_text(rubber.to_toml())``."""
+        return _native.toml_text({self._family: self._table()})
+
     def _curve(self, quantity: str, name: str, values: ArrayLike) -> NDArray[np.float64]:
         array = numbers(name, values)
         scene = {"material": self._table()}
