@@ -62,8 +62,9 @@ def slide(
     shear in the contact; with ``heat`` the temperature of the contact is computed, and material and shear strength are those at
     this temperature, by the material's ``shift`` law. ``relative_error`` is asked of the friction coefficient, 1e-3 unless given;
     ``elements`` is a fixed resolution in its place. With ``sensitivity`` the answer has its derivatives by all numbers of the
-    scene, too, and with ``spectral_sensitivity`` those by the storage and the loss modulus at each frequency. ``progress`` is
-    called with how many loads are done and how many there are; True shows a bar of tqdm.
+    scene, too, and with ``spectral_sensitivity`` those by the storage and the loss modulus at each frequency; a ``HeightMap`` has no
+    such numbers, and with ``heat`` there are no derivatives. ``progress`` is called with how many loads are done and how many there
+    are; True shows a bar of tqdm.
 
     Raises ValueError for wrong input and NotReached where there is no answer.
     """
