@@ -39,6 +39,7 @@ mod shear_strength;
 mod shift;
 mod spectrum;
 mod step;
+mod strain;
 mod time_temperature;
 mod window;
 
@@ -65,6 +66,8 @@ pub use shear_strength::{
 pub use shift::{KELVIN_AT_ZERO_CELSIUS, Shift, ShiftLaw, VerticalLaw};
 pub use spectrum::creep::{CreepSpectrum, RetardationElement};
 pub use spectrum::relaxation::{RelaxationBranch, RelaxationSpectrum};
+pub use spectrum::stationary::StationaryCreep;
 pub use step::ExponentialStep;
+pub use strain::{KrausModel, ModulusFactors, StrainDependence, StrainPoint, StrainTable};
 pub use time_temperature::{ArrheniusShift, WlfShift};
 pub use window::{OutsideWindow, StressBand};

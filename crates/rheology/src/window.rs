@@ -9,7 +9,7 @@
 
 use numerics::fourier_power;
 
-use crate::CreepSpectrum;
+use crate::{CreepSpectrum, StationaryCreep};
 
 /// Number of waves per decade of the spectrum along a line. Chosen: bands have 6 % in frequency, about which the fractions blur.
 const WAVES_PER_DECADE: f64 = 40.0;
@@ -39,7 +39,7 @@ pub struct OutsideWindow {
     pub above: f64,
 }
 
-impl CreepSpectrum {
+impl StationaryCreep {
     /// Fractions of the dissipated power from below and above a window of angular frequencies \[rad/s].
     ///
     /// `None` without dissipation.
@@ -80,6 +80,33 @@ impl CreepSpectrum {
         })
     }
 
+    /// Loss rate ω J''(ω) at an angular frequency \[rad/s], [1/(Pa s)].
+    fn loss_rate(&self, omega: f64) -> f64 {
+        let rates = self.signed_elements().map(|[compliance, time]| {
+            let x = omega * time;
+            compliance * omega * (x / (1.0 + x * x))
+        });
+        self.retarded().fluidity() + rates.sum::<f64>()
+    }
+
+    /// Integral ∫ ω J'' dω from zero to an angular frequency \[rad/s], [1/(Pa s²)].
+    fn loss_integral(&self, omega: f64) -> f64 {
+        let integrals = self.signed_elements().map(|[compliance, time]| {
+            compliance * (difference_from_arctangent(omega * time) / time / time)
+        });
+        self.retarded().fluidity() * omega + integrals.sum::<f64>()
+    }
+
+    /// Compliance and time of all elements; the loss of advanced ones has the opposite sign, and so have their compliances here.
+    fn signed_elements(&self) -> impl Iterator<Item = [f64; 2]> {
+        let retarded = self.retarded().elements().iter();
+        let retarded = retarded.map(|element| [element.compliance, element.retardation_time]);
+        let advanced = self.advanced().iter();
+        retarded.chain(advanced.map(|element| [-element.compliance, element.retardation_time]))
+    }
+}
+
+impl CreepSpectrum {
     /// Bands of the frequencies of a stationary line load that slides at a `velocity` \[m/s].
     ///
     /// The load per length is linear between `points` of increasing positions \[m]. The `compliance` is a function of the wave
@@ -107,26 +134,6 @@ impl CreepSpectrum {
             weight: fourier_power(points, wave) * (compliance(wave) * wave),
         };
         waves.take_while(|w| *w < shortest).map(band).collect()
-    }
-
-    /// Loss rate ω J''(ω) at an angular frequency \[rad/s], [1/(Pa s)].
-    fn loss_rate(&self, omega: f64) -> f64 {
-        let elements = self.elements().iter();
-        let rates = elements.map(|element| {
-            let x = omega * element.retardation_time;
-            element.compliance * omega * (x / (1.0 + x * x))
-        });
-        self.fluidity() + rates.sum::<f64>()
-    }
-
-    /// Integral ∫ ω J'' dω from zero to an angular frequency \[rad/s], [1/(Pa s²)].
-    fn loss_integral(&self, omega: f64) -> f64 {
-        let elements = self.elements().iter();
-        let integrals = elements.map(|element| {
-            let time = element.retardation_time;
-            element.compliance * (difference_from_arctangent(omega * time) / time / time)
-        });
-        self.fluidity() * omega + integrals.sum::<f64>()
     }
 }
 

@@ -5,3 +5,4 @@ pub(crate) mod creep;
 mod decays;
 pub(crate) mod relaxation;
 mod secular;
+pub(crate) mod stationary;

@@ -1,13 +1,15 @@
 //! Roots of the secular equation of relaxation and retardation times.
 //!
 //! ```text
-//! S(x) = Σ w_i/(x − p_i) − e = 0    w_i > 0,  0 ≤ p_0 < p_1 < …,  e ≥ 0
+//! S(x) = Σ w_i/(x − p_i) − e = 0    p_0 < p_1 < …,  e ≥ 0
 //! ```
-//! S decreases from +∞ to −∞ between two poles, and from +∞ to −e above the last one. There is one root in every gap, and
-//! one above all poles if e > 0. A root is stored as its offset from the nearer pole, so that differences of roots and poles
-//! do not cancel.
+//! With positive weights, S decreases from +∞ to −∞ between two poles, and from +∞ to −e above the last one. There is one root in
+//! every gap, and one above all poles if e > 0. In general, S changes its sign in each gap between weights of the same sign, above the
+//! last pole if its weight is positive and e > 0, and below the first one if its weight is negative; there must be one root in each of
+//! these intervals, and no other. A root is stored as its offset from the nearer pole, so that differences of roots and poles do not
+//! cancel.
 
-/// A pole p ≥ 0 and its weight w > 0.
+/// A pole p and its weight w ≠ 0.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pole {
     /// Position p.
@@ -24,12 +26,21 @@ pub(super) struct Root {
     pub(super) relative_inverse_slope: f64,
 }
 
+/// Smallest distance of a root from a pole, as a fraction of half the gap, if weights have both signs. Chosen: below the ratios of all
+/// relaxation times that fractional laws are expanded in, and far above underflow.
+const SMALLEST_OFFSET: f64 = 1e-100;
+
 /// Roots of the secular equation in increasing order, with the constant term e = `level`.
 pub(super) fn roots(poles: &[Pole], level: f64) -> Vec<Root> {
     let equation = Secular { poles, level };
-    let gaps = (1..poles.len()).map(|upper| equation.root_in_gap(upper));
-    let mut places: Vec<RootPosition> = gaps.collect();
-    if level > 0.0 && !poles.is_empty() {
+    let mut places = Vec::new();
+    if poles.first().is_some_and(|first| first.weight < 0.0) {
+        places.push(equation.root_below());
+    }
+    let changes_sign = |upper: &usize| poles[upper - 1].weight * poles[*upper].weight > 0.0;
+    let gaps = (1..poles.len()).filter(changes_sign);
+    places.extend(gaps.map(|upper| equation.root_in_gap(upper)));
+    if level > 0.0 && poles.last().is_some_and(|last| last.weight > 0.0) {
         places.push(equation.root_above());
     }
     let root = |index: usize| Root {
@@ -56,13 +67,13 @@ struct RootPosition {
     offset: f64,
 }
 
-/// Magnitudes of the sums of the positive and the negative terms of S at one point.
+/// Magnitudes of the sums of the positive and the negative terms of S at one point; of −S in gaps between negative weights.
 struct Balance {
     /// Sum of the positive terms.
     up: f64,
     /// Sum of the moduli of the negative terms.
     down: f64,
-    /// Magnitudes of the derivatives of `up` and `down` by the logarithm of the distance from the pole `near`.
+    /// Rates over the logarithm of the distance from the pole `near` at which `up` falls along x, and `down` rises.
     slopes: [f64; 2],
 }
 
@@ -75,22 +86,71 @@ impl Secular<'_> {
             near: upper - 1,
             offset: half_gap,
         });
-        // Find a lower bound of the distance of the root from the nearer pole. The term of that pole is at most the sum of the
-        // other sign, which is largest in the middle.
+        // Find a lower bound of the distance of the root from the nearer pole. If all weights are positive, the term of that pole is at
+        // most the sum of the other sign, which is largest in the middle.
+        let is_positive = self.poles[0].weight > 0.0;
+        let least = |weight: f64, other: f64| {
+            if is_positive {
+                (weight / other).min(half_gap)
+            } else {
+                SMALLEST_OFFSET * half_gap
+            }
+        };
         if middle.up <= middle.down {
-            let least = (below.weight / middle.down).min(half_gap);
+            let least = least(below.weight, middle.down);
             return self.root_beside(upper - 1, 1.0, [least, half_gap]);
         }
-        let least = (above.weight / middle.up).min(half_gap);
+        let least = least(above.weight, middle.up);
         self.root_beside(upper, -1.0, [least, half_gap])
     }
 
-    /// The root above the last pole: w_last/e ≤ x − p_last ≤ Σ w/e.
+    /// The root above the last pole, whose weight is positive. With `N` the sum of w/(p_last − p) over the negative weights,
+    /// w_last/(e + N) ≤ x − p_last ≤ Σ w/e, where the second sum is over the positive weights.
     fn root_above(&self) -> RootPosition {
         let last = self.poles.len() - 1;
-        let total: f64 = self.poles.iter().map(|pole| pole.weight).sum();
-        let bracket = [self.poles[last].weight, total].map(|weight| weight / self.level);
-        self.root_beside(last, 1.0, bracket)
+        let (mut positive, mut negative) = (0.0, 0.0);
+        for pole in self.poles {
+            if pole.weight > 0.0 {
+                positive += pole.weight;
+            } else {
+                negative -= pole.weight / (self.poles[last].position - pole.position);
+            }
+        }
+        let least = self.poles[last].weight / (self.level + negative);
+        let mut most = positive / self.level;
+        if self.level == 0.0 {
+            // Far above all poles S is Σ w/x, which is negative then.
+            most = least;
+            let is_short = |most: f64| {
+                let balance = self.balance(RootPosition {
+                    near: last,
+                    offset: most,
+                });
+                balance.up > balance.down
+            };
+            while most.is_finite() && is_short(most) {
+                most *= 4.0;
+            }
+        }
+        self.root_beside(last, 1.0, [least, most])
+    }
+
+    /// The root below the first pole, whose weight is negative: that above the last pole of S(−x).
+    fn root_below(&self) -> RootPosition {
+        let mirrored = |pole: &Pole| Pole {
+            position: -pole.position,
+            weight: -pole.weight,
+        };
+        let poles: Vec<Pole> = self.poles.iter().rev().map(mirrored).collect();
+        let root = Secular {
+            poles: &poles,
+            level: self.level,
+        }
+        .root_above();
+        RootPosition {
+            near: 0,
+            offset: -root.offset,
+        }
     }
 
     /// The root above (`side` = 1) or below (−1) the pole `near`, at a distance within the bracket.
@@ -115,8 +175,9 @@ impl Secular<'_> {
             let Balance { up, down, slopes } = self.balance(place(distance));
             // The excess is positive if the root is farther from the pole than this place.
             let excess = side * (up / down).ln();
-            let step = excess / (slopes[0] / up + slopes[1] / down);
-            if step.abs() <= TOLERANCE {
+            let rate = slopes[0] / up + slopes[1] / down;
+            let step = excess / rate;
+            if step.abs() <= TOLERANCE && rate > 0.0 {
                 break;
             }
             if excess > 0.0 {
@@ -125,7 +186,8 @@ impl Secular<'_> {
                 high = distance;
             }
             let newton = distance * step.exp();
-            let trusted = newton > low && newton < high && step.abs() <= 0.5 * last_step;
+            let trusted =
+                rate > 0.0 && newton > low && newton < high && step.abs() <= 0.5 * last_step;
             let next = if trusted { newton } else { middle(low, high) };
             if next <= low || next >= high {
                 // Stop if the interval between subnormal ends cannot be divided.
@@ -137,19 +199,27 @@ impl Secular<'_> {
         place(distance)
     }
 
-    /// Sums of the positive and of the negative terms of S at a point, with their slopes.
+    /// Sums of the positive and of the negative terms of S, or of −S beside a pole of negative weight, at a point, with their slopes.
     fn balance(&self, place: RootPosition) -> Balance {
+        let sign = self.poles[place.near].weight.signum();
         let mut balance = Balance {
             up: 0.0,
             down: self.level,
             slopes: [0.0; 2],
         };
+        if sign < 0.0 {
+            balance.up = self.level;
+            balance.down = 0.0;
+        }
         for (index, pole) in self.poles.iter().enumerate() {
             let difference = self.above_pole(place, index);
             let term = (pole.weight / difference).abs();
             // Compute the slope with a ratio of lengths, because the square of a difference may underflow.
             let slope = term * (place.offset / difference).abs();
-            if difference > 0.0 {
+            let weight = sign * pole.weight;
+            // Every term with a positive weight falls along x, and every other one rises.
+            let slope = slope.copysign(weight);
+            if (difference > 0.0) == (weight > 0.0) {
                 balance.up += term;
                 balance.slopes[0] += slope;
             } else {
