@@ -271,6 +271,14 @@ pub enum BemError {
          sink until the contact is full; give the material an equilibrium modulus"
     )]
     FlowsUnderWaves,
+    /// Moduli with factors outside of stationary sliding, and for derivatives.
+    #[error(
+        "factors of the moduli at a strain amplitude have a meaning in stationary sliding only, whose derivatives with them are not computed"
+    )]
+    FactorsWithoutStationaryState,
+    /// Moduli with different factors on a closed track.
+    #[error("on a track the moduli may not have different factors at the strain amplitude")]
+    FactorsOnTrack,
     /// Error of the rigid body or the load.
     #[error(transparent)]
     Indenter(#[from] IndenterError),

@@ -34,10 +34,6 @@
 //! ```
 #![cfg_attr(not(test), warn(unused_crate_dependencies))]
 
-// The crate nalgebra factorises matrices where the feature `dense` is off; otherwise it has no use here.
-#[cfg(feature = "dense")]
-use nalgebra as _;
-
 pub mod contact;
 mod dense;
 mod elements;

@@ -1,4 +1,4 @@
-//! Power that a stationary contact dissipates below the surface.
+//! Power that a stationary contact dissipates below the surface, and the strain where it is dissipated.
 //!
 //! The deviatoric stress below a pressure wave p̂ of the wave vector q on an incompressible half space does not depend on the material
 //! (Johnson 1985, Contact Mechanics, § 3.2 for ν = 1/2):
@@ -9,15 +9,17 @@
 //!
 //! A Maxwell branch of the modulus G_b and the viscosity η_b has the part `ŝ_b = iωη_b/(1 + iωη_b/G_b) ŝ/G*(ω)` of it, at the frequency
 //! ω = −q_x v of a material that the pressure passes along +x, and dissipates `s_b : s_b/(2η_b)` per volume. This is a product of fields,
-//! which is computed at some depths on the surface, and integrated over the depth.
+//! which is computed at some depths on the surface, and integrated over the depth. The strain deviator is `ê = ŝ/(2 G*(ω))`, and the
+//! equivalent (von Mises) strain `ε² = (2/3) e : e`.
 //!
-//! Theory: docs/theory/heat.md, "Dissipation below the surface".
+//! Theory: docs/theory/heat.md, "Dissipation below the surface", and docs/theory/strain.md.
 
 use std::f64::consts::{PI, SQRT_2};
 use std::sync::Arc;
 
+use nalgebra::{DMatrix, SymmetricEigen};
 use numerics::transforms::Real as _;
-use rheology::{ComplexModulus, Material};
+use rheology::{ComplexModulus, Material, ModulusFactors};
 use rustfft::Fft;
 use rustfft::num_complex::Complex;
 
@@ -26,19 +28,43 @@ use crate::transform::plane_transform::ZERO;
 use crate::transform::plane_transform::complex_product::signed_offset;
 use crate::{BemError, PressureField};
 
-/// Step of ln z in the integral over the depth z. Derived: the trapezoidal rule of (qz)³ e^(−2qz) over ln z has the relative error
-/// 2 |Γ(3 + 2πi/0.6)|/Γ(3) = 7e-5.
-const LOG_DEPTH_STEP: f64 = 0.6;
-/// Depths from this product with the largest wave number on. Derived: above it lies 1.2e-3 of the power of that wave, and less of that
-/// of longer ones.
-const MIN_DEPTH: f64 = 0.1;
+/// The depths z at which fields are computed.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct DepthRule {
+    /// Step of ln z.
+    log_step: f64,
+    /// Smallest product of the depth and the largest wave number.
+    smallest: f64,
+    /// Whether the strain is computed beside the power.
+    with_strain: bool,
+    /// Fraction of the power that filters with little dissipation may have together, to be left out: the others are scaled to the whole
+    /// power, so that only the difference of the distributions is lost.
+    negligible_share: f64,
+}
+
+/// Depths for the power. Derived, and the negligible share chosen: the trapezoidal rule of (qz)³ e^(−2qz) over ln z has the relative error 2 |Γ(3 + 2πi/0.6)|/Γ(3) = 7e-5;
+/// above the smallest depth lies 1.2e-3 of the power of the shortest wave, and less of that of longer ones.
+pub(super) const DEPTHS_OF_POWER: DepthRule = DepthRule {
+    log_step: 0.6,
+    smallest: 0.1,
+    with_strain: false,
+    negligible_share: 0.01,
+};
+/// Depths for the product of power and squared strain. Derived, and the negligible share chosen: the trapezoidal rule of (qz)⁵ e^(−4qz) over ln z has the relative error
+/// 2 |Γ(5 + 2πi/0.4)|/Γ(5) = 1e-6, and above the smallest depth lies 3e-6 of the integral.
+pub(super) const DEPTHS_OF_STRAIN: DepthRule = DepthRule {
+    log_step: 0.4,
+    smallest: 0.05,
+    with_strain: true,
+    negligible_share: 1e-3,
+};
 /// Depths up to this product with the smallest wave number. Derived: below it lie 5e-7 of the power of the longest wave.
 const MAX_DEPTH: f64 = 10.0;
 /// Product of depth and wave number beyond which waves are left out. Derived: their stress is below 12 e^(−12) = 7e-5 of the pressure.
 const MAX_STRESS_DEPTH: f64 = 12.0;
-/// Fraction of the power that branches with little dissipation may have together, to be left out. Chosen: the others are scaled to the
-/// whole power, so that only the difference of the distributions is lost.
-const NEGLIGIBLE_SHARE: f64 = 0.01;
+/// Ratio of the period of filters with a limited reach to the period of the contact. Derived: the memory of a material that is longer is
+/// a constant there, as far as it is not within the reach.
+const PERIODS_OF_FILTER: usize = 64;
 /// Smallest number of elements of a period along an axis on which a depth is computed. Chosen.
 const MIN_ELEMENTS: usize = 8;
 
@@ -46,8 +72,25 @@ const MIN_ELEMENTS: usize = 8;
 pub(super) struct BulkHeat {
     /// Elements of the period.
     shape: [usize; 2],
+    /// Step of ln z from depth to depth.
+    log_step: f64,
     /// The depths, from the surface downwards.
     planes: Vec<Plane>,
+}
+
+/// A contact whose bulk is heated: its pressure on one period, and the material that passes below it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pressed<'a> {
+    /// Pressure on the period.
+    pub(super) pressure: &'a PressureField,
+    /// Whether the material remembers the pressure of all periods, or only that up to half a period away.
+    pub(super) is_periodic: bool,
+    /// Material of the half space at small strains.
+    pub(super) material: &'a dyn Material,
+    /// Factors of its moduli.
+    pub(super) factors: ModulusFactors,
+    /// Velocity along +x, \[m/s].
+    pub(super) velocity: f64,
 }
 
 /// Fourier coefficients of a field on a period, `[wave along y][wave along x]`.
@@ -64,38 +107,38 @@ struct Plane {
     /// Elements of the period on which it is computed.
     shape: [usize; 2],
     power: Coefficients,
+    /// Mean product of the power per volume and the squared equivalent strain; 0 if the strain is not wanted.
+    power_times_strain: f64,
 }
 
 impl BulkHeat {
-    /// Heat of a pressure on one period that passes over a material along +x at a `velocity` \[m/s].
-    pub(super) fn of(
-        pressure: &PressureField,
-        material: &dyn Material,
-        velocity: f64,
-    ) -> Result<Self, BemError> {
-        let shape = pressure.grid.shape();
+    /// Heat of a contact, at the depths of a rule.
+    pub(super) fn of(contact: Pressed<'_>, rule: DepthRule) -> Result<Self, BemError> {
+        let shape = contact.pressure.grid.shape();
         let plans = PlanePlans::new(shape);
-        let steps = wave_steps(pressure);
-        let mut waves: Coefficients = pressure
+        let steps = wave_steps(contact.pressure);
+        let mut waves: Coefficients = contact
+            .pressure
             .pressure
             .iter()
             .map(|p| Complex::from(*p))
             .collect();
         plans.forward(&mut waves);
-        let filters = filters(shape, &waves, steps, material, velocity)?;
+        let mut filters = Filters::new(&contact, &waves, steps, rule)?;
+        filters.strain = filters.strain.filter(|_| rule.with_strain);
         // Compute the power at each depth of the trapezoidal rule over ln z, in parallel.
         let largest = [0, 1].map(|axis| steps[axis] * (shape[axis] / 2) as f64);
         let smallest = (0..2)
             .filter(|axis| shape[*axis] > 1)
             .map(|axis| steps[axis]);
         let ends = [
-            MIN_DEPTH / largest[0].hypot(largest[1]),
+            rule.smallest / largest[0].hypot(largest[1]),
             MAX_DEPTH / smallest.fold(f64::INFINITY, f64::min),
         ];
-        let count = 1.0 + (ends[1] / ends[0]).ln() / LOG_DEPTH_STEP;
+        let count = 1.0 + (ends[1] / ends[0]).ln() / rule.log_step;
         let mut planes: Vec<Plane> = (0..numerics::whole_part(count))
             .map(|index| Plane {
-                depth: ends[0] * (LOG_DEPTH_STEP * index as f64).exp(),
+                depth: ends[0] * (rule.log_step * index as f64).exp(),
                 ..Plane::default()
             })
             .collect();
@@ -104,7 +147,22 @@ impl BulkHeat {
                 plane.compute((shape, &waves), steps, &filters);
             }
         });
-        Ok(Self { shape, planes })
+        Ok(Self {
+            shape,
+            log_step: rule.log_step,
+            planes,
+        })
+    }
+
+    /// Power per area, \[W/m²], and the same with each part multiplied by the squared equivalent strain where it is dissipated.
+    pub(super) fn power_and_weighted_strain(&self) -> [f64; 2] {
+        let [mut power, mut weighted] = [0.0; 2];
+        for plane in &self.planes {
+            let thickness = plane.depth * self.log_step;
+            power += thickness * plane.power[0].re;
+            weighted += thickness * plane.power_times_strain;
+        }
+        [power, weighted]
     }
 
     /// Depths \[m] with the power per area that is dissipated about each of them, \[W/m²]; the sum of the powers is the integral over
@@ -117,7 +175,7 @@ impl BulkHeat {
             for (power, [to, _, _]) in plane.power.iter().zip(plane.places(self.shape)) {
                 #[expect(clippy::cast_sign_loss, reason = "an index")]
                 let to = to as usize;
-                waves[to] += power * (plane.depth * LOG_DEPTH_STEP);
+                waves[to] += power * (plane.depth * self.log_step);
             }
             plans.inverse(&mut waves);
             (plane.depth, waves.iter().map(|value| value.re).collect())
@@ -131,77 +189,148 @@ fn wave_steps(field: &PressureField) -> [f64; 2] {
     [0, 1].map(|axis| 2.0 * PI / (shape[axis] as f64 * spacing[axis]))
 }
 
-/// Filters of the branches of a material that dissipate, for the wave numbers along x of a period.
-fn filters(
-    shape: [usize; 2],
-    waves: &[Complex<f64>],
-    [step_x, step_y]: [f64; 2],
-    material: &dyn Material,
-    velocity: f64,
-) -> Result<Vec<Filter>, BemError> {
-    let spectrum = material.relaxation();
-    let rows: Vec<f64> = (0..shape[0])
-        .map(|row| signed_offset(row, shape[0]) as f64)
-        .collect();
-    let modulus = |row: &f64| -> Result<Complex<f64>, BemError> {
-        let ComplexModulus { storage, loss } =
-            spectrum.complex_modulus(row.abs() * step_x * velocity)?;
-        Ok(Complex::new(storage, -row.signum() * loss))
-    };
-    let moduli: Vec<Complex<f64>> = rows.iter().map(modulus).collect::<Result<_, _>>()?;
-    // Power of each wave number along x up to the factor of the filter.
-    let mut powers = vec![0.0; shape[0]];
-    for (column, waves) in waves.chunks_exact(shape[0]).enumerate() {
-        let q_y = signed_offset(column, shape[1]) as f64 * step_y;
-        for ((power, wave), row) in powers.iter_mut().zip(waves).zip(&rows) {
-            let q = (row * step_x).hypot(q_y);
-            if q > 0.0 {
-                *power += wave.norm_sqr() / q;
+/// Filters from the stress of waves to other fields, by the wave number along x.
+struct Filters {
+    /// Filters to fields whose squares add up to the power per volume.
+    branches: Vec<Filter>,
+    /// Equivalent strain; `None` if it is not wanted.
+    strain: Option<Filter>,
+}
+
+impl Filters {
+    /// Filters of a contact whose pressure has the coefficients `waves`.
+    fn new(
+        contact: &Pressed<'_>,
+        waves: &[Complex<f64>],
+        [step_x, step_y]: [f64; 2],
+        rule: DepthRule,
+    ) -> Result<Self, BemError> {
+        let spectrum = contact.material.relaxation();
+        let shape = contact.pressure.grid.shape();
+        let rows: Vec<f64> = wave_numbers(shape[0], step_x);
+        // Filters whose reach is limited are computed on a period that is longer by far.
+        let longer = if contact.is_periodic {
+            1
+        } else {
+            PERIODS_OF_FILTER
+        };
+        let numbers = wave_numbers(longer * shape[0], step_x / longer as f64);
+        let modulus = |q_x: &f64| -> Result<Complex<f64>, BemError> {
+            let small = spectrum.complex_modulus(q_x.abs() * contact.velocity)?;
+            let ComplexModulus { storage, loss } = contact.factors.on(small);
+            Ok(Complex::new(storage, -q_x.signum() * loss))
+        };
+        let moduli: Vec<Complex<f64>> = numbers.iter().map(modulus).collect::<Result<_, _>>()?;
+        // Power of each wave number along x up to the factor of the filter.
+        let mut powers = vec![0.0; shape[0]];
+        for (column, waves) in waves.chunks_exact(shape[0]).enumerate() {
+            let q_y = signed_offset(column, shape[1]) as f64 * step_y;
+            for ((power, wave), q_x) in powers.iter_mut().zip(waves).zip(&rows) {
+                let q = q_x.hypot(q_y);
+                if q > 0.0 {
+                    *power += wave.norm_sqr() / q;
+                }
             }
         }
-    }
-    // A material that flows also dissipates under waves that do not move along x: then iω/G*(ω) is the inverse of its viscosity.
-    let rate_over_modulus_at_rest = if spectrum.equilibrium_modulus() > 0.0 {
-        0.0
-    } else {
-        spectrum.zero_shear_viscosity().recip()
-    };
-    // A dashpot in parallel is a branch whose relaxation time vanishes.
-    let branches = spectrum.branches().iter();
-    let branches = branches.map(|branch| [branch.viscosity(), branch.relaxation_time]);
-    let dashpot = [spectrum.viscosity(), 0.0];
-    let filter = |[viscosity, time]: [f64; 2]| -> (f64, Filter) {
-        let of_wave = |(row, modulus): (&f64, &Complex<f64>)| {
-            let omega = -row * step_x * velocity;
-            let ratio = if omega == 0.0 {
-                Complex::from(rate_over_modulus_at_rest)
-            } else {
-                Complex::new(0.0, omega) / Complex::new(1.0, omega * time) / modulus
-            };
-            ratio * (0.5 * viscosity).sqrt()
+        // A material that flows also dissipates under waves that do not move along x: then iω/G*(ω) is the inverse of its viscosity.
+        let rate_over_modulus_at_rest = if spectrum.equilibrium_modulus() > 0.0 {
+            0.0
+        } else {
+            (contact.factors.loss() * spectrum.zero_shear_viscosity()).recip()
         };
-        let filter: Filter = rows.iter().zip(&moduli).map(of_wave).collect();
-        let power = filter
-            .iter()
-            .zip(&powers)
-            .map(|(value, power)| value.norm_sqr() * power);
-        (power.sum(), filter)
-    };
-    let mut filters: Vec<(f64, Filter)> = branches.chain([dashpot]).map(filter).collect();
-    // Leave out the branches with the smallest powers, as long as their sum is negligible.
-    filters.sort_by(|left, right| left.0.total_cmp(&right.0));
-    let total: f64 = filters.iter().map(|(power, _)| power).sum();
-    let mut left_out = 0.0;
-    filters.retain(|(power, _)| {
-        left_out += power;
-        left_out > NEGLIGIBLE_SHARE * total
-    });
-    let kept: f64 = filters.iter().map(|(power, _)| power).sum();
-    let scale = (total / kept).sqrt();
-    for (_, filter) in &mut filters {
-        filter.iter_mut().for_each(|value| *value *= scale);
+        // A dashpot in parallel is a branch whose relaxation time vanishes.
+        let branches = spectrum.branches().iter();
+        let branches = branches.map(|branch| [branch.viscosity(), branch.relaxation_time]);
+        let dashpot = [spectrum.viscosity(), 0.0];
+        let filter = |[viscosity, time]: [f64; 2]| -> Filter {
+            let of_wave = |(q_x, modulus): (&f64, &Complex<f64>)| {
+                let omega = -q_x * contact.velocity;
+                let ratio = if omega == 0.0 {
+                    Complex::from(rate_over_modulus_at_rest)
+                } else {
+                    Complex::new(0.0, omega) / Complex::new(1.0, omega * time) / modulus
+                };
+                // The factor of the loss modulus is one of the dissipated power.
+                ratio * (0.5 * contact.factors.loss() * viscosity).sqrt()
+            };
+            let filter = numbers.iter().zip(&moduli).map(of_wave).collect();
+            within_half_a_period(filter, shape[0])
+        };
+        let branches: Vec<Filter> = branches.chain([dashpot]).map(filter).collect();
+        let strain = |modulus: &Complex<f64>| modulus.inv() * (0.5 * (2.0_f64 / 3.0).sqrt());
+        Ok(Self {
+            branches: combined(&branches, &powers, rule.negligible_share),
+            strain: Some(within_half_a_period(
+                moduli.iter().map(strain).collect(),
+                shape[0],
+            )),
+        })
     }
-    Ok(filters.into_iter().map(|(_, filter)| filter).collect())
+}
+
+/// The fewest filters whose outputs have nearly the same sum of squares as those of all branches: principal components of the outputs,
+/// for the `powers` of the waves. Those with the smallest powers are left out as long as their sum is at most `negligible_share` of the
+/// whole, to which the others are scaled.
+fn combined(branches: &[Filter], powers: &[f64], negligible_share: f64) -> Vec<Filter> {
+    let n = branches.len();
+    let product = |one: usize, other: usize| -> f64 {
+        let values = branches[one].iter().zip(&branches[other]);
+        let terms = values.zip(powers);
+        terms
+            .map(|((one, other), power)| power * (one * other.conj()).re)
+            .sum()
+    };
+    let components = SymmetricEigen::new(DMatrix::from_fn(n, n, product));
+    let mut order: Vec<usize> = (0..n).collect();
+    order.sort_by(|one, other| {
+        let [one, other] = [one, other].map(|index| components.eigenvalues[*index]);
+        one.total_cmp(&other)
+    });
+    let total: f64 = components.eigenvalues.iter().sum();
+    let mut left_out = 0.0;
+    order.retain(|index| {
+        left_out += components.eigenvalues[*index];
+        left_out > negligible_share * total
+    });
+    let kept: f64 = order
+        .iter()
+        .map(|index| components.eigenvalues[*index])
+        .sum();
+    let scale = (total / kept).sqrt();
+    let component = |index: usize| -> Filter {
+        let weights = components.eigenvectors.column(index);
+        let value = |wave: usize| {
+            let terms = branches.iter().zip(weights.iter());
+            let sum: Complex<f64> = terms.map(|(filter, weight)| filter[wave] * *weight).sum();
+            sum * scale
+        };
+        (0..powers.len()).map(value).collect()
+    };
+    order.into_iter().map(component).collect()
+}
+
+/// Wave numbers of a period of `n` elements in the order of a transform; `step` is that of the longest wave, \[rad/m].
+fn wave_numbers(n: usize, step: f64) -> Vec<f64> {
+    (0..n)
+        .map(|index| signed_offset(index, n) as f64 * step)
+        .collect()
+}
+
+/// The filter on a period of `n` elements that has the effect of a filter on a longer one, up to half the short period in either
+/// direction, and none beyond.
+fn within_half_a_period(mut filter: Filter, n: usize) -> Filter {
+    let long = filter.len();
+    if long == n {
+        return filter;
+    }
+    f64::inverse(long).process(&mut filter);
+    let scale = (long as f64).recip();
+    let place = |index: usize| signed_offset(index, n).rem_euclid(long.cast_signed());
+    let mut short: Filter = (0..n)
+        .map(|index| filter[place(index).unsigned_abs()] * scale)
+        .collect();
+    f64::forward(n).process(&mut short);
+    short
 }
 
 impl Plane {
@@ -210,7 +339,7 @@ impl Plane {
         &mut self,
         (period, waves): ([usize; 2], &[Complex<f64>]),
         steps: [f64; 2],
-        filters: &[Filter],
+        filters: &Filters,
     ) {
         // Use a coarser grid where the stress of the shortest waves does not reach.
         self.shape = [0, 1].map(|axis| {
@@ -249,18 +378,28 @@ impl Plane {
             |[x, y]| Complex::new(-SQRT_2 * y, SQRT_2 * x),
         ];
         let plans = PlanePlans::new(self.shape);
-        let mut power = copies(0.0, self.shape[0] * self.shape[1]);
-        for filter in filters {
+        let square_of = |filter: &Filter, square: &mut [f64]| {
             for pair in components {
                 let stress = at_depth
                     .iter()
                     .map(|(stress, direction, along)| stress * filter[*along] * pair(*direction));
                 let mut stress: Coefficients = stress.collect();
                 plans.inverse(&mut stress);
-                for (power, stress) in power.iter_mut().zip(&stress) {
-                    *power += stress.norm_sqr();
+                for (square, stress) in square.iter_mut().zip(&stress) {
+                    *square += stress.norm_sqr();
                 }
             }
+        };
+        let mut power = copies(0.0, self.shape[0] * self.shape[1]);
+        for filter in &filters.branches {
+            square_of(filter, &mut power);
+        }
+        if let Some(filter) = &filters.strain {
+            let mut strain = copies(0.0, power.len());
+            square_of(filter, &mut strain);
+            let products = power.iter().zip(&strain);
+            let sum: f64 = products.map(|(power, strain)| power * strain).sum();
+            self.power_times_strain = sum / power.len() as f64;
         }
         self.power = power.into_iter().map(Complex::from).collect();
         plans.forward(&mut self.power);

@@ -18,7 +18,7 @@
 
 use std::f64::consts::PI;
 
-use rheology::{CreepSpectrum, ExponentialStep, Material as _, check_spectra};
+use rheology::{CreepSpectrum, ExponentialStep, Material as _};
 use rustfft::num_complex::Complex;
 
 use crate::elements::area;
@@ -27,6 +27,7 @@ use crate::parallel::reductions::{add_scaled, dot, mean};
 use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
 use crate::stationary::periodic::kernel::Sliding;
 use crate::stationary::periodic::{PeriodicLoad, check_surface};
+use crate::substrate::base::check_small_strains;
 use crate::transform::plane_transform::ZERO;
 use crate::{
     Base, BemError, ContactOptions, ContactProblem, ContactState, Control, Convolution,
@@ -187,7 +188,7 @@ impl<'a> PeriodicMarch<'a> {
         time_step: f64,
     ) -> Result<Self, BemError> {
         let n = grid.n_elements();
-        check_spectra(&elastomer.material())?;
+        check_small_strains(elastomer)?;
         let creep = elastomer.material().creep();
         // Discretise the creep law of the material in time, and the influence of the half space or layer in space.
         let step = ExponentialStep::creep(&creep, time_step)?;

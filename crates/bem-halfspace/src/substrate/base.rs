@@ -24,11 +24,11 @@ use std::fmt::Debug;
 use std::sync::{Arc, OnceLock};
 
 use numerics::{InvalidParameter, in_range, positive};
-use rheology::Material;
+use rheology::{Material, ModulusFactors, check_spectra};
 
-use crate::influence;
 use crate::substrate::correction::{Correction, MAX_WAVE_NUMBER};
 use crate::substrate::rectangle::integrate_smooth;
+use crate::{BemError, influence};
 
 /// A deformable body with a plane surface: every [`Material`] is a half space, and [`Layer`](crate::Layer) is a layer of a
 /// material on a base.
@@ -38,6 +38,22 @@ pub trait Elastomer {
 
     /// Base under the material.
     fn base(&self) -> Base;
+
+    /// Factors of storage and loss modulus at the strain amplitude of stationary sliding. Only stationary states have them: all other
+    /// functions refuse factors that are not 1.
+    fn modulus_factors(&self) -> ModulusFactors {
+        ModulusFactors::NONE
+    }
+}
+
+/// Refuses spectra that contradict each other, and moduli with factors, which have no meaning but in a stationary state.
+pub(crate) fn check_small_strains(elastomer: &dyn Elastomer) -> Result<(), BemError> {
+    check_spectra(&elastomer.material())?;
+    if elastomer.modulus_factors() == ModulusFactors::NONE {
+        Ok(())
+    } else {
+        Err(BemError::FactorsWithoutStationaryState)
+    }
 }
 
 impl<M: Material + ?Sized> Elastomer for M {

@@ -6,7 +6,7 @@
 //! Theory: docs/layers.md, "How it is computed".
 
 use numerics::{InvalidParameter, in_range};
-use rheology::{Material, layer_deficit, layer_factor};
+use rheology::{Material, ModulusFactors, layer_deficit, layer_factor};
 
 use crate::substrate::correction::RIGID_BASE_INFLUENCE_RADIUS;
 use crate::{Base, Elastomer, Substrate};
@@ -18,6 +18,8 @@ pub struct Layer<'a, M: ?Sized> {
     material: &'a M,
     /// Substrate under the layer.
     base: Base,
+    /// Factors of its moduli.
+    factors: ModulusFactors,
 }
 
 impl<'a, M: Material + ?Sized> Layer<'a, M> {
@@ -47,7 +49,18 @@ impl<'a, M: Material + ?Sized> Layer<'a, M> {
 
     /// A layer of a material on a base, which must have been made for the Poisson ratio of the material.
     pub(crate) const fn over(material: &'a M, base: Base) -> Self {
-        Self { material, base }
+        Self {
+            material,
+            base,
+            factors: ModulusFactors::NONE,
+        }
+    }
+
+    /// The same elastomer at the strain amplitude of a stationary state, by which its moduli have factors (equivalent-linear). It slides
+    /// like any other; motions, histories and derivatives refuse it.
+    #[must_use]
+    pub fn with_modulus_factors(self, factors: ModulusFactors) -> Self {
+        Self { factors, ..self }
     }
 }
 
@@ -60,6 +73,11 @@ impl<M: Material + ?Sized> Elastomer for Layer<'_, M> {
     /// The substrate under the layer, with its thickness.
     fn base(&self) -> Base {
         self.base.clone()
+    }
+
+    /// The factors of [`Layer::with_modulus_factors`].
+    fn modulus_factors(&self) -> ModulusFactors {
+        self.factors
     }
 }
 

@@ -8,8 +8,8 @@ use bem_halfspace::heat::{
 use bem_halfspace::{BemError, Grid, InvalidParameter, PressureField};
 use numerics::Estimate;
 use rheology::{
-    Material, Prony, RelaxationBranch, RelaxationSpectrum, StandardSolid, StandardSolidParameters,
-    Viscous,
+    Material, ModulusFactors, Prony, RelaxationBranch, RelaxationSpectrum, StandardSolid,
+    StandardSolidParameters, Viscous,
 };
 
 /// Conductivity, \[W/(m K)].
@@ -85,6 +85,7 @@ fn the_bulk_under_a_hertzian_pressure_has_the_temperature_of_point_sources() {
             let contact = SlidingContact {
                 pressure: &field,
                 material: &material,
+                factors: ModulusFactors::NONE,
                 velocity,
                 shear_power: 0.0,
                 bulk_power,
@@ -141,6 +142,7 @@ fn one_wave_in_full_contact_has_its_closed_form() {
     let contact = SlidingContact {
         pressure: &field,
         material: &material,
+        factors: ModulusFactors::NONE,
         velocity,
         shear_power: 0.0,
         bulk_power: flux * period * period,
@@ -169,6 +171,7 @@ fn a_wrong_power_widens_the_bars() {
         let contact = SlidingContact {
             pressure: &field,
             material: &material,
+            factors: ModulusFactors::NONE,
             velocity,
             shear_power: 0.0,
             bulk_power,
@@ -195,6 +198,7 @@ fn both_sources_add_up_and_a_conductor_takes_the_shear() {
         let contact = SlidingContact {
             pressure: &field,
             material: &material,
+            factors: ModulusFactors::NONE,
             velocity,
             shear_power,
             bulk_power,
@@ -238,6 +242,7 @@ fn shear_alone_heats_a_disc_like_a_given_flux() {
     let contact = SlidingContact {
         pressure: &field,
         material: &material,
+        factors: ModulusFactors::NONE,
         velocity,
         shear_power: 1e-3,
         bulk_power: 0.0,
@@ -279,6 +284,7 @@ fn a_line_contact_has_the_temperature_of_a_long_body() {
     let contact = |pressure, power| SlidingContact {
         pressure,
         material: &material,
+        factors: ModulusFactors::NONE,
         velocity,
         shear_power: power,
         bulk_power: power,
@@ -301,6 +307,7 @@ fn impossible_contacts_are_refused() {
     let contact = SlidingContact {
         pressure: &field,
         material: &material,
+        factors: ModulusFactors::NONE,
         velocity: 1.0,
         shear_power: 1.0,
         bulk_power: 1.0,

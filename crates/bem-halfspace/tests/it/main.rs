@@ -35,6 +35,7 @@ mod pressure_spectrum;
 mod small_friction;
 mod soft_waves;
 mod stationary_state;
+mod strain_amplitude;
 mod substrates;
 mod support;
 #[cfg(feature = "rayon")]

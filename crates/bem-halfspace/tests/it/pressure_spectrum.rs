@@ -4,13 +4,13 @@ use std::f64::consts::{PI, TAU};
 
 use bem_halfspace::slide::PressureField;
 use bem_halfspace::{Grid, Layer};
-use rheology::{KelvinVoigt, Material, StressBand};
+use rheology::{KelvinVoigt, Material, StationaryCreep, StressBand};
 
 use crate::support::{assert_near, viscous};
 
 fn below(bands: &[StressBand], material: &dyn Material, frequency: f64) -> f64 {
     let window = [frequency, f64::INFINITY];
-    let parts = material.creep().outside_window(window, bands.to_vec());
+    let parts = StationaryCreep::from(material.creep()).outside_window(window, bands.to_vec());
     let parts = parts.expect("something is dissipated");
     assert_near((frequency, "above"), parts.above, 0.0, 0.0);
     parts.below

@@ -8,7 +8,7 @@ use std::f64::consts::{FRAC_1_PI, PI};
 
 use indenters::{Axisymmetric, Control, FlatPunch, PressingLoad, Surface, contact_radius};
 use numerics::{ErrorParts, Request, positive};
-use rheology::{Compressible, Elastic, Material as _, check_spectra};
+use rheology::{Compressible, Elastic, Material as _};
 
 use crate::elements::pressure_field::PressureField;
 use crate::error::check_contact_elements;
@@ -17,6 +17,7 @@ use crate::estimate::plan::GridPlan;
 use crate::estimate::quantities::Quantities;
 use crate::estimate::refinement_limits::PRESS;
 use crate::march::{March, Motion};
+use crate::substrate::base::check_small_strains;
 use crate::{Base, BemError, Elastomer, Footprint, GridOptions, Layer};
 
 /// Convergence order that error estimates assume for depth and force. Chosen as a lower bound, which also holds under cusps; a
@@ -191,8 +192,8 @@ pub(super) struct Spring {
 impl Spring {
     /// The spring of a material at equilibrium. Fails with [`BemError::NoEquilibrium`] for one that flows.
     fn at_rest(elastomer: &dyn Elastomer) -> Result<Self, BemError> {
+        check_small_strains(elastomer)?;
         let material = elastomer.material();
-        check_spectra(&material)?;
         let modulus = material.relaxation().equilibrium_modulus();
         if modulus == 0.0 {
             return Err(BemError::NoEquilibrium);
@@ -234,8 +235,8 @@ impl Spring {
     /// The spring that a material is equivalent to at the end of a load: its creep compliance under a force, its relaxation modulus
     /// at a depth.
     pub(super) fn after(elastomer: &dyn Elastomer, load: &PressingLoad) -> Result<Self, BemError> {
+        check_small_strains(elastomer)?;
         let material = elastomer.material();
-        check_spectra(&material)?;
         // A force acts through the creep compliance, a depth through the relaxation modulus. If the material creeps under a force, the
         // pressure depends on the history, unlike force and depth.
         let (factor, duration) = (material.half_space_factor(), load.duration());

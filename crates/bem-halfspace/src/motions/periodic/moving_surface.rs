@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 use indenters::rough::PeriodicSurface;
 use indenters::{Control, MotionRecord, MotionStep, MovingLoad, MovingStep};
 use numerics::{Accuracy, Estimate};
-use rheology::{Material as _, check_spectra};
+use rheology::Material as _;
 use rustfft::num_complex::Complex;
 
 use super::full_contact::{FullContactSurface, value_of_row};
@@ -25,6 +25,7 @@ use crate::motions::any_motion::{LimitCycle, TOUCH_DURATION_RATIO};
 use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
 use crate::stationary::periodic::nested::interpolated;
 use crate::stationary::periodic::perimeter_error::area_fraction;
+use crate::substrate::base::check_small_strains;
 use crate::{BemError, ContactOptions, Elastomer, Grid};
 
 /// Largest product of the number of elements and the number of steps of a cycle or path. Chosen: grids with a larger product are
@@ -89,9 +90,9 @@ impl<'a> MovingSurface<'a> {
         accuracy: Accuracy,
     ) -> Result<Self, BemError> {
         // Find the spectra of the material. Refuse a reciprocating motion without a limit cycle, and what is not supported.
+        check_small_strains(elastomer)?;
         let (relaxation, creep) = {
             let material = elastomer.material();
-            check_spectra(&material)?;
             (material.relaxation(), material.creep())
         };
         let limit_cycle = LimitCycle::new(load, &creep, accuracy)?;

@@ -13,7 +13,9 @@
 use std::f64::consts::PI;
 
 use numerics::positive;
-use rheology::{CreepSpectrum, Material as _, check_spectra};
+#[cfg(feature = "rough")]
+use rheology::CreepSpectrum;
+use rheology::{Material as _, StationaryCreep, check_spectra};
 use rustfft::num_complex::Complex;
 
 use crate::parallel::reductions::mean;
@@ -23,8 +25,8 @@ use crate::{Base, BemError, Elastomer, Grid};
 /// A material under a surface that slides at a constant speed.
 #[derive(Debug, Clone)]
 pub(crate) struct Sliding {
-    /// Creep spectrum of the material in shear.
-    pub(super) creep: CreepSpectrum,
+    /// Creep of the material in shear, at the strain amplitude of the state.
+    pub(super) creep: StationaryCreep,
     /// Factor 1 − ν, for the Poisson ratio ν.
     pub(crate) factor: f64,
     /// Sliding speed, \[m/s].
@@ -38,8 +40,8 @@ impl Sliding {
     /// [`BemError::FlowsUnderWaves`].
     pub(crate) fn new(elastomer: &dyn Elastomer, velocity: f64) -> Result<Self, BemError> {
         check_spectra(&elastomer.material())?;
-        let creep = elastomer.material().creep();
-        if creep.fluidity() > 0.0 {
+        let creep = StationaryCreep::new(&elastomer.material(), elastomer.modulus_factors())?;
+        if creep.retarded().fluidity() > 0.0 {
             return Err(BemError::FlowsUnderWaves);
         }
         Ok(Self {
@@ -60,7 +62,7 @@ impl Sliding {
         let creep = elastomer.material().creep();
         let spring = CreepSpectrum::new(creep.creep_compliance(time)?, 0.0, Vec::new())?;
         Ok(Self {
-            creep: spring,
+            creep: spring.into(),
             factor: 0.5 * elastomer.material().half_space_factor(),
             velocity: 0.0,
             base: elastomer.base(),

@@ -12,13 +12,16 @@
 //! sliding speed. On a track of the length L the load is periodic with L, and the integral runs around the track infinitely
 //! often.
 //!
+//! Moduli that have factors at the strain amplitude of the state have advanced elements, too (`rheology::StationaryCreep`). They are
+//! filters that look behind.
+//!
 //! Theory: docs/theory/stationary-half-space.md, "Any linear viscoelastic material" and "A track".
 
 use std::f64::consts::{FRAC_2_PI, PI};
 
 use indenters::SlidingLoad;
-use numerics::positive;
-use rheology::{ComplexCompliance, CreepSpectrum, Material as _, check_spectra};
+use numerics::{finite, positive};
+use rheology::{ComplexCompliance, Material as _, StationaryCreep, check_spectra};
 
 use crate::{Base, BemError, Elastomer};
 
@@ -30,8 +33,8 @@ pub(super) const FLOW_AS_RETARDATION_RATE: f64 = 1e-100;
 /// The creep of a material on its base at a sliding speed, on a track if there is one.
 #[derive(Debug, Clone)]
 pub(super) struct SlidingCreep {
-    /// Creep spectrum of the material in shear.
-    spectrum: CreepSpectrum,
+    /// Creep of the material in shear, at the strain amplitude of the state.
+    creep: StationaryCreep,
     /// Factor 2 (1 − ν) of the material.
     half_space_factor: f64,
     /// Sliding velocity v, \[m/s].
@@ -53,6 +56,8 @@ pub(super) struct ElementCreep {
     pub(super) flow: f64,
     /// Retardation elements, with their fractions.
     pub(super) retardations: Vec<RetardationElement>,
+    /// Elements that look behind instead of ahead, with fractions of either sign.
+    pub(super) advanced: Vec<RetardationElement>,
     /// Length of the track in Δx; `None` without a track.
     pub(super) track: Option<f64>,
     /// The base, with lengths in Δx.
@@ -104,7 +109,7 @@ impl SlidingCreep {
     /// The creep at the velocity of a load, on its track if it has one.
     ///
     /// # Errors
-    /// [`BemError::NoCycle`] for a material that flows on a track.
+    /// [`BemError::NoCycle`] for a material that flows on a track, [`BemError::FactorsOnTrack`] for factors of the moduli on one.
     pub(super) fn for_load(
         elastomer: &dyn Elastomer,
         load: &SlidingLoad,
@@ -113,8 +118,11 @@ impl SlidingCreep {
             track: load.track(),
             ..Self::new(elastomer, load.velocity())?
         };
-        if creep.track.is_some() && creep.spectrum.fluidity() > 0.0 {
+        if creep.track.is_some() && creep.creep.retarded().fluidity() > 0.0 {
             return Err(BemError::NoCycle);
+        }
+        if creep.track.is_some() && !creep.creep.advanced().is_empty() {
+            return Err(BemError::FactorsOnTrack);
         }
         Ok(creep)
     }
@@ -123,10 +131,10 @@ impl SlidingCreep {
     pub(super) fn new(elastomer: &dyn Elastomer, velocity: f64) -> Result<Self, BemError> {
         let (material, base) = (elastomer.material(), elastomer.base());
         check_spectra(&material)?;
-        let spectrum = material.creep();
-        base.check_flow(spectrum.fluidity())?;
+        let creep = StationaryCreep::new(&material, elastomer.modulus_factors())?;
+        base.check_flow(creep.retarded().fluidity())?;
         Ok(Self {
-            spectrum,
+            creep,
             half_space_factor: positive("half-space factor", material.half_space_factor())?,
             velocity: positive("velocity", velocity)?,
             track: None,
@@ -146,13 +154,13 @@ impl SlidingCreep {
     /// True for a half space of a dashpot alone. On it, contact is possible only where the body rises.
     pub(super) fn only_flows(&self) -> bool {
         self.fluidity() > 0.0
-            && self.spectrum.instantaneous_compliance() == 0.0
-            && self.spectrum.elements().is_empty()
+            && self.creep.retarded().instantaneous_compliance() == 0.0
+            && self.creep.retarded().elements().is_empty()
     }
 
     /// True for an elastic material, which dissipates nothing.
     pub(super) fn is_elastic(&self) -> bool {
-        self.spectrum.fluidity() == 0.0 && self.spectrum.elements().is_empty()
+        self.creep.is_elastic()
     }
 
     /// Fluidity 1/η_f of a half space, [1/(Pa s)]; 0 for a layer on a rigid base, whose finite influence radius keeps the depth
@@ -161,7 +169,7 @@ impl SlidingCreep {
         if self.base.is_rigid() {
             0.0
         } else {
-            self.spectrum.fluidity()
+            self.creep.retarded().fluidity()
         }
     }
 
@@ -175,9 +183,7 @@ impl SlidingCreep {
         &self,
         wave_number: f64,
     ) -> Result<ComplexCompliance, BemError> {
-        let compliance = self
-            .spectrum
-            .complex_compliance(wave_number * self.velocity)?;
+        let compliance = self.creep.complex_compliance(wave_number * self.velocity)?;
         Ok(ComplexCompliance {
             storage: self.half_space_factor * compliance.storage,
             loss: self.half_space_factor * compliance.loss,
@@ -194,14 +200,15 @@ impl SlidingCreep {
         self.track
     }
 
-    /// Memory length v λ_max of the slowest retardation element, at most the track; for a flowing layer at least its influence radius,
-    /// \[m].
+    /// Memory length v λ_max of the slowest retarded or advanced element, at most the track; for a flowing layer at least its influence
+    /// radius, \[m].
     pub(super) fn memory_length(&self) -> f64 {
-        let elements = self.spectrum.elements().iter();
+        let elements = self.creep.retarded().elements().iter();
+        let elements = elements.chain(self.creep.advanced());
         let times = elements.map(|element| element.retardation_time);
         let retarded =
             (self.velocity * times.fold(0.0, f64::max)).min(self.track.unwrap_or(f64::INFINITY));
-        if self.spectrum.fluidity() > 0.0 && self.base.is_rigid() {
+        if self.creep.retarded().fluidity() > 0.0 && self.base.is_rigid() {
             retarded.max(self.base.influence_radius())
         } else {
             retarded
@@ -210,13 +217,14 @@ impl SlidingCreep {
 
     /// The creep as a function of distance.
     pub(super) fn over_distance(&self) -> CreepOverDistance {
-        let elements = self.spectrum.elements().iter();
+        let retarded = self.creep.retarded();
+        let elements = retarded.elements().iter();
         let retardations = elements.map(|element| RetardationOverDistance {
             compliance: self.half_space_factor * element.compliance,
             memory_length: self.velocity * element.retardation_time,
         });
         CreepOverDistance {
-            instantaneous: self.half_space_factor * self.spectrum.instantaneous_compliance(),
+            instantaneous: self.half_space_factor * retarded.instantaneous_compliance(),
             flow_per_length: self.flow_per_length(),
             retardations: retardations.collect(),
         }
@@ -224,7 +232,7 @@ impl SlidingCreep {
 
     /// Compliance 2 (1 − ν)/(η_f v) of the free flow per length, [1/(Pa m)].
     pub(super) fn flow_per_length(&self) -> f64 {
-        self.half_space_factor * self.spectrum.fluidity() / self.velocity
+        self.half_space_factor * self.creep.retarded().fluidity() / self.velocity
     }
 
     /// Compliance of a contact of about `length` after a sliding distance: 2 (1 − ν) J(length/v), times the ratio of the
@@ -242,14 +250,15 @@ impl SlidingCreep {
                 retardation.share /= -(-retardation.rate * (track / passed)).exp_m1();
             }
         }
-        let total = self.half_space_factor * total_compliance(&parts);
+        let total = self.half_space_factor * self.total_compliance(&parts, passed)?;
         let compliance = positive("compliance over a length", total)?;
         Ok(compliance * self.base.compliance_ratio_under_punch(length))
     }
 
     /// Compliance 2 (1 − ν) J(length/v) \[1/Pa] for the time in which the material passes a `length` \[m].
     pub(super) fn compliance(&self, length: f64) -> Result<f64, BemError> {
-        let total = self.half_space_factor * total_compliance(&self.contributions(length)?);
+        let parts = self.contributions(length)?;
+        let total = self.half_space_factor * self.total_compliance(&parts, length)?;
         Ok(positive("compliance over a length", total)?)
     }
 
@@ -257,7 +266,8 @@ impl SlidingCreep {
     pub(super) fn over_element(&self, spacing: f64) -> Result<ElementCreep, BemError> {
         // Divide all parts of the creep by the total compliance over the element.
         let mut parts = self.contributions(spacing)?;
-        let total = positive("compliance over an element", total_compliance(&parts))?;
+        let total = self.total_compliance(&parts, spacing)?;
+        let total = positive("compliance over an element", total)?;
         parts.instantaneous /= total;
         parts.flow /= total;
         for retardation in &mut parts.retardations {
@@ -266,6 +276,10 @@ impl SlidingCreep {
                 "compliance of a retardation element",
                 retardation.compliance(),
             )?;
+        }
+        for advanced in &mut parts.advanced {
+            advanced.share /= total;
+            finite("compliance of an advanced element", advanced.compliance())?;
         }
         // Convert the collocation point, the track and the base to units of the element.
         parts.collocation_shift = self.collocation_shift(spacing)?;
@@ -283,20 +297,35 @@ impl SlidingCreep {
     /// Contributions of all parts of the creep to the compliance J(length/v), \[1/Pa], not yet divided by it; `length` is in \[m].
     fn contributions(&self, length: f64) -> Result<ElementCreep, BemError> {
         let time = positive("length / velocity", length / self.velocity)?;
-        let retardations = self.spectrum.elements().iter().map(|element| {
+        let over_length = |element: &rheology::RetardationElement| {
             let rate = time / element.retardation_time;
             let rate = positive("length / (velocity × retardation time)", rate)?;
             let share = -element.compliance * (-rate).exp_m1();
             Ok(RetardationElement { rate, share })
-        });
+        };
+        let retarded = self.creep.retarded();
+        let retardations = retarded.elements().iter().map(over_length);
+        let advanced = self.creep.advanced().iter().map(over_length);
         Ok(ElementCreep {
             collocation_shift: 0.0,
-            instantaneous: self.spectrum.instantaneous_compliance(),
-            flow: self.spectrum.fluidity() * time,
+            instantaneous: retarded.instantaneous_compliance(),
+            flow: retarded.fluidity() * time,
             retardations: retardations.collect::<Result<_, BemError>>()?,
+            advanced: advanced.collect::<Result<_, BemError>>()?,
             track: None,
             base: Base::default(),
         })
+    }
+
+    /// Compliance that belongs to contributions over a length \[m], in their unit: J(length/v), and for a creep with advanced elements,
+    /// which has no creep compliance over time, |J*| at the angular frequency v/length.
+    fn total_compliance(&self, parts: &ElementCreep, length: f64) -> Result<f64, BemError> {
+        if parts.advanced.is_empty() {
+            let retarded: f64 = parts.retardations.iter().map(|one| one.share).sum();
+            return Ok(parts.instantaneous + parts.flow + retarded);
+        }
+        let compliance = self.creep.complex_compliance(self.velocity / length)?;
+        Ok(compliance.storage.hypot(compliance.loss))
     }
 
     /// Fraction of the friction that elements of the length Δx may miss, at a contact of the half length a.
@@ -314,11 +343,12 @@ impl SlidingCreep {
         kinks: f64,
     ) -> f64 {
         let (mut sum, mut missed) = (0.0, 0.0);
-        for element in self.spectrum.elements() {
+        let advanced = self.creep.advanced();
+        for element in self.creep.retarded().elements().iter().chain(advanced) {
             let memory_length = self.velocity * element.retardation_time;
             let ratio = memory_length / half_length;
             // The friction of an element is largest where its memory length equals the half length of the contact.
-            let friction = element.compliance * ratio.min(ratio.recip());
+            let friction = element.compliance.abs() * ratio.min(ratio.recip());
             // The exponent x is the ratio of the memory length to the length of two elements.
             let x = 0.5 * memory_length / spacing;
             let missed_at_kinks = (-x).exp() * x.recip().ln_1p() / (half_length / spacing).ln_1p();
@@ -334,13 +364,7 @@ impl SlidingCreep {
     /// wave back by δ, so that displacement and load are in phase; all longer waves are less than a quarter period apart.
     fn collocation_shift(&self, spacing: f64) -> Result<f64, BemError> {
         let angular_frequency = positive("π × velocity / spacing", PI * (self.velocity / spacing))?;
-        let compliance = self.spectrum.complex_compliance(angular_frequency)?;
+        let compliance = self.creep.complex_compliance(angular_frequency)?;
         Ok(-compliance.loss.atan2(compliance.storage) / PI)
     }
-}
-
-/// Compliance over an element: sum of the instantaneous part, the flow and all retardation elements, in their unit.
-fn total_compliance(parts: &ElementCreep) -> f64 {
-    let retarded: f64 = parts.retardations.iter().map(|one| one.share).sum();
-    parts.instantaneous + parts.flow + retarded
 }

@@ -17,6 +17,9 @@
 //! k(ξ) = q/(1 − e^(−q L)) ∫_0^L e^(−q s) V(ξ + s) ds,      V(ξ) = V(ξ − L) for ξ > L/2
 //! ```
 //!
+//! An advanced element looks behind in the place of ahead. The potential is even along x, so that its table is the mirror image of that
+//! of a retardation element.
+//!
 //! Theory: docs/theory/stationary-half-space.md, "Any linear viscoelastic material" and "A track".
 
 use std::sync::Arc;
@@ -39,7 +42,8 @@ pub(super) struct WakeTable {
     max_offsets: [usize; 2],
     /// Displacements by the unit load, `[offset along x, from behind the load to ahead of it][distance along y]`.
     values: Vec<f64>,
-    /// Creep within one element: the values without the displacement at the element ahead.
+    /// Creep within one element: the values without the displacement at the element ahead. With advanced elements it is the
+    /// displacement of a spring of the unit compliance, from which the whole creep filters the values.
     creep_within_element: Vec<f64>,
 }
 
@@ -85,6 +89,9 @@ impl WakeTable {
             table.add_viscoelastic();
         } else if creep.instantaneous > 0.0 {
             table.add_instantaneous();
+        }
+        if !creep.advanced.is_empty() {
+            table.add_advanced();
         }
         table
     }
@@ -134,8 +141,9 @@ impl WakeTable {
 
     /// Values of the wake on a row. A smaller table of a dashpot contains them with the opposite sign.
     fn wake_row(&self, row: usize, smaller: &Self) -> Vec<f64> {
-        let only_flows =
-            smaller.creep.instantaneous == 0.0 && smaller.creep.retardations.is_empty();
+        let only_flows = smaller.creep.instantaneous == 0.0
+            && smaller.creep.retardations.is_empty()
+            && smaller.creep.advanced.is_empty();
         // Copy the columns that the smaller table has, and compute the others.
         let known = (row + smaller.max_offsets[0])
             .checked_sub(self.max_offsets[0])
@@ -188,6 +196,28 @@ impl WakeTable {
         }
     }
 
+    /// Adds the advanced elements, and sets the creep within an element to the displacement of a spring.
+    fn add_advanced(&mut self) {
+        let creep = ElementCreep {
+            collocation_shift: -self.creep.collocation_shift,
+            retardations: self.creep.advanced.clone(),
+            base: self.creep.base.clone(),
+            ..ElementCreep::default()
+        };
+        let mirrored = Self::for_creep(&creep, self.aspect, self.max_offsets);
+        let n_columns = self.n_columns();
+        let rows = self.values.chunks_exact_mut(n_columns);
+        for (row, mirrored) in rows.zip(mirrored.values.chunks_exact(n_columns).rev()) {
+            for (value, mirrored) in row.iter_mut().zip(mirrored) {
+                *value += mirrored;
+            }
+        }
+        for row in 0..=2 * self.max_offsets[0] {
+            let spring = self.kernel_row(row, |at, edges| self.creep.base.influence(at, edges));
+            self.creep_within_element[row * n_columns..][..n_columns].copy_from_slice(&spring);
+        }
+    }
+
     /// Displacement of an element by the unit load of another, which lies `rows` behind it and `columns` beside it.
     ///
     /// # Panics
@@ -196,7 +226,8 @@ impl WakeTable {
         self.values[self.index(rows, columns)]
     }
 
-    /// The part of [`displacement`](Self::displacement) that creeps within the element itself, from its front to its rear.
+    /// The part of [`displacement`](Self::displacement) that creeps within the element itself, from its front to its rear; with advanced
+    /// elements the displacement of a spring.
     pub(super) fn creep_within_element(&self, rows: isize, columns: usize) -> f64 {
         self.creep_within_element[self.index(rows, columns)]
     }

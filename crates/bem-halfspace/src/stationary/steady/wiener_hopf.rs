@@ -3,7 +3,8 @@
 //! Along x the kernel is a creep filter applied to the load potential, which is symmetric and positive. The filter is a running sum
 //! for the dashpot, the identity for a spring, and a sum of exponentials otherwise. For every wave number along y the potential
 //! factors into a filter that looks ahead only and its mirror image, by the cepstrum of its spectrum (Kolmogorov 1939). The kernel
-//! then is the product of a forward factor, which contains the creep filter, and a backward factor.
+//! then is the product of a forward factor, which contains the creep filter, and a backward factor. A creep filter with advanced
+//! elements, which look behind, factors by its cepstrum, too, and both factors contain their part of it.
 //!
 //! On a contact that is infinite behind a straight front, the exact inverse consists of the inverses of the factors (Wiener & Hopf
 //! 1931). Their order is backward, forward, with the contact cut out in between. On a contact that is infinite ahead of a straight
@@ -43,8 +44,13 @@ pub(super) fn inverse_factors(table: &WakeTable, transform: &PlaneTransform) -> 
     let [length, _] = transform.padded;
     let potential =
         |row: usize, column: usize| table.creep_within_element(signed_offset(row, length), column);
-    let backward = transform.spectrum(potential, invert_causal_factor);
-    let forward = with_inverse_creep(&backward, &table.creep, length);
+    let potential = transform.spectrum(potential, invert_causal_factor);
+    let creep = InverseCreep::new(&table.creep, length, transform);
+    let forward = product(&creep.ahead, potential.iter().map(Complex::conj));
+    let backward = match creep.behind {
+        None => potential,
+        Some(behind) => product(&behind, potential.iter().copied()),
+    };
     [forward, backward]
 }
 
@@ -82,13 +88,18 @@ impl WienerHopf {
 
 /// Replaces a real and positive transform along x by that of the inverse of its factor that looks towards smaller x only.
 fn invert_causal_factor(transform: &PlaneTransform, column: &mut [Complex<f64>]) {
-    let length = column.len();
     // The transform of a truncated periodic kernel may be slightly negative where it should be positive.
     let floor = f64::EPSILON * column.iter().map(|value| value.re).fold(0.0, f64::max);
     for value in column.iter_mut() {
         *value = Complex::new(value.re.max(floor).ln(), 0.0);
     }
+    invert_half_of_cepstrum(transform, column);
+}
+
+/// Replaces the logarithm of a transform along x by the transform of the inverse of its factor that looks towards smaller x only.
+fn invert_half_of_cepstrum(transform: &PlaneTransform, column: &mut [Complex<f64>]) {
     // Keep the half of the cepstrum that belongs to one factor, with the opposite sign for the inverse of the factor.
+    let length = column.len();
     transform.column_inverse(column);
     let half = length / 2;
     for (index, value) in column.iter_mut().enumerate() {
@@ -106,32 +117,79 @@ fn invert_causal_factor(transform: &PlaneTransform, column: &mut [Complex<f64>])
     }
 }
 
-/// The mirror image of each factor, divided by the creep filter of the elements ahead,
-/// `J₀ + 1/(η_f (1 − e^{iα})) + Σ J_k (1 − d_k)/(1 − d_k e^{iα})`, at the wave number α along x in radians per element.
-fn with_inverse_creep(factors: &Spectrum, creep: &ElementCreep, length: usize) -> Spectrum {
-    let inverse = |index: usize| {
-        let angle = std::f64::consts::TAU * index as f64 / length as f64;
+/// Inverses of the factors of the creep filter at the wave numbers α along x, in radians per element.
+struct InverseCreep {
+    /// Inverse of the factor of the elements ahead; without advanced elements it is the whole filter.
+    ahead: Vec<Complex<f64>>,
+    /// Inverse of the factor of the elements behind; `None` without advanced elements.
+    behind: Option<Vec<Complex<f64>>>,
+}
+
+impl InverseCreep {
+    /// Factors of the creep filter `J₀ + 1/(η_f (1 − e^{iα})) + Σ J_k (1 − d_k)/(1 − d_k e^{iα})`, in which advanced elements have
+    /// e^{−iα} in the place of e^{iα}.
+    fn new(creep: &ElementCreep, length: usize, transform: &PlaneTransform) -> Self {
         // The difference 1 − e^{iα} is computed without cancellation, because 1 − cos α = 2 sin²(α/2).
-        let half_sine = (0.5 * angle).sin();
-        let difference = Complex::new(2.0 * half_sine * half_sine, -angle.sin());
-        let denominator = |element: &RetardationElement| {
-            let decay = element.decay();
-            difference * decay + -(-element.rate).exp_m1()
-        };
-        let retardations = creep.retardations.iter();
+        let differences = (0..length).map(|index| {
+            let angle = std::f64::consts::TAU * index as f64 / length as f64;
+            let half_sine = (0.5 * angle).sin();
+            Complex::new(2.0 * half_sine * half_sine, -angle.sin())
+        });
+        let differences: Vec<Complex<f64>> = differences.collect();
         // `finv`, because the square of the modulus underflows for memory lengths above 1e154 elements.
-        let shares =
-            retardations.map(|retardation| denominator(retardation).finv() * retardation.share);
-        let filter = shares.sum::<Complex<f64>>() + creep.instantaneous;
-        if creep.flow > 0.0 {
-            difference / (difference * filter + creep.flow)
-        } else {
-            filter.inv()
+        let response = |element: &RetardationElement, difference: Complex<f64>| {
+            let decay = element.decay();
+            let denominator = difference * decay + -(-element.rate).exp_m1();
+            denominator.finv() * element.share
+        };
+        let filter = |difference: &Complex<f64>| {
+            let retarded = creep.retardations.iter();
+            let retarded = retarded.map(|element| response(element, *difference));
+            let advanced = creep.advanced.iter();
+            let advanced = advanced.map(|element| response(element, difference.conj()));
+            retarded.chain(advanced).sum::<Complex<f64>>() + creep.instantaneous
+        };
+        if creep.advanced.is_empty() {
+            let inverse = |difference: &Complex<f64>| {
+                if creep.flow > 0.0 {
+                    difference / (difference * filter(difference) + creep.flow)
+                } else {
+                    filter(difference).inv()
+                }
+            };
+            return Self {
+                ahead: differences.iter().map(inverse).collect(),
+                behind: None,
+            };
         }
-    };
-    // The filter depends on the wave number along x only; the spectrum is stored by column.
-    let inverses: Vec<Complex<f64>> = (0..length).map(inverse).collect();
-    let pairs = inverses.iter().cycle().zip(factors);
-    let products = pairs.map(|(inverse, factor)| inverse * factor.conj());
-    products.collect()
+        // Free flow is a pole of the filter at α = 0, which belongs to the elements ahead.
+        let without_pole = |difference: &Complex<f64>| {
+            let value = if creep.flow > 0.0 {
+                difference * filter(difference) + creep.flow
+            } else {
+                filter(difference)
+            };
+            value.ln()
+        };
+        let mut behind: Vec<Complex<f64>> = differences.iter().map(without_pole).collect();
+        let mut ahead: Vec<Complex<f64>> = behind.iter().map(Complex::conj).collect();
+        invert_half_of_cepstrum(transform, &mut behind);
+        invert_half_of_cepstrum(transform, &mut ahead);
+        for (value, difference) in ahead.iter_mut().zip(&differences) {
+            *value = value.conj();
+            if creep.flow > 0.0 {
+                *value *= difference;
+            }
+        }
+        Self {
+            ahead,
+            behind: Some(behind),
+        }
+    }
+}
+
+/// Products of a factor that depends on the wave number along x only with a spectrum, which is stored by column.
+fn product(along_x: &[Complex<f64>], spectrum: impl Iterator<Item = Complex<f64>>) -> Spectrum {
+    let pairs = along_x.iter().cycle().zip(spectrum);
+    pairs.map(|(factor, value)| factor * value).collect()
 }

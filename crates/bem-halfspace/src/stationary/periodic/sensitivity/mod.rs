@@ -32,6 +32,7 @@ use crate::stationary::periodic::kernel::{PeriodicKernel, Sliding};
 use crate::stationary::periodic::nested::interpolated;
 use crate::stationary::periodic::{PeriodicControl, PeriodicLoad, PeriodicOptions, solve_from};
 use crate::steady::sensitivity::{ByModuli, Change, TwoGridExtrapolation};
+use crate::substrate::base::check_small_strains;
 use crate::{BemError, Elastomer, Grid, PressureField};
 use adjoint::{Adjoint, Gradient, KernelChange, unit_pressure};
 
@@ -114,6 +115,7 @@ impl PeriodicSensitivity {
         load: &PeriodicLoad,
         pressure: &PressureField,
     ) -> Result<Self, BemError> {
+        check_small_strains(elastomer)?;
         let sliding = Sliding::new(elastomer, load.velocity())?;
         let control = load.require_stationary()?;
         let grid = pressure.grid;
@@ -175,6 +177,7 @@ impl PeriodicSensitivity {
         elastomers: [&dyn Elastomer; 2],
         velocities: [f64; 2],
     ) -> Result<Change<Estimate>, BemError> {
+        elastomers.into_iter().try_for_each(check_small_strains)?;
         let [from, to] = [0, 1].map(|end| Sliding::new(elastomers[end], velocities[end]));
         let ends = [from?, to?];
         self.with_error(|state| state.between_elastomers(ends.each_ref()))
