@@ -1,6 +1,7 @@
 //! Material parameters from measurements: moduli, indentation curves and friction.
 //!
 //! - [`moduli`] reads tables of moduli as instruments export them and shifts isotherms to a master curve.
+//! - [`strain`] reads strain sweeps, the factors of the moduli of filled rubber over the strain amplitude.
 //! - [`indentation`] fits a material to a force–indentation curve, with confidence intervals.
 //! - [`friction`] reads tables of friction over speed and fits the parameters of any friction model.
 //!
@@ -36,6 +37,7 @@ mod finding;
 pub mod friction;
 pub mod indentation;
 pub mod moduli;
+pub mod strain;
 mod table;
 
 /// The example in the README, compiled as a doc test.

@@ -6,7 +6,7 @@ use super::Deformation;
 use Quantity::{
     Creep, Deflection, Depth, Displacement, Force, Frequency, Friction, FrictionError,
     FrictionForce, Height, Loss, LossFactor, Magnitude, Other, Phase, Piezo, Radius, Relaxation,
-    Set, Storage, Temperature, Time, Tip, Velocity,
+    Set, Storage, StorageFactor, Strain, Temperature, Time, Tip, Velocity,
 };
 
 /// Quantity in a column.
@@ -22,6 +22,10 @@ pub(crate) enum Quantity {
     Loss,
     /// Loss factor tan δ.
     LossFactor,
+    /// Storage modulus over that of small strains.
+    StorageFactor,
+    /// Strain amplitude.
+    Strain,
     /// Magnitude |G*| or |E*|.
     Magnitude,
     /// Phase angle δ by which strain lags behind stress.
@@ -224,6 +228,8 @@ impl Quantity {
             Storage => ("E' or G'", "Pa kPa MPa GPa"),
             Loss => ("E'' or G''", "Pa kPa MPa GPa"),
             LossFactor => ("tan delta", "-  1"),
+            StorageFactor => ("storage_factor", "-  1"),
+            Strain => ("strain", "-  1 %"),
             Magnitude => ("|E*| or |G*|", "Pa kPa MPa GPa"),
             Phase => ("phase angle", "deg rad mrad"),
             Creep => ("J(t) or D(t)", "1/Pa 1/kPa 1/MPa 1/GPa"),
