@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyList, PyString, PyTuple};
 use toml::{Table, Value};
 use viscofriction::Files;
-use viscofriction::scene::{Heat, Indenter, Interface, MaterialTable, SceneError};
+use viscofriction::scene::{Heat, Indenter, Interface, MaterialTable, SceneError, Strain};
 use viscofriction::solve::{body, half_space};
 
 use crate::reading::read_file;
@@ -37,7 +37,7 @@ pub(crate) fn table(dictionary: &Bound<'_, PyDict>, path: &str) -> PyResult<Tabl
     Ok(table)
 }
 
-/// Checks a table `indenter`, `material`, `interface` or `heat`: its keys, the types of their values, and the ranges of its numbers. Bodies and
+/// Checks a table `indenter`, `material`, `interface`, `heat` or `strain`: its keys, the types of their values, and the ranges of its numbers. Bodies and
 /// materials that need no file and no random surface are also built, which checks their numbers against one another.
 #[pyfunction]
 pub(crate) fn check_table(dictionary: &Bound<'_, PyDict>) -> PyResult<()> {
@@ -49,6 +49,9 @@ pub(crate) fn check_table(dictionary: &Bound<'_, PyDict>) -> PyResult<()> {
         Interface::try_from(table).and_then(|interface| interface.check())
     } else if table.contains_key("heat") {
         Heat::try_from(table).and_then(|heat| heat.check())
+    } else if table.contains_key("strain") {
+        // The file of a table is read with the first answer.
+        Strain::try_from(table).and_then(|strain| strain.check())
     } else {
         MaterialTable::try_from(table).and_then(|material| check_material(&material))
     }

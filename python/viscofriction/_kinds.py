@@ -1,4 +1,4 @@
-"""Bodies, materials, interfaces and heat with the keys of a scene, in SI. `cargo xtask kinds` writes this file."""
+"""Bodies, materials, interfaces, heat and strain dependences with the keys of a scene, in SI. `cargo xtask kinds` writes this file."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass
 from typing import Literal
 
-from ._tables import Body, Heated, Interface, Material
+from ._tables import Body, Heated, Interface, Material, StrainDependence
 
 __all__ = [
     "Power",
@@ -38,6 +38,8 @@ __all__ = [
     "BellShear",
     "ShearFile",
     "Heat",
+    "KrausStrain",
+    "StrainFile",
 ]
 
 # Words of a scene.
@@ -47,6 +49,8 @@ HeightsAre = Literal["surface", "gap"]
 LengthUnit = Literal["m", "mm", "um", "nm"]
 Method = Literal["analytic", "mdr-steady", "mdr-transient", "bem-steady", "bem-transient"]
 Model = Literal["line", "half-space"]
+StrainAmplitude = Literal["single", "double"]
+StrainDeformation = Literal["tension", "shear"]
 StrokeShape = Literal["sinusoidal", "triangular"]
 
 
@@ -537,3 +541,37 @@ class Heat(Heated):
     duration: float | None = None
     heat_capacity: float | None = None
     _kind = ""
+
+
+@dataclass(frozen=True)
+class KrausStrain(StrainDependence):
+    """The form of Kraus (1984), f = r + (1 − r)/(1 + x²) and g = 1 + 2 (p − 1) x/(1 + x²) with x = (ε/ε_c)^m.
+
+    ``critical_strain``: Strain ε_c > 0 of the largest loss modulus.
+    ``storage_ratio``: Storage modulus at large strains over that at small ones, 0 < r ≤ 1.
+    ``exponent``: Exponent m > 0; without it 0.6, that of carbon black.
+    ``loss_peak_ratio``: Largest loss modulus over that at small strains, p ≥ 1; without it 1.
+    """
+
+    critical_strain: float
+    storage_ratio: float
+    _: KW_ONLY
+    exponent: float = 0.6
+    loss_peak_ratio: float = 1.0
+    _kind = "kraus"
+
+
+@dataclass(frozen=True)
+class StrainFile(StrainDependence):
+    """A measured strain sweep, interpolated on logarithmic scales; beyond its last strain the factors stay as they are, with a warning.
+
+    ``file``: A CSV file beside the scene file: strain with storage_factor and loss_factor, or a strain sweep as instruments export it.
+    ``amplitude``: Whether strains are half the distance from peak to peak, or the whole.
+    ``deformation``: What the strains of the file are; without it what the names of its moduli say.
+    """
+
+    file: str | os.PathLike[str]
+    _: KW_ONLY
+    amplitude: Literal["single", "double"] = "single"
+    deformation: Literal["tension", "shear"] | None = None
+    _kind = "table"

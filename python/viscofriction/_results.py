@@ -93,6 +93,14 @@ class Answer(Compared):
         effective_temperature_error: Values | None
         temperature_model_spread: Values | None
         temperature_model_spread_error: Values | None
+        strain: Values | None
+        strain_error: Values | None
+        storage_factor: Values | None
+        storage_factor_error: Values | None
+        loss_factor: Values | None
+        loss_factor_error: Values | None
+        linear_friction_coefficient: Values | None
+        linear_friction_coefficient_error: Values | None
 
     def __init__(self, found: dict[str, Any], loads: dict[str, NDArray[np.float64]], shape: tuple[int, ...]) -> None:
         self._columns: dict[str, NDArray[np.float64]] = found["columns"]

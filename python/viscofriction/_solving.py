@@ -17,7 +17,7 @@ from ._arrays import numbers, text_of, together
 from ._bodies import HeightMap
 from ._kinds import Elastic, Method, Model, StrokeShape
 from ._results import Answer, not_reached
-from ._tables import Body, Heated, Interface, Material, Table
+from ._tables import Body, Heated, Interface, Material, StrainDependence, Table
 
 if TYPE_CHECKING:
     from ._results import MovingAnswer, SlidingAnswer
@@ -44,6 +44,7 @@ def slide(
     thickness: ArrayLike | None = None,
     interface: Interface | None = None,
     heat: Heated | None = None,
+    strain: StrainDependence | None = None,
     model: Model | None = None,
     method: Method | None = None,
     relative_error: float | None = None,
@@ -60,10 +61,10 @@ def slide(
     of a layer. ``model="line"`` asks for the one-dimensional model, ``method`` for one of the program's methods. A ``track`` [m] is
     the length after which the body comes back to the same place. With an ``interface`` the friction is the sum of hysteresis and
     shear in the contact; with ``heat`` the temperature of the contact is computed, and material and shear strength are those at
-    this temperature, by the material's ``shift`` law. ``relative_error`` is asked of the friction coefficient, 1e-3 unless given;
-    ``elements`` is a fixed resolution in its place. With ``sensitivity`` the answer has its derivatives by all numbers of the
+    this temperature, by the material's ``shift`` law; with ``strain`` the moduli are those at the strain of the contact.
+    ``relative_error`` is asked of the friction coefficient, 1e-3 unless given, with ``strain`` 1e-2; ``elements`` is a fixed resolution in its place. With ``sensitivity`` the answer has its derivatives by all numbers of the
     scene, too, and with ``spectral_sensitivity`` those by the storage and the loss modulus at each frequency; a ``HeightMap`` has no
-    such numbers, and with ``heat`` there are no derivatives. ``progress`` is called with how many loads are done and how many there
+    such numbers, and with ``heat`` or ``strain`` there are no derivatives. ``progress`` is called with how many loads are done and how many there
     are; True shows a bar of tqdm.
 
     Raises ValueError for wrong input and NotReached where there is no answer.
@@ -83,7 +84,7 @@ def slide(
         model=model, method=method, relative_error=relative_error, elements=elements, threads=threads
     )
     derivatives = {"sensitivity": sensitivity, "spectral_sensitivity": spectral_sensitivity}
-    return cast("SlidingAnswer", _solved(body, material, loads, options, progress, derivatives, {"interface": interface, "heat": heat}))
+    return cast("SlidingAnswer", _solved(body, material, loads, options, progress, derivatives, {"interface": interface, "heat": heat, "strain": strain}))
 
 
 def move(
@@ -168,7 +169,7 @@ def solve(
 ) -> Answer:
     """The answer to a scene: a scene file, or the same as a dictionary.
 
-    In a dictionary bodies, materials, interfaces and heat may stand in the place of their tables:
+    In a dictionary bodies, materials, interfaces, heat and strain dependences may stand in the place of their tables:
     ``{"indenter": Sphere(5e-3), "material": Viscous(1e4), "load": {"normal_force": 1.0, "velocity": 0.01}}``.
     With ``sensitivity`` the answer has its derivatives by all numbers of the scene, too, and with ``spectral_sensitivity`` those
     by the storage and the loss modulus at each frequency.
@@ -238,10 +239,11 @@ def read(scene: Scene) -> tuple[dict[str, Any], str, Any]:
         "material": (Material, "a Material"),
         "interface": (Interface, "a ConstantShear, BellShear or ShearFile"),
         "heat": (Heated, "a Heat"),
+        "strain": (StrainDependence, "a KrausStrain or StrainFile"),
     }
     for key, (kind, needed) in families.items():
         value = table.get(key)
-        if key in ("interface", "heat") and value is None:
+        if key in ("interface", "heat", "strain") and value is None:
             table.pop(key, None)
             continue
         if isinstance(value, kind):

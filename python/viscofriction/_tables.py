@@ -1,4 +1,4 @@
-"""Bodies, materials, interfaces and heat as tables of a scene."""
+"""Bodies, materials, interfaces, heat and strain dependences as tables of a scene."""
 
 from __future__ import annotations
 
@@ -60,6 +60,12 @@ class Heated(Table):
     """Heat of sliding, by which the temperature of the contact is computed."""
 
     _family = "heat"
+
+
+class StrainDependence(Table):
+    """Factors of the moduli over the strain amplitude, which are those at the strain of the contact."""
+
+    _family = "strain"
 
 
 class Material(Table):

@@ -1,4 +1,4 @@
-//! The files that list all bodies, materials, interfaces and heat, written from the schema of the scene: the schema itself, the tables of keys
+//! The files that list all bodies, materials, interfaces, heat and strain dependences, written from the schema of the scene: the schema itself, the tables of keys
 //! on pages of `docs/`, and the Python classes.
 
 use std::fs;
@@ -11,7 +11,7 @@ use crate::ci::workspace_root;
 
 /// Definition and kind of a scene, and its class in Python, where the class is not the kind in camel case: those that read a file, and
 /// those whose kind does not say what they are.
-const CLASS_NAMES: [(&str, &str, &str); 7] = [
+const CLASS_NAMES: [(&str, &str, &str); 9] = [
     ("Indenter", "table", "ProfileFile"),
     ("Indenter", "height-map", "HeightMapFile"),
     ("MaterialTable", "file", "MaterialFile"),
@@ -19,29 +19,34 @@ const CLASS_NAMES: [(&str, &str, &str); 7] = [
     ("Interface", "bell", "BellShear"),
     ("Interface", "table", "ShearFile"),
     ("Heat", "", "Heat"),
+    ("Strain", "kraus", "KrausStrain"),
+    ("Strain", "table", "StrainFile"),
 ];
 /// Definitions of the schema whose kinds are classes in Python, with the class that these are derived from.
-const FAMILIES: [(&str, &str); 4] = [
+const FAMILIES: [(&str, &str); 5] = [
     ("Indenter", "Body"),
     ("MaterialTable", "Material"),
     ("Interface", "Interface"),
     ("Heat", "Heated"),
+    ("Strain", "StrainDependence"),
 ];
 /// The material whose class is not generated but written by hand, in `_materials.py`: its constructor takes branches.
 const BY_HAND: &str = "prony";
 /// Sets of words in a scene that are also types of arguments of Python functions.
-const CHOICES: [&str; 7] = [
+const CHOICES: [&str; 9] = [
     "Edges",
     "EnergyUnit",
     "HeightsAre",
     "LengthUnit",
     "Method",
     "Model",
+    "StrainAmplitude",
+    "StrainDeformation",
     "StrokeShape",
 ];
 /// Begin of `_kinds.py`; `NAMES` is replaced by the quoted names of all classes, `CHOICES` by definitions of types.
 const HEAD: &str = "\
-\"\"\"Bodies, materials, interfaces and heat with the keys of a scene, in SI. `cargo xtask kinds` writes this file.\"\"\"
+\"\"\"Bodies, materials, interfaces, heat and strain dependences with the keys of a scene, in SI. `cargo xtask kinds` writes this file.\"\"\"
 
 from __future__ import annotations
 
@@ -50,7 +55,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass
 from typing import Literal
 
-from ._tables import Body, Heated, Interface, Material
+from ._tables import Body, Heated, Interface, Material, StrainDependence
 
 __all__ = [
     NAMES,

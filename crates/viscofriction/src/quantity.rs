@@ -5,6 +5,7 @@
 use numerics::Estimate;
 use serde::ser::SerializeMap;
 
+use crate::solve::LINEAR_FRICTION;
 use crate::solve::{Answer, AnswerChange, Coarse, relative_change};
 
 /// A physical quantity of an answer.
@@ -105,7 +106,7 @@ macro_rules! stored {
 }
 
 /// All quantities, in the order of the output.
-pub static QUANTITIES: [Quantity; 18] = [
+pub static QUANTITIES: [Quantity; 22] = [
     Quantity {
         symbol: "μ",
         is_dissipative: true,
@@ -207,6 +208,15 @@ pub static QUANTITIES: [Quantity; 18] = [
         ..stored!(effective_temperature, Unit::of_any("°C"))
     },
     stored!(temperature_model_spread, Unit::NUMBER),
+    Quantity {
+        symbol: "ε",
+        ..stored!(strain, Unit::NUMBER)
+    },
+    stored!(storage_factor, Unit::NUMBER),
+    stored!(loss_factor, Unit::NUMBER),
+    computed(LINEAR_FRICTION, Unit::NUMBER, |answer| {
+        answer.linear.as_ref()?.friction_coefficient
+    }),
 ];
 
 impl Quantity {

@@ -210,6 +210,9 @@ fn check_scene(scene: &Scene) -> Result<(), SceneError> {
     if scene.heat.is_some() {
         return Err(SceneError::at("heat", WITHOUT_HEAT));
     }
+    if scene.strain.is_some() {
+        return Err(SceneError::at("strain", WITHOUT_STRAIN));
+    }
     let load = &scene.load;
     let moves = [
         ("stroke", load.stroke.is_some()),
@@ -231,6 +234,8 @@ const ENDLESS_SURFACE: &str = "moduli are not fitted to the friction of a rough 
 /// Message if the scene has heat, which the model of the fit does not contain.
 const WITHOUT_HEAT: &str = "the fit takes the temperatures of the table as those of the material in the contact; give measurements at \
      speeds at which it is not heated, and leave [heat] out";
+/// Message if the scene has strain dependence, by which moduli would not be free.
+const WITHOUT_STRAIN: &str = "the fit takes moduli that do not depend on the strain; leave [strain] out, and compare by `viscofriction sweep`";
 /// Message if the scene has a motion or a history instead of sliding at constant speed.
 const STEADY_SLIDING: &str = "friction is fitted at constant speeds, which are those of the table; leave this out, and give normal_force \
      without a motion";

@@ -6,13 +6,16 @@ use csv::{ErrorKind, ReaderBuilder, StringRecord, Trim};
 use encoding_rs::UTF_8;
 use indenters::rough::TabulatedSpectrum;
 use indenters::{IndenterError, PiecewiseLinearProfile};
+#[cfg(feature = "fit")]
+use measurements::strain::{StrainSweepOptions, strain_sweep};
 use numerics::{InvalidParameter, MessageNumber, in_range, not_negative, positive};
-use rheology::{RheologyError, ShearStrength, ShearStrengthPoint};
+use rheology::{RheologyError, ShearStrength, ShearStrengthPoint, StrainDependence};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
 use super::interface::ShearLaw;
 use super::load::{LoadPoint, MotionPoint};
+use super::strain::{StrainAmplitude, StrainDeformation};
 use crate::text::{RecordLines, line_of};
 
 /// A row of the profile of a body of revolution, \[m].
@@ -125,6 +128,39 @@ pub(super) fn shear_strengths(file: &Path, contents: &[u8]) -> Result<ShearLaw, 
         strength,
         uncertain_rows: uncertain.filter(|_| has_errors).collect(),
     })
+}
+
+/// Factors of the moduli over the strain amplitude from the contents of a CSV file; the error is a message with file and line.
+#[cfg(feature = "fit")]
+pub(super) fn strain_dependence(
+    file: &Path,
+    contents: &[u8],
+    deformation: Option<StrainDeformation>,
+    amplitude: StrainAmplitude,
+) -> Result<StrainDependence, String> {
+    use measurements::moduli::Deformation;
+    let options = StrainSweepOptions {
+        deformation: deformation.map(|deformation| match deformation {
+            StrainDeformation::Tension => Deformation::Tension,
+            StrainDeformation::Shear => Deformation::Shear,
+        }),
+        is_double: amplitude == StrainAmplitude::Double,
+    };
+    strain_sweep(file, contents, &options).map_err(|error| error.to_string())
+}
+
+/// Without the readers of measured tables no strain sweep is read.
+#[cfg(not(feature = "fit"))]
+pub(super) fn strain_dependence(
+    file: &Path,
+    _: &[u8],
+    _: Option<StrainDeformation>,
+    _: StrainAmplitude,
+) -> Result<StrainDependence, String> {
+    let file = file.display();
+    Err(format!(
+        "{file}: this build reads no measured tables; the feature fit of viscofriction does"
+    ))
 }
 
 /// A row of a load history: time \[s], and force \[N] or depth \[m].

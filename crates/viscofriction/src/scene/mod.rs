@@ -16,6 +16,7 @@ mod motion;
 mod schema;
 mod solve;
 mod source;
+mod strain;
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -44,6 +45,7 @@ pub use schema::{Key, Kind, json_schema, keys, kinds, number, resolved, schema, 
 pub use solve::{Method, Model, Solve};
 pub use source::Source;
 pub(crate) use source::{PATH_KEYS, quoted, scene_file, split_index};
+pub use strain::{Strain, StrainAmplitude, StrainDeformation};
 
 use crate::text::WrongInput;
 
@@ -72,6 +74,9 @@ pub struct Scene {
     /// Heat of sliding; without it the elastomer has the same temperature everywhere.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub heat: Option<Heat>,
+    /// Factors of the moduli over the strain; without it the moduli are those of small strains.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub strain: Option<Strain>,
     /// How the body is pressed and moved.
     pub load: Load,
     /// What is asked, and how well.
@@ -92,6 +97,7 @@ impl Scene {
             layer: None,
             interface: None,
             heat: None,
+            strain: None,
             load,
             solve: Solve::default(),
             uncertainty: BTreeMap::new(),

@@ -17,7 +17,7 @@ pub struct Solve {
     /// What the elastomer is; without it the half space, or the one-dimensional model of the method.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub model: Option<Model>,
-    /// Relative error of the friction coefficient, or of the depth where nothing slides, above 0 and at most 0.1; without it 1e-3.
+    /// Relative error of the friction coefficient, or of the depth where nothing slides, above 0 and at most 0.1; without it 1e-3, with strain 1e-2.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub relative_error: Option<f64>,
     /// Number of elements along the contact, or along the longer edge of a period in elements, from 8 to 100000, instead of a
@@ -94,6 +94,9 @@ const MAX_BYTES: f64 = (1_u64 << 53) as f64;
 /// Relative error of the requested quantity if the scene gives neither error nor elements (chosen; below the error of measured
 /// moduli).
 const DEFAULT_RELATIVE_ERROR: f64 = 1e-3;
+/// Relative error of a scene with strain dependence that states none. Chosen: the strain of a contact takes long to be known to better
+/// than 1 %, and measured factors are hardly better.
+const DEFAULT_ERROR_WITH_STRAIN: f64 = 1e-2;
 
 impl Method {
     /// Name of the method in a scene file.
@@ -112,8 +115,9 @@ impl Method {
 }
 
 impl Solve {
-    /// The accuracy that the scene requests, validated: relative error or number of elements.
-    pub(crate) fn accuracy(&self) -> Result<Accuracy, SceneError> {
+    /// The accuracy that the scene requests, validated: relative error or number of elements. Without either it depends on whether the
+    /// moduli depend on the strain.
+    pub(crate) fn accuracy(&self, has_strain: bool) -> Result<Accuracy, SceneError> {
         match (self.relative_error, self.elements) {
             (Some(_), Some(_)) => Err(SceneError::at(
                 "solve.elements",
@@ -126,7 +130,12 @@ impl Solve {
                 Ok(Accuracy::Elements(elements))
             }
             (given, None) => {
-                let value = given.unwrap_or(DEFAULT_RELATIVE_ERROR);
+                let default = if has_strain {
+                    DEFAULT_ERROR_WITH_STRAIN
+                } else {
+                    DEFAULT_RELATIVE_ERROR
+                };
+                let value = given.unwrap_or(default);
                 let holds = value > 0.0 && value <= 0.1;
                 let allowed = "greater than 0 and at most 0.1";
                 let value = in_range("solve.relative_error", value, holds, allowed)?;

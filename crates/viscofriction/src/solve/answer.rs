@@ -71,6 +71,14 @@ pub struct Answer {
     /// Largest change of the friction coefficient if material and shear strength have the temperature of the surroundings or the largest
     /// one in the contact; `None` without an effective temperature, and if these temperatures are outside the range of the laws.
     pub temperature_model_spread: Option<Estimate>,
+    /// Amplitude of the equivalent strain, weighted with the dissipated power, at which the moduli are; `None` without strain dependence.
+    pub strain: Option<Estimate>,
+    /// Factor of the storage modulus at this strain.
+    pub storage_factor: Option<Estimate>,
+    /// Factor of the loss modulus at this strain.
+    pub loss_factor: Option<Estimate>,
+    /// The answer with the moduli of small strains; `None` without strain dependence.
+    pub linear: Option<Box<Self>>,
     /// Persson's theory for the same waves; `None` unless the state is stationary sliding on a half space without a fitted series.
     pub persson: Option<Persson>,
     /// Answer without the shortest octave of a periodic surface; `None` for transients, and if no wave remains.
@@ -245,6 +253,10 @@ impl Answer {
             dissipation_weighted_rise: None,
             effective_temperature: None,
             temperature_model_spread: None,
+            strain: None,
+            storage_factor: None,
+            loss_factor: None,
+            linear: None,
             persson: None,
             without_shortest_octave: None,
             contact_box: None,
@@ -429,13 +441,17 @@ impl Serialize for Answer {
         map.serialize_entry("method", &self.method)?;
         map.serialize_entry("model", &self.model)?;
         let is_rise = |quantity: &Quantity| quantity.key.ends_with(TEMPERATURE_RISE);
+        let is_linear = |quantity: &Quantity| quantity.key == LINEAR_FRICTION;
         let known = |quantity: &Quantity, of_rises: bool| {
-            (quantity.of)(self).filter(|_| is_rise(quantity) == of_rises)
+            (quantity.of)(self).filter(|_| is_rise(quantity) == of_rises && !is_linear(quantity))
         };
         ByQuantity::new(|quantity| known(quantity, false)).serialize_into(&mut map)?;
         let rises = ByQuantity::new(|quantity| known(quantity, true));
         if !rises.is_empty() {
             map.serialize_entry("temperature_rise", &TemperatureRises(rises))?;
+        }
+        if let Some(linear) = &self.linear {
+            map.serialize_entry("linear", &Numbers(linear))?;
         }
         for (key, error) in self.budget.material().iter() {
             map.serialize_entry(&format!("{key}_material_error"), &error)?;
@@ -471,6 +487,20 @@ impl Serialize for Answer {
         map.serialize_entry("warnings", &self.warnings)?;
         map.serialize_entry("not_modelled", &self.not_modelled)?;
         map.serialize_entry("left_out", &self.left_out)?;
+        map.end()
+    }
+}
+
+/// Key of the friction coefficient with the moduli of small strains; in JSON it is in the object `linear`.
+pub(crate) const LINEAR_FRICTION: &str = "linear_friction_coefficient";
+
+/// All quantities of an answer in JSON, without its parts, warnings and fields.
+struct Numbers<'a>(&'a Answer);
+
+impl Serialize for Numbers<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        ByQuantity::new(|quantity| (quantity.of)(self.0)).serialize_into(&mut map)?;
         map.end()
     }
 }

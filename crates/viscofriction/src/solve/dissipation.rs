@@ -2,7 +2,7 @@
 
 use bem_halfspace::line_spectrum;
 use friction_analytic::{ElasticContact, slow_sliding_spectrum};
-use rheology::{OutsideWindow, StressBand};
+use rheology::{OutsideWindow, StationaryCreep, StressBand};
 use serde::ser::{Serialize, Serializer};
 
 use super::answer::Answer;
@@ -78,10 +78,12 @@ fn outside_window(problem: &Problem, answer: &Answer) -> Option<OutsideWindow> {
         return None;
     }
     let velocity = load.velocity();
-    let creep = problem.material().creep();
+    let creep = StationaryCreep::new(problem.material(), problem.modulus_factors()).ok()?;
     if answer.model == Model::Line {
         // Every element of the Winkler foundation has the same compliance, whatever the wavelength.
-        let bands = creep.bands_along(&answer.fields.line_load, velocity, |_| 1.0);
+        let bands = creep
+            .retarded()
+            .bands_along(&answer.fields.line_load, velocity, |_| 1.0);
         return creep.outside_window(window, bands);
     }
     creep.outside_window(window, stress_spectrum(problem, answer, velocity)?)

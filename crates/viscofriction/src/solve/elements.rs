@@ -218,7 +218,8 @@ pub fn persson(problem: &Problem) -> Result<Option<PerssonSliding>> {
     else {
         return Ok(None);
     };
-    if problem.thickness().is_finite() || problem.expansion().is_some() {
+    let is_nonlinear = problem.strain_dependence().is_some();
+    if problem.thickness().is_finite() || problem.expansion().is_some() || is_nonlinear {
         return Ok(None);
     }
     let wave = |wave: &Wave| SurfaceWave {

@@ -99,6 +99,30 @@ pub enum SolveError {
         /// Temperature of material and shear strength, \[°C].
         temperature: Estimate,
     },
+    /// The friction at the strain of the contact does not have the requested error.
+    #[error(
+        "the friction coefficient was not reached to the relative error {}: it is {friction} at the strain amplitude {strain}, whose \
+         error is a part of it; give another solve.relative_error, or solve.elements",
+        MessageNumber(*asked)
+    )]
+    StrainNotReached {
+        /// Relative error asked for.
+        asked: f64,
+        /// Friction coefficient.
+        friction: Estimate,
+        /// Amplitude of the equivalent strain.
+        strain: Estimate,
+    },
+    /// No strain was found at which the contact has the same strain.
+    #[error(
+        "no strain amplitude of the contact was found that the moduli at this strain cause; it is between {smallest:.3e} and {largest:.3e}"
+    )]
+    NoContactStrain {
+        /// Largest tried strain at which the contact is strained more.
+        smallest: f64,
+        /// Smallest tried strain at which it is strained less.
+        largest: f64,
+    },
     /// The contact is heated beyond the highest temperature at which material and shear strength are known.
     #[error(
         "the contact is heated from {} °C beyond {} °C, the highest temperature at which material and shear strength are known{}: there \
@@ -127,12 +151,12 @@ pub enum SolveError {
         /// Lowest tried temperature at which it heats the contact less, \[°C].
         hottest: f64,
     },
-    /// The pressure in the contact, which the heat follows, is not known.
+    /// The pressure in the contact, from which heat and strain below it follow, is not known.
     #[error(
-        "{} does not give the pressure in the contact, which heats it; bem-steady does",
+        "{} does not give the pressure in the contact, from which heat and strain below it follow; bem-steady does",
         method.name()
     )]
-    NoPressureForHeat {
+    NoPressureBelow {
         /// The method of the answer.
         method: Method,
     },

@@ -13,7 +13,7 @@ use rheology::KELVIN_AT_ZERO_CELSIUS;
 use super::answer::Answer;
 use super::body::Body;
 use super::error::{Result, SolveError};
-use super::half_space::HalfSpace;
+use super::half_space::{HalfSpace, Simple};
 use super::problem::{Motion, Problem};
 use crate::scene::{MaterialTable, Model, Scene, SceneError};
 
@@ -84,44 +84,11 @@ impl Problem {
         let Some(heating) = self.heating() else {
             return Ok(());
         };
+        self.check_stationary_half_space("heat")?;
         let refused = |key: &str, problem: &str| Err(SceneError::at(key, problem));
         let Motion::Sliding(load) = self.motion() else {
-            return refused(
-                "heat",
-                "the temperature is that of a body that slides at a constant load.velocity, and this one does not; leave it out",
-            );
+            return Ok(());
         };
-        if self.model() == Model::Line {
-            return refused(
-                "heat",
-                "the scene asks for the one-dimensional model, which does not know the pressure in the contact that heats it; boundary \
-                 elements do",
-            );
-        }
-        if load.sliding_distance().is_some() {
-            return refused(
-                "heat",
-                "the temperature is that of the stationary state; leave out solve.duration and solve.sliding_distance",
-            );
-        }
-        if load.track().is_some() {
-            return refused(
-                "heat",
-                "the heat of earlier passes over the same place is not computed; leave load.track out",
-            );
-        }
-        if self.thickness().is_finite() {
-            return refused(
-                "heat",
-                "the flow of heat from a layer into its base is not computed; leave the layer out",
-            );
-        }
-        if self.material().poisson_ratio() < 0.5 {
-            return refused(
-                "heat",
-                "where the power is dissipated below the surface is known for an incompressible material; give poisson_ratio = 0.5",
-            );
-        }
         if let (Body::Periodic(surface), Some(duration)) = (self.body(), heating.duration) {
             let period = surface.period()[0];
             let distance = load.velocity() * duration;
@@ -148,15 +115,75 @@ impl Problem {
         }
     }
 
-    /// Adds the temperature to which the friction of an answer heats the contact.
-    pub(super) fn with_temperature_rise(&self, answer: Answer) -> Result<Answer> {
-        let (Some(heating), Motion::Sliding(load)) = (self.heating(), self.motion()) else {
+    /// Rejects strain dependence where the strain of the contact is not computed: without stationary sliding, on a layer or a track, in the
+    /// one-dimensional model, and for a material that does not dissipate or flows.
+    pub(super) fn check_strain(&self) -> Result<(), SceneError> {
+        if self.strain_dependence().is_none() {
+            return Ok(());
+        }
+        self.check_stationary_half_space("strain")?;
+        let refused = |problem: &str| Err(SceneError::at("strain", problem));
+        if self.simple() == Some(&Simple::Elastic) {
+            return refused(
+                "its strain is weighted with the power that the material dissipates, and an elastic one dissipates none; leave it out",
+            );
+        }
+        if self.material().creep().fluidity() > 0.0 {
+            return refused(
+                "a material that flows is strained without limit; give it an equilibrium modulus",
+            );
+        }
+        Ok(())
+    }
+
+    /// Rejects the table `key` unless the scene is stationary sliding on an incompressible half space, not on a track.
+    fn check_stationary_half_space(&self, key: &str) -> Result<(), SceneError> {
+        let refused = |problem: &str| Err(SceneError::at(key, problem));
+        let Motion::Sliding(load) = self.motion() else {
+            return refused(
+                "it needs a body that slides at a constant load.velocity, and this one does not; leave it out",
+            );
+        };
+        if self.model() == Model::Line {
+            return refused(
+                "the scene asks for the one-dimensional model, which does not know the pressure in the contact; boundary elements do",
+            );
+        }
+        if load.sliding_distance().is_some() {
+            return refused(
+                "it is computed for the stationary state; leave out solve.duration and solve.sliding_distance",
+            );
+        }
+        if load.track().is_some() {
+            return refused(
+                "earlier passes over the same place are not computed with it; leave load.track out",
+            );
+        }
+        if self.thickness().is_finite() {
+            return refused(
+                "what happens below the surface is computed on the half space, not in a layer; leave the layer out",
+            );
+        }
+        if self.material().poisson_ratio() < 0.5 {
+            return refused(
+                "what happens below the surface is known for an incompressible material; give poisson_ratio = 0.5",
+            );
+        }
+        Ok(())
+    }
+
+    /// Adds the strain of the contact, and the temperature to which its friction heats it, to an answer.
+    pub(super) fn with_bulk(&self, answer: Answer) -> Result<Answer> {
+        let Motion::Sliding(load) = self.motion() else {
             return Ok(answer);
         };
+        if self.heating().is_none() && self.strain_dependence().is_none() {
+            return Ok(answer);
+        }
         let velocity = load.velocity();
         let Some(pressure) = pressure_field(&answer)? else {
             let method = answer.method;
-            return Err(SolveError::NoPressureForHeat { method });
+            return Err(SolveError::NoPressureBelow { method });
         };
         let power_of = |friction: Option<Estimate>| {
             friction.unwrap_or(Estimate::exact(0.0)) * (answer.normal_force.value * velocity)
@@ -166,16 +193,27 @@ impl Problem {
         let contact = SlidingContact {
             pressure: &pressure,
             material: self.material(),
+            factors: self.modulus_factors(),
             velocity,
             shear_power: shear.value * area.correction,
             bulk_power: bulk.value,
         };
+        let duration = self.heating().and_then(|heating| heating.duration);
         let kind = match self.body() {
             Body::Periodic(_) => ContactKind::Period {
-                duration: heating.duration.unwrap_or_default(),
+                duration: duration.unwrap_or_default(),
             },
             Body::Cylinder(_) => ContactKind::Line,
             Body::Revolution(_) | Body::HeightMap(_) => ContactKind::Body,
+        };
+        let mut answer = answer;
+        if self.strain_dependence().is_some() {
+            let found = contact.strain_amplitude(kind);
+            let found = found.map_err(|error| SceneError::at("strain", error.to_string()))?;
+            answer.strain = Some(found);
+        }
+        let Some(heating) = self.heating() else {
+            return Ok(answer);
         };
         let found = contact.temperature(&heating.conductor, heating.counterface, kind);
         let found = found.map_err(|error| SceneError::at("heat", error.to_string()))?;
@@ -187,12 +225,9 @@ impl Problem {
             0.0
         };
         let widened = |rise: Estimate| rise.widened(relative_error * rise.value.abs());
-        let mut answer = Answer {
-            largest_temperature_rise: Some(widened(found.largest)),
-            mean_temperature_rise: Some(widened(found.mean)),
-            dissipation_weighted_rise: Some(widened(found.flux_weighted_mean)),
-            ..answer
-        };
+        answer.largest_temperature_rise = Some(widened(found.largest));
+        answer.mean_temperature_rise = Some(widened(found.mean));
+        answer.dissipation_weighted_rise = Some(widened(found.flux_weighted_mean));
         answer.fields.temperature = Some(TemperatureField {
             grid: found.grid,
             origin: pressure.origin,

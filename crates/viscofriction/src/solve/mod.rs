@@ -4,6 +4,7 @@ mod advice;
 mod analytic;
 mod answer;
 pub(crate) mod body;
+mod contact_strain;
 mod contact_temperature;
 mod curve;
 mod cut_off;
@@ -11,6 +12,7 @@ mod dissipation;
 mod elements;
 mod error;
 mod expansion;
+mod fixed_point;
 pub(crate) mod half_space;
 mod heat;
 mod heights;
@@ -33,6 +35,7 @@ mod warning;
 mod with_fields;
 pub(crate) mod work;
 
+pub(crate) use answer::LINEAR_FRICTION;
 pub use answer::{Answer, ContactBox, Fields, HistoryRow, Persson};
 pub use body::{Body, BodyOfScene, Revolution, body};
 pub use curve::{Curve, CurveColumn};
@@ -90,10 +93,10 @@ impl Plan<'_> {
         realisations::mean(problem, |watch| self.solve_one(watch), watch)
     }
 
-    /// Solves for the body of the problem, of random surfaces the first, at the temperature of the contact and as finely as the sum
+    /// Solves for the body of the problem, of random surfaces the first, at temperature and strain of the contact and as finely as the sum
     /// of hysteresis and shear needs.
     fn solve_one(self, watch: &dyn Progress) -> Result<Answer> {
-        contact_temperature::solve(self, watch)
+        contact_strain::beside_linear(self, watch)
     }
 
     /// Solves once for the body of the problem, of random surfaces the first. Refuses a first grid that exceeds the memory limit.
@@ -153,7 +156,7 @@ impl Found {
             .finite()
             .and_then(|answer| answer.physical(problem))
             .and_then(|answer| problem.with_shear(answer))
-            .and_then(|answer| problem.with_temperature_rise(answer))
+            .and_then(|answer| problem.with_bulk(answer))
             .and_then(Answer::finite)
             .map(|answer| Answer {
                 warnings: warnings(problem, &answer),

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use bem_halfspace::{BemError, Layer};
 use indenters::{Control, HistoryPoint, IndenterError, MovingLoad, PressingLoad, SlidingLoad};
 use numerics::positive;
-use rheology::{Material, RheologyError};
+use rheology::{Material, ModulusFactors, RheologyError, StrainDependence};
 
 use super::body::{Body, BodyOfScene, body};
 use super::error::SolveError;
@@ -41,6 +41,10 @@ pub struct Problem {
     shear: Option<Shear>,
     /// Heat of sliding; `None` if the temperature is not computed.
     heating: Option<Heating>,
+    /// Factors of the moduli over the strain; `None` for the moduli of small strains.
+    strain: Option<StrainDependence>,
+    /// Factors of the moduli at one strain.
+    factors: ModulusFactors,
     accuracy: Accuracy,
     method: Option<Method>,
     model: Model,
@@ -143,6 +147,7 @@ impl Problem {
             Some(layer) => positive("layer.thickness", layer.thickness)?,
             None => f64::INFINITY,
         };
+        let strain = scene.strain.as_ref().map(|table| table.law(&files));
         let law = scene.interface.as_ref().map(|table| table.law(&files));
         let heating = Heating::of(scene, &parts.half_space)?;
         let ambient = heating.as_ref().and_then(|heating| heating.ambient);
@@ -165,7 +170,9 @@ impl Problem {
             motion,
             shear,
             heating,
-            accuracy: scene.solve.accuracy()?,
+            strain: strain.transpose()?,
+            factors: ModulusFactors::NONE,
+            accuracy: scene.solve.accuracy(scene.strain.is_some())?,
             method: scene.solve.method,
             model: scene.solve.model.or(of_method).unwrap_or(Model::HalfSpace),
             threads: scene.solve.checked_threads()?,
@@ -185,6 +192,7 @@ impl Problem {
         problem.check_layer()?;
         problem.check_interface()?;
         problem.check_heat()?;
+        problem.check_strain()?;
         check_uncertainties(scene, folder, read)?;
         Ok(problem)
     }
@@ -322,6 +330,32 @@ impl Problem {
         self.heating.as_ref()
     }
 
+    /// Factors of the moduli over the strain; `None` for the moduli of small strains.
+    pub(super) const fn strain_dependence(&self) -> Option<&StrainDependence> {
+        self.strain.as_ref()
+    }
+
+    /// Factors of the moduli.
+    pub(super) const fn modulus_factors(&self) -> ModulusFactors {
+        self.factors
+    }
+
+    /// The problem whose moduli have factors.
+    pub(super) fn with_modulus_factors(&self, factors: ModulusFactors) -> Self {
+        Self {
+            factors,
+            ..self.clone()
+        }
+    }
+
+    /// The problem with the moduli of small strains.
+    pub(super) fn at_small_strains(&self) -> Self {
+        Self {
+            strain: None,
+            ..self.clone()
+        }
+    }
+
     /// True if the answer depends on the temperature: the material has a shift law, or the shear strength depends on it.
     pub(super) fn depends_on_temperature(&self) -> bool {
         let depends = |shear: &Shear| shear.law.strength.depends_on_temperature();
@@ -434,7 +468,9 @@ impl Problem {
 
     /// The viscoelastic layer, or the half space if the scene has no layer.
     pub(crate) fn elastomer(&self) -> Result<Layer<'_, dyn Material>, SolveError> {
-        Ok(Layer::new(&*self.parts.half_space.material, self.thickness).map_err(BemError::from)?)
+        let layer = Layer::new(&*self.parts.half_space.material, self.thickness);
+        let layer = layer.map_err(BemError::from)?;
+        Ok(layer.with_modulus_factors(self.factors))
     }
 
     /// Rejects sliding at a given depth over a half space whose material a Prony series approximates: the force depends on

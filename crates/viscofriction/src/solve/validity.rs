@@ -110,7 +110,10 @@ pub(super) fn not_modelled(problem: &Problem) -> Vec<&'static str> {
     let is_heated = slides && (dissipates || problem.shear().is_some());
     let words = [
         ("adhesion", true),
-        ("strain dependence", dissipates),
+        (
+            "strain dependence",
+            dissipates && problem.strain_dependence().is_none(),
+        ),
         ("heating", is_heated && problem.heating().is_none()),
         ("interfacial shear", slides && problem.shear().is_none()),
     ];

@@ -56,6 +56,20 @@ pub enum Warning {
         /// Friction coefficient at the higher temperature; `None` if it is not known.
         friction_coefficient: Option<f64>,
     },
+    /// The strain of the contact is larger than those of the table of factors, whose last ones are used.
+    UnmeasuredStrain {
+        /// Amplitude of the equivalent strain.
+        strain: f64,
+        /// Largest strain of the table.
+        largest: f64,
+    },
+    /// The contact strains the material to one of two amplitudes; the answer is that of the smaller one.
+    SecondStrain {
+        /// The larger amplitude of the equivalent strain.
+        strain: f64,
+        /// Friction coefficient at the larger strain; `None` if it is not known.
+        friction_coefficient: Option<f64>,
+    },
     /// Friction comes from frequencies at which the material was not measured.
     UnmeasuredFrequencies {
         /// Fractions of the friction from frequencies below and above the measured ones.
@@ -94,6 +108,15 @@ pub enum Warning {
         /// Number of all surfaces.
         of: usize,
     },
+}
+
+/// The sentence that there is a second state, at `other`, because of `why`; its friction coefficient is left out if it is not known.
+fn second_state(why: &str, other: &str, friction_coefficient: Option<f64>) -> String {
+    let words = |friction| format!(", with the friction coefficient {friction:.1e}");
+    let friction = friction_coefficient.map(words).unwrap_or_default();
+    format!(
+        "{why}: this answer is that of the lower one, which is reached from rest; the other is about {other}{friction}"
+    )
 }
 
 impl fmt::Display for Warning {
@@ -146,15 +169,19 @@ impl fmt::Display for Warning {
                 temperature,
                 friction_coefficient,
             } => {
-                write!(
-                    out,
-                    "friction increases with temperature and keeps the contact at one of two temperatures: this answer is that of the \
-                     lower one, which is reached from rest; the other is about {temperature:.0} °C"
-                )?;
-                match friction_coefficient {
-                    Some(friction) => write!(out, ", with the friction coefficient {friction:.1e}"),
-                    None => Ok(()),
-                }
+                let why = "friction increases with temperature and keeps the contact at one of two temperatures";
+                out.write_str(&second_state(why, &format!("{temperature:.0} °C"), *friction_coefficient))
+            }
+            Self::UnmeasuredStrain { strain, largest } => write!(
+                out,
+                "the strain {strain:.2e} of the contact is above {largest:.2e}, the largest of strain.table.file, whose last factors are used"
+            ),
+            Self::SecondStrain {
+                strain,
+                friction_coefficient,
+            } => {
+                let why = "the moduli fall so steeply with strain that the contact has one of two strains";
+                out.write_str(&second_state(why, &format!("{strain:.1e}"), *friction_coefficient))
             }
             Self::UnmeasuredFrequencies {
                 outside,

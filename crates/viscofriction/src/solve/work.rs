@@ -45,8 +45,8 @@ const PRESSED_CYLINDER: Refusal = "it takes bodies that end, and a cylinder does
 /// Refusal of a shear strength by a closed form that gives friction alone.
 const NO_AREA: Refusal =
     "the table of s(p) does not give the contact area, on which the shear of the interface acts";
-/// Refusal of heat by a closed form.
-const NO_PRESSURE: Refusal = "it gives no pressure on elements, by which the heat of the contact is distributed; bem-steady does";
+/// Refusal of heat and strain by a closed form.
+const NO_PRESSURE: Refusal = "it gives no pressure on elements, from which heat and strain of the contact follow; bem-steady does";
 /// Refusal of sliding at a given depth.
 const UNDER_FORCE: Refusal = "it slides under a force, not at a depth";
 /// Refusal of a material with a range of valid frequencies.
@@ -94,7 +94,8 @@ pub(super) fn work(problem: &Problem, method: Method) -> Offer<'_> {
         return moved(problem, load, method, accuracy);
     }
     require(
-        method != Analytic || problem.heating().is_none(),
+        method != Analytic
+            || (problem.heating().is_none() && problem.strain_dependence().is_none()),
         NO_PRESSURE,
     )?;
     let rises = has_front(problem.body()) || (is_elastic && method == Analytic);

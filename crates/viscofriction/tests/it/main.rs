@@ -23,6 +23,7 @@ mod sensitivities;
 mod sensitivities_of_more_scenes;
 mod shared;
 mod shear;
+mod strain;
 mod support;
 mod sweeps_share_bodies;
 mod warnings;

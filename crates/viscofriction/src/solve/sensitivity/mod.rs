@@ -169,8 +169,12 @@ pub fn check_sensitivity(problem: &Problem, method: Method) -> std::result::Resu
     }
 }
 
-/// Rejects a problem with heat, in which every number also changes the temperature of the contact.
+/// Rejects a problem with heat or strain dependence, in which every number also changes temperature or strain of the contact.
 pub(super) fn check_isothermal(problem: &Problem) -> std::result::Result<(), SceneError> {
+    if problem.strain_dependence().is_some() {
+        let why = "derivatives are those at given moduli, and here every number changes them by the strain of the contact, too; leave [strain] out";
+        return Err(SceneError::at("strain", why));
+    }
     if problem.heating().is_none() {
         return Ok(());
     }
