@@ -73,8 +73,8 @@ impl Request {
         scene.solve.method = Some(self.method);
         scene.solve.model = Some(of_method.unwrap_or(self.model));
         if scene.solve.model == Some(Model::Line) {
-            // The one-dimensional model knows no contact area, on which shear acts, and no pressure that heats it.
-            (scene.interface, scene.heat) = (None, None);
+            // The one-dimensional model knows no contact area, on which shear acts, and no pressure that heats and strains what is below.
+            (scene.interface, scene.heat, scene.strain) = (None, None, None);
         }
         Ok(Problem::try_from(&scene)?.with_accuracy(self.accuracy))
     }

@@ -246,14 +246,18 @@ fn other_method(first: Answered, random: &mut Random) -> Option<Method> {
     (!offered.is_empty()).then(|| random.choice(&offered))
 }
 
+/// True if heat or strain below the surface is computed, which is done on fresh half spaces only.
+const fn has_bulk(scene: &Scene) -> bool {
+    scene.heat.is_some() || scene.strain.is_some()
+}
+
 /// Puts a thick layer on a rigid base in place of the half space; `None` where the surface of the body is periodic, or the
 /// scene has a layer or the one-dimensional model.
 fn thick_layer(case: &mut Case) -> Option<()> {
     let thickness = THICKNESS_OVER_CONTACT * case.contact;
     let scene = &mut case.scene;
     let is_periodic = scene.indenter.is_periodic();
-    let is_half_space =
-        scene.layer.is_none() && scene.heat.is_none() && scene.solve.model.is_none();
+    let is_half_space = scene.layer.is_none() && !has_bulk(scene) && scene.solve.model.is_none();
     scene.layer = (is_half_space && !is_periodic).then_some(Layer { thickness });
     scene.layer.map(|_| ())
 }
@@ -261,14 +265,14 @@ fn thick_layer(case: &mut Case) -> Option<()> {
 /// Closes the path of a body that slides in a stationary state into a long track; `None` for others and of periodic surfaces.
 fn long_track(case: &mut Case) -> Option<()> {
     let track = TRACK_OVER_CONTACT * case.contact;
+    let has_bulk = has_bulk(&case.scene);
     let Scene {
         indenter,
         load,
         solve,
-        heat,
         ..
     } = &mut case.scene;
-    let slides = heat.is_none() && load.velocity.is_some_and(|velocity| velocity > 0.0);
+    let slides = !has_bulk && load.velocity.is_some_and(|velocity| velocity > 0.0);
     let ends = solve.duration.or(solve.sliding_distance).or(load.track);
     let is_stationary = slides && ends.is_none() && !indenter.is_periodic();
     load.track = is_stationary.then_some(track);

@@ -35,7 +35,7 @@ pub(super) fn closed_form(scene: &Scene, request: &Request, bar: f64) -> Result<
         Method::Analytic => return Ok(None),
         _ => {}
     }
-    if file.heat.is_some() {
+    if file.heat.is_some() || file.strain.is_some() {
         return Ok(None);
     }
     if scene.is("cylinder") && scene.is("kelvin-voigt standard-solid") && !presses {

@@ -29,6 +29,7 @@ pub(super) struct Label {
     material: String,
     interface: String,
     heat: String,
+    strain: String,
     load: String,
     solve: String,
 }
@@ -59,6 +60,10 @@ impl Scene {
             },
             heat: match &file.heat {
                 Some(heat) => inline(heat)?,
+                None => String::new(),
+            },
+            strain: match &file.strain {
+                Some(strain) => inline(strain)?,
                 None => String::new(),
             },
             load: inline(&file.load)?,

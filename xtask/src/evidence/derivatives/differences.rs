@@ -191,8 +191,8 @@ impl Asked {
         let mut scene = scene.clone();
         scene.solve.method = Some(self.method);
         scene.solve.model = Some(self.model);
-        // With heat there are no derivatives.
-        scene.heat = None;
+        // With heat and strain dependence there are no derivatives.
+        (scene.heat, scene.strain) = (None, None);
         if self.model == Model::Line {
             // The one-dimensional model knows no contact area, on which shear acts.
             scene.interface = None;

@@ -8,7 +8,7 @@ use toml::{Table, Value};
 use viscofriction::Files;
 use viscofriction::scene::{
     Branch, Counterface, Edges, EnergyUnit, Heat, Interface, Key, LoadPoint, Model, MotionPoint,
-    Scene, Shift, ShiftLaw, StrokeShape, Term, VerticalLaw,
+    Scene, Shift, ShiftLaw, Strain, StrokeShape, Term, VerticalLaw,
 };
 use viscofriction::solve::{Body, body, half_space};
 
@@ -84,6 +84,17 @@ impl Sample<'_> {
             ambient_temperature: None,
             counterface: self.random.choice(&counterfaces),
             duration: Some(self.contact_time * 10_f64.powf(self.random.between([0.0, 2.0]))),
+        }
+    }
+
+    /// Strain dependence with a critical strain of about the slope of a body, whose loss modulus has a peak or falls less than the storage
+    /// modulus.
+    pub(super) fn strain(&mut self) -> Strain {
+        Strain::Kraus {
+            critical_strain: 10_f64.powf(self.random.between([-3.0, -0.5])),
+            exponent: self.random.between([0.4, 0.8]),
+            storage_ratio: self.random.between([0.2, 0.9]),
+            loss_peak_ratio: self.random.between([1.0, 2.0]),
         }
     }
 

@@ -339,6 +339,7 @@ pub(super) fn sample(random: &mut Random, source: &Source, folder: &Path) -> Res
             layer: is_thin.then_some(Layer { thickness }),
             interface: None,
             heat: None,
+            strain: None,
             load: Load::default(),
             solve: Solve::default(),
             uncertainty: BTreeMap::new(),
@@ -382,6 +383,15 @@ pub(super) fn sample(random: &mut Random, source: &Source, folder: &Path) -> Res
             case.scene.heat = None;
         }
     }
+    // Draw strain dependence in the same way.
+    let strain = sample.strain();
+    if sample.random.uniform() < STRAIN_SHARE {
+        case.scene.strain = Some(strain);
+        let has_plan = |problem: Problem| plan(&problem).is_ok();
+        if !case.problem(folder).is_ok_and(has_plan) {
+            case.scene.strain = None;
+        }
+    }
     Ok(case)
 }
 
@@ -391,6 +401,9 @@ const SHEAR_SHARE: f64 = 0.4;
 /// Part of the scenes that have heat, if it is computed for them. Chosen: many are on layers, compressible or in the one-dimensional model,
 /// which have none.
 const HEAT_SHARE: f64 = 0.7;
+
+/// Part of the scenes that have strain dependence, if it is computed for them. Chosen: such a scene is solved ten times.
+const STRAIN_SHARE: f64 = 0.3;
 
 /// Largest number of motions that are drawn for a body and a material until some method takes one. Chosen; the last one stays
 /// even if it is refused, since refusals have to be right too.
