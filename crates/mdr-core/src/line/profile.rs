@@ -22,9 +22,6 @@ const N_CHECK_POINTS: f64 = 64.0;
 /// Number of samples of the slope of a piece in the search for its turning points. Chosen above twice the nine zeros that a slope
 /// of degree nine may have; two zeros within a twelfth of half the piece may be overlooked.
 const N_SLOPE_SAMPLES: usize = 24;
-/// Ratio of the length of a piece to the shortest distance of relaxation, below which the piece acts through the heights of its
-/// ends alone. Longer pieces must also have a small tail relative to their rise. Chosen (case of `evidence tuning`).
-const SHORT_PIECE_RATIO: f64 = 0.125;
 
 /// Largest number of polynomials of a line. Chosen to limit the time: more take seconds for each trial depth, and are refused as
 /// [`MdrError::TooMuchDetail`].
@@ -278,8 +275,9 @@ impl<D: Fn(f64) -> Result<f64, MdrError>> Builder<D> {
     fn is_resolved(&self, piece: &Piece) -> Result<bool, MdrError> {
         let tolerance = self.resolution.tolerance;
         let (rise, length) = (piece.rise(), piece.segment.length);
-        // A tail relative to the rise matters for the dissipation ∫ u'² dx of branches that relax within the piece.
-        let steep = length > SHORT_PIECE_RATIO * self.resolution.shortest_length
+        // A tail relative to the rise matters for the dissipation ∫ u'² dx of branches that relax within the piece. A piece that is
+        // shorter than the shortest distance of relaxation acts through the heights of its ends alone.
+        let steep = length > self.resolution.shortest_length
             && piece.tail > tolerance * rise
             && piece.tail * rise * (self.length / length) > tolerance;
         Ok(piece.tail <= tolerance && !steep && self.agrees_with_line(piece)?)

@@ -15,9 +15,6 @@
 use super::elements::ElementStep;
 use crate::branches::{Foundation, Mode};
 
-/// Norm of the residual with which conjugate gradients end, relative to that of the right-hand side, both in the preconditioned
-/// norm. Chosen; from 1e-12 to 0.5 nothing changes (case of `evidence tuning`).
-const CG_TOLERANCE: f64 = 1e-8;
 /// Largest number of iterations of conjugate gradients. Chosen to limit the time: if they do not suffice, the last iterate is
 /// used, which only makes the step of the search less accurate.
 const MAX_CG_ITERATIONS: usize = 200;
@@ -270,7 +267,8 @@ impl<'a> CycleJacobian<'a> {
         let mut z = precondition(&r);
         let mut p = z.clone();
         let mut size = dot(&r, &z);
-        let allowed = CG_TOLERANCE * CG_TOLERANCE * dot(free, &v);
+        // It ends when the squared norm of the residual has fallen by the rounding error.
+        let allowed = f64::EPSILON * dot(free, &v);
         for _ in 0..MAX_CG_ITERATIONS {
             if size <= allowed {
                 break;

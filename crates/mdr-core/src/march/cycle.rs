@@ -21,12 +21,6 @@ const MAX_CYCLES: usize = 400;
 /// Ordinary Differential Equations I, (II.4.13), of first order and without limits on the factor. Chosen; from 0.2 to 10 nothing
 /// changes (case of `evidence tuning`).
 const TARGET_DEVIATION: f64 = 0.4;
-/// Largest number of cycles that a step covers; with it a step is the full Newton step for all but the slowest modes. Chosen;
-/// from 1e8 to 1e30 nothing changes, with 10 a slow material is refused (case of `evidence tuning`).
-const MAX_CYCLES_PER_STEP: f64 = 1e16;
-/// Factor on the change by the last step that gives a bound of the change that remains, if the step did what was expected.
-/// Chosen; from 0.01 to 2 nothing changes, with 10 a cycle takes up to 1.6 times as long (case of `evidence tuning`).
-const REMAINDER_SAFETY_FACTOR: f64 = 2.0;
 
 /// Finds the limit cycle to the tolerance of the problem, from the amplitudes of the resolution before if there is one; `None` if the
 /// contact went beyond the sampled heights.
@@ -71,9 +65,10 @@ pub(super) fn find_limit_cycle(
                 return Ok(Some(MotionRecord { n_cycles, ..record }));
             }
 
-            // Cover more cycles by the next step if this one did what was expected, fewer if not.
+            // Cover more cycles by the next step if this one did what was expected, fewer if not. A step over the reciprocal of
+            // the rounding error is the full Newton step.
             search.cycles_per_step = (TARGET_DEVIATION / deviation * search.cycles_per_step)
-                .clamp(1.0, MAX_CYCLES_PER_STEP);
+                .clamp(1.0, f64::EPSILON.recip());
         }
         search.newton_step(&contact_history);
         before = Some(record);
@@ -168,7 +163,7 @@ impl<'a> CycleSearch<'a> {
         if deviation >= 1.0 {
             return f64::INFINITY;
         }
-        REMAINDER_SAFETY_FACTOR * (deviation / (1.0 - deviation)).max(1.0) + from_uncovered_cycles
+        (deviation / (1.0 - deviation)).max(1.0) + from_uncovered_cycles
     }
 
     /// Takes the approximate Newton step from the state, and predicts the residual after it.

@@ -27,7 +27,7 @@ use std::sync::{Mutex, PoisonError};
 use indenters::{MotionRecord, MotionView, Moved, MovingLoad, RigidLine};
 use numerics::{
     Accuracy, FIRST_ELEMENTS, Goal, ITERATION_SHARE, MIN_CONVERGENCE_ORDER, Progress, Request,
-    positive, refine,
+    positive, refine, whole_part,
 };
 use rheology::Material;
 
@@ -68,9 +68,6 @@ const STEEP_KINK_ORDER: f64 = 0.5;
 /// Smallest number of elements over which a stroke goes on the resolution where a relative error is first sought. On fewer
 /// elements two resolutions may agree by chance. Chosen; from 0 to 16 no digit of an answer changes (case of `evidence tuning`).
 const MIN_ELEMENTS_PER_STROKE: f64 = 4.0;
-/// Largest number of elements along the contact on the resolution where a relative error is first sought. Chosen: it is used if
-/// fewer would give a stroke less than [`MIN_ELEMENTS_PER_STROKE`]. It has a case of `evidence tuning`.
-const MAX_FIRST_ELEMENTS: usize = 8 * FIRST_ELEMENTS;
 /// Relative tolerance of the limit cycle if a number of elements is asked for. Chosen below the discretisation error, which is of
 /// the order 1/4096, or 2e-4, on the largest number of elements along the contact.
 const CYCLE_TOLERANCE_ON_ELEMENTS: f64 = 1e-5;
@@ -228,16 +225,17 @@ impl Progress for WorkLimit<'_> {
     }
 }
 
-/// Elements along a contact of a `length` \[m] on the resolution where a relative error is first sought.
+/// Elements along a contact of a `length` \[m] on the resolution where a relative error is first sought; for a cycle they double until
+/// the stroke goes over enough of them, or the refinement may give up.
 fn first_elements(load: &MovingLoad, length: f64) -> usize {
     if !load.is_cycle() {
         return FIRST_ELEMENTS;
     }
     let stroke = 0.5 * load.length();
-    let is_enough =
-        |elements: &usize| *elements as f64 * stroke >= MIN_ELEMENTS_PER_STROKE * length;
-    let mut all = [1, 2, 4].map(|factor| factor * FIRST_ELEMENTS).into_iter();
-    all.find(is_enough).unwrap_or(MAX_FIRST_ELEMENTS)
+    let needed = whole_part((MIN_ELEMENTS_PER_STROKE * length / stroke).ceil());
+    needed
+        .clamp(FIRST_ELEMENTS, MIN_ELEMENTS_TO_GIVE_UP)
+        .next_power_of_two()
 }
 
 /// Length of the contact at the largest speed, force and depth of a motion, \[m].

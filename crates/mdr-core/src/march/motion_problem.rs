@@ -19,19 +19,6 @@ use crate::line::{ElementHeights, MAX_ELEMENTS, has_steep_kinks};
 /// Largest number of steps of a motion, or of one cycle. Chosen to limit time and memory: each step is recorded, and a motion
 /// with more steps is refused.
 const MAX_STEPS: f64 = 4e6;
-/// Ratio of the duration of the first pressing, at rest, to that of the first step. Chosen; from 1e-6 to 1 nothing changes (case
-/// of `evidence tuning`).
-pub(super) const FIRST_PRESSING_DURATION: f64 = 1e-3;
-
-/// Largest difference between the prescribed force and its mean over a step, relative to the prescribed one, that the next step
-/// corrects. Where a force begins or ends, the difference is larger. Chosen; from 0.25 to 100 nothing changes; without the
-/// correction strokes need four to eight times as many elements (case of `evidence tuning`).
-const MAX_FORCE_CORRECTION: f64 = 0.25;
-
-/// Distance from the lowest point at which the contact is first assumed to end, in lengths of the contact of the fastest sliding.
-/// It gives the height of the first foundation, which grows if the contact goes beyond it. Chosen; from 0.1 to 10 nothing changes
-/// (case of `evidence tuning`).
-const FIRST_CONTACT_REACH: f64 = 0.75;
 
 /// Upper bound of the memory of an element besides its history variables, \[bytes]. Chosen above the sum of its cells in the
 /// height table, its contact state and record, and the vectors of conjugate gradients. It decides the stated memory only.
@@ -152,15 +139,12 @@ impl<'a> MotionProblem<'a> {
         Ok(n_steps * per_step as f64 + n_elements * per_element)
     }
 
-    /// Guess of the height at which the contact ends, above the height of the line at x = 0, \[m]: that at [`FIRST_CONTACT_REACH`] on
-    /// the lower side, or the contact length if that height is not positive and finite.
+    /// Guess of the height at which the contact ends, above the height of the line at x = 0, \[m]: that at a contact length of the
+    /// fastest sliding on the lower side, or this length if that height is not positive and finite. The foundation grows if the
+    /// contact goes beyond it.
     fn rise(&self) -> f64 {
         let lowest = self.line.height(0.0);
-        let sides = [
-            -FIRST_CONTACT_REACH * self.length,
-            FIRST_CONTACT_REACH * self.length,
-        ]
-        .map(|x| self.line.height(x) - lowest);
+        let sides = [-self.length, self.length].map(|x| self.line.height(x) - lowest);
         let rise = sides[0].min(sides[1]);
         if rise.is_finite() && rise > 0.0 {
             rise
@@ -176,9 +160,9 @@ impl<'a> MotionProblem<'a> {
         steps: &[MovingStep],
         report: &dyn Fn(f64),
     ) -> Result<Option<MotionRecord>, MdrError> {
-        // Press the line first, within a negligible time.
+        // Press the line first, within a time that is negligible against the first step.
         let start = self.load.stages()[0].start;
-        let pressing = FIRST_PRESSING_DURATION * steps[0].duration;
+        let pressing = f64::EPSILON * steps[0].duration;
         let mut winkler = WinklerFoundation::new(
             self.line,
             &self.foundation,
@@ -267,13 +251,13 @@ impl<'a> MotionProblem<'a> {
 }
 
 /// Correction of the relative force at the end of the next step, from the fraction `missing` of the force that the mean over this
-/// step lacks; 0 for large fractions, where the force begins or ends.
+/// step lacks; 0 unless the mean is a force, as where the force begins or ends.
 ///
 /// The chord of a step lies below the path of an element under a round body. With the prescribed force at the ends of all
 /// steps their mean is therefore too small, by the square of the step. Half of the difference is corrected, because a step
 /// of much flow has its mean immediately.
 pub(super) fn force_correction(missing: f64) -> f64 {
-    if missing.abs() < MAX_FORCE_CORRECTION {
+    if missing.abs() < 1.0 {
         0.5 * missing
     } else {
         0.0

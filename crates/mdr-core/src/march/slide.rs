@@ -20,7 +20,7 @@ use numerics::{
 };
 use rheology::Material;
 
-use super::motion_problem::{FIRST_PRESSING_DURATION, MOTION_BYTES_PER_ELEMENT, force_correction};
+use super::motion_problem::{MOTION_BYTES_PER_ELEMENT, force_correction};
 use super::winkler::{Prescribed, WinklerFoundation};
 use super::{
     FOUNDATION_PER_CONTACT, MAX_ELEMENTS_ALONG_CONTACT, MAX_ORDER, STEEP_KINK_ORDER, WORK_EXPONENT,
@@ -49,12 +49,9 @@ const FRICTION_ROUNDING: f64 = 1e-12;
 /// Largest ratio of the changes over two successive contact lengths that counts as exponential decay; slower changes are
 /// rounding. Chosen: it bounds the remaining change by 0.99/(1 − 0.99), or 99 times the last one.
 const MAX_CHANGE_RATIO: f64 = 0.99;
-/// Error of an end of the contact, as a multiple of the spacing: the end lies within one spacing of the outermost loaded element,
-/// which is loaded within one more. It has a case of `evidence tuning`.
+/// Error of an end of the contact, as a multiple of the spacing. Derived: the end lies within one spacing of the outermost loaded element,
+/// which is loaded within one more.
 const END_ERROR_STEPS: f64 = 2.0;
-/// Number of steps before the end whose values give the scatter from step to step. Chosen; from 1 to 12 nothing changes (case of
-/// `evidence tuning`).
-const N_SCATTER_STEPS: usize = 6;
 
 /// The end of sliding from first touch; an error of 0 means that a quantity is prescribed, or exact.
 #[derive(Debug, Clone, PartialEq)]
@@ -319,7 +316,7 @@ impl<'a> SlidingProblem<'a> {
         // square is out of the range of numbers give a result.
         let load = 0.25 * self.normal_force / spacing / self.foundation.unit;
         if !self.foundation.has_dashpot() {
-            let duration = FIRST_PRESSING_DURATION * time_step;
+            let duration = f64::EPSILON * time_step;
             if winkler
                 .advance(duration, start, Prescribed::Load(load))?
                 .is_none()
@@ -495,13 +492,13 @@ impl SlidingStep {
     }
 }
 
-/// Scatter of a value from step to step, by elements that come into contact or separate at the ends of the contact: the largest
-/// second difference over the last [`N_SCATTER_STEPS`] steps, in the unit of the value.
+/// Scatter of a value from step to step, by elements that come into contact or separate at the ends of the contact: the second
+/// difference of the last three steps, in the unit of the value.
 fn scatter(steps: &[SlidingStep], value: fn(&SlidingStep) -> f64) -> f64 {
-    let last = &steps[steps.len().saturating_sub(N_SCATTER_STEPS)..];
-    let jump = |steps: &[SlidingStep]| value(&steps[0]) - 2.0 * value(&steps[1]) + value(&steps[2]);
-    let jumps = last.windows(3).map(|steps| jump(steps).abs());
-    jumps.fold(0.0, f64::max)
+    let [.., first, second, third] = steps else {
+        return 0.0;
+    };
+    (value(first) - 2.0 * value(second) + value(third)).abs()
 }
 
 /// Relative change of depth and friction over the last contact length; 1 if the distance is shorter.

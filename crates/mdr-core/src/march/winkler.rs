@@ -27,16 +27,10 @@ use crate::line::{ElementHeights, HeightRow, HeightTable};
 /// up to one element, and the window of a step has one more on each side.
 const FOUNDATION_MARGIN: f64 = 2.0;
 
-/// Gap, relative to the depth, up to which an element with a dashpot counts as in contact when the foundation is reloaded.
-/// Chosen: such a gap may be rounding of positions and heights (case of `evidence tuning`).
-const DASHPOT_CONTACT_TOLERANCE: f64 = 1e-9;
 /// Motion in a step, relative to the spacing, up to which the line counts as at rest. Chosen as 200 times the rounding of a
 /// position four million elements away; a motion that is really so short uses the slope of the line instead of a difference of
 /// heights.
 const REST_DISPLACEMENT: f64 = 1e-7;
-/// Height up to which elements are in the window of a step, relative to the depth before it. A deeper step enlarges the window
-/// and is repeated. Chosen; from 1.05 to 10 nothing changes (case of `evidence tuning`).
-const WINDOW_HEIGHT_FACTOR: f64 = 1.25;
 
 /// The quantity prescribed at the end of a step.
 #[derive(Debug, Clone, Copy)]
@@ -150,6 +144,12 @@ impl<'a> WinklerFoundation<'a> {
         })
     }
 
+    /// Height up to which elements are in the window of a step, \[m]: twice the depth before it, at most that of the sampled elements.
+    /// A deeper step enlarges the window and is repeated.
+    fn window_height(&self) -> f64 {
+        self.sampled.max_height.min(2.0 * self.body.depth)
+    }
+
     /// Moves the line to a `position` \[m] along the surface within a `duration` \[s], and its elements with it; `None` if the depth
     /// exceeds the heights of the sampled elements.
     pub(super) fn advance(
@@ -164,10 +164,7 @@ impl<'a> WinklerFoundation<'a> {
         }
 
         // Find the depth; if it exceeds the height of the window, enlarge the window.
-        let mut limit = self
-            .sampled
-            .max_height
-            .min(WINDOW_HEIGHT_FACTOR * self.body.depth);
+        let mut limit = self.window_height();
         let depth = loop {
             self.update_window(position, limit)?;
             self.find_unloaded_displacements();
@@ -375,13 +372,10 @@ impl<'a> WinklerFoundation<'a> {
     /// them.
     pub(super) fn reload(&mut self) -> Result<f64, MdrError> {
         // The window is set to the elements near the line at its present position.
-        let height_limit = WINDOW_HEIGHT_FACTOR * self.body.depth;
-        self.update_window(
-            self.body.position,
-            self.sampled.max_height.min(height_limit),
-        )?;
+        self.update_window(self.body.position, self.window_height())?;
+        // With a dashpot a gap may be rounding of positions and heights.
         let tolerance = if self.foundation.has_dashpot() {
-            DASHPOT_CONTACT_TOLERANCE * self.body.depth
+            f64::EPSILON.sqrt() * self.body.depth
         } else {
             0.0
         };

@@ -19,12 +19,9 @@ use crate::line::{Profile, Range};
 /// Largest number of passes of the track in the search for the periodic state. Chosen to limit the time: after them the search
 /// ends with [`MdrError::NotPeriodic`]. A state that is found does not depend on it.
 const MAX_PASSES: usize = 300;
-/// Remaining distance to the periodic state, in depths, at which the search ends. Chosen: it is part of the error (case of
-/// `evidence tuning`).
-const PERIODICITY_TOLERANCE: f64 = 1e-11;
-/// Rounding of one pass, in depths. Multiplied by the number of passes that a mode needs to recover, it bounds the tolerance from
-/// below. Chosen: with less, a slow material would end with [`MdrError::NotPeriodic`] because of rounding; with more, its error
-/// bar is wider.
+/// Rounding of one pass, in depths. Multiplied by the number of passes that a mode needs to recover, it is the remaining distance
+/// to the periodic state at which the search ends. Chosen: with less, a slow material would end with [`MdrError::NotPeriodic`]
+/// because of rounding; with more, its error bar is wider.
 const PERIODICITY_ROUNDING: f64 = 1024.0 * f64::EPSILON;
 
 /// Refuses a track \[m] that is not longer than the part of the line below the surface, as [`MdrError::TrackTooShort`].
@@ -49,7 +46,7 @@ pub(super) fn sweep_until_periodic(
     // `slowness` is the number of passes that the slowest mode needs to recover: the distance to the periodic state is as many
     // changes of one pass.
     let slowness = -(-track / foundation.longest_recovery()).exp_m1().recip();
-    let tolerance = PERIODICITY_TOLERANCE.max(PERIODICITY_ROUNDING * slowness);
+    let tolerance = PERIODICITY_ROUNDING * slowness;
     let mut remaining_change = 0.0;
     let pass = |ahead: &[f64]| {
         let surface = foundation.recovering_surface(ahead);
