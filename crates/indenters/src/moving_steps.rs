@@ -8,14 +8,12 @@ const STEPS_PER_ELEMENT: f64 = 1.0;
 /// Number of steps in which the step length grows e-fold, per element along the contact. Chosen: refinement of the elements
 /// refines the growth too.
 const E_FOLDING_STEPS_PER_ELEMENT: f64 = 0.125;
-/// Ratio of the first step of a motion to the longest step of its first stage. Chosen: it resolves the response to first contact.
-const FIRST_STEP_FRACTION: f64 = 1e-4;
+/// Ratio of the first step of a motion to the longest step of its first stage. Chosen: it resolves the response to first contact,
+/// also in a hold, which may be long and begins with a load that is applied instantaneously.
+const FIRST_STEP_FRACTION: f64 = 1e-6;
 /// Ratio of the first step of a moving stage that follows another one to its longest step. Chosen: the velocity may jump between
 /// them.
 const STEP_AFTER_TURN_FRACTION: f64 = 0.02;
-/// Ratio of the first step of a motion that begins with a hold to the longest step of the hold. Chosen: the load is applied
-/// instantaneously, and a hold may be long.
-const FIRST_HOLD_FRACTION: f64 = 1e-6;
 
 /// One step of a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -115,7 +113,6 @@ fn min_steps(stage: &Stage, elements: usize, spacing: f64) -> f64 {
 fn first_step_length(stage: &Stage, previous_duration: Option<f64>, longest: f64) -> f64 {
     let is_hold = stage.distance() == 0.0;
     let first = match previous_duration {
-        None if is_hold => FIRST_HOLD_FRACTION * longest,
         None => FIRST_STEP_FRACTION * longest,
         Some(step) if is_hold => step / stage.duration(),
         Some(_) => STEP_AFTER_TURN_FRACTION * longest,

@@ -17,10 +17,6 @@ const PLAIN_EVALUATIONS: usize = 3;
 /// for each evaluation: point, value, residual, and difference of residuals. A larger number may need fewer evaluations; the
 /// fixed point is the same.
 const MAX_COMBINED: usize = 8;
-/// Smallest squared norm of a residual difference after orthogonalisation, relative to before. A smaller one is rounding: the
-/// difference depends linearly on the others and is left out. From 1e-20 to 1e-8 no digit of an answer changes (case of
-/// `evidence tuning`).
-const MIN_INDEPENDENT_PART: f64 = 1e-12;
 
 /// Outcome of a fixed-point iteration.
 #[derive(Debug, Clone, PartialEq)]
@@ -188,9 +184,9 @@ fn least_squares_weights(vectors: &[Vec<f64>], target: &[f64]) -> Vec<f64> {
             subtract(&mut vector, component, other);
             subtract(&mut coefficients, component, other_coefficients);
         }
-        // Normalise the remainder, unless it is rounding.
+        // Normalise the remainder, unless it is rounding: then the difference depends linearly on the others and is left out.
         let norm = dot(&vector, &vector);
-        if norm > MIN_INDEPENDENT_PART * norm_before && norm > 0.0 {
+        if norm > f64::EPSILON * norm_before {
             let scale = norm.sqrt().recip();
             vector
                 .iter_mut()
