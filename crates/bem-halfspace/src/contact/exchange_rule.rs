@@ -8,8 +8,8 @@
 //!
 //! 1. At first all violating elements are exchanged.
 //! 2. Then only violations that are the largest within a radius are exchanged, so that neighbours do not change sides back and forth
-//!    together. The radius doubles every [`RADIUS_DOUBLING_INTERVAL`] updates.
-//! 3. When the radius covers the grid, the single violating element of the highest index is exchanged. If the operator has a positive
+//!    together. The radius, which is one element at first, doubles every [`UPDATES_PER_RADIUS`] updates.
+//! 3. When the radius exceeds the grid, the single violating element of the highest index is exchanged. If the operator has a positive
 //!    definite symmetric part, no active set then occurs twice, so that the violations become fewer after finitely many updates (Murty
 //!    1974).
 //!
@@ -17,17 +17,14 @@
 //!
 //! Theory: docs/theory/stationary-half-space.md, "The equations of one contact".
 
-/// Number of successive non-improving updates up to which all violating elements are exchanged. Chosen (case of
-/// `evidence tuning`). Fewer of them turn to slower exchanges sooner, more of them repeat exchanges that cycle; the contact that
-/// is found is the same.
-const BLOCK_UPDATES: i32 = 10;
-/// Number of further non-improving updates after which the exclusion radius of local maxima doubles; it begins with two elements.
-/// Chosen (case of `evidence tuning`).
+/// Number of successive non-improving updates after which the exclusion radius of local maxima doubles; it begins with one element,
+/// which excludes none. Chosen (case of `evidence tuning`). Fewer updates turn to slower exchanges sooner, more of them repeat
+/// exchanges that cycle; the contact that is found is the same.
 ///
 /// Measured on 160 light periodic contacts on dashpots whose moduli grow with the frequency: all were found with it, with 90
 /// operator applications each. With a rule that exchanges the violations above a fraction of the largest one, four were not
 /// found.
-const RADIUS_DOUBLING_INTERVAL: i32 = 10;
+const UPDATES_PER_RADIUS: u32 = 10;
 
 /// An element that violates the KKT conditions: in the active set under tension, or outside it with penetration; saturated with an open
 /// gap, or loaded beyond the limit.
@@ -48,7 +45,7 @@ pub(super) struct Stagnation {
     /// Smallest number of violations in any update so far.
     fewest_violations: usize,
     /// Non-improving updates since the last improvement.
-    non_improving: i32,
+    non_improving: u32,
 }
 
 impl Default for Stagnation {
@@ -62,9 +59,15 @@ impl Default for Stagnation {
 }
 
 impl Stagnation {
+    /// Exclusion radius of local maxima, in elements.
+    fn radius(&self) -> usize {
+        let doublings = self.non_improving.saturating_sub(1) / UPDATES_PER_RADIUS;
+        1_usize.checked_shl(doublings).unwrap_or(usize::MAX)
+    }
+
     /// True while all violating elements are exchanged.
-    pub(super) const fn allows_block_updates(&self) -> bool {
-        self.non_improving <= BLOCK_UPDATES
+    pub(super) fn allows_block_updates(&self) -> bool {
+        self.radius() == 1
     }
 
     /// Records the number of violations of an update. The update counts as non-improving if there are not fewer than ever before, or
@@ -80,8 +83,6 @@ impl Stagnation {
 pub(crate) struct ExchangeRule {
     /// Rows and columns of the grid. Neighbourhoods wrap around its edges.
     shape: [usize; 2],
-    /// Number of successive non-improving updates up to which local maxima are exchanged.
-    local_maximum_updates: i32,
     /// Count of the non-improving updates.
     stagnation: Stagnation,
 }
@@ -89,26 +90,15 @@ pub(crate) struct ExchangeRule {
 impl ExchangeRule {
     /// The rule on a grid with a number of rows and columns, before the first update of its active set.
     pub(crate) fn new(shape: [usize; 2]) -> Self {
-        // Count the doublings of the radius until it exceeds half the longer edge, because every neighbourhood is then the whole
-        // grid.
-        let largest_radius = shape[0].max(shape[1]) / 2;
-        let doublings = (1..).find(|doublings| 1_usize << doublings > largest_radius);
         Self {
             shape,
-            local_maximum_updates: BLOCK_UPDATES
-                + RADIUS_DOUBLING_INTERVAL * doublings.unwrap_or(1),
             stagnation: Stagnation::default(),
         }
     }
 
-    /// Non-improving updates since the last improvement.
-    const fn non_improving(&self) -> i32 {
-        self.stagnation.non_improving
-    }
-
     /// True if single elements are exchanged, which requires accurate solutions.
-    pub(crate) const fn exchanges_single_elements(&self) -> bool {
-        self.non_improving() > self.local_maximum_updates
+    pub(crate) fn exchanges_single_elements(&self) -> bool {
+        self.stagnation.radius() > self.shape[0].max(self.shape[1])
     }
 
     /// Selects the elements to exchange among the violations, which are sorted by element, and records the update.
@@ -122,8 +112,7 @@ impl ExchangeRule {
         } else if self.exchanges_single_elements() {
             elements.next_back().into_iter().collect()
         } else {
-            let updates = self.non_improving() - BLOCK_UPDATES - 1;
-            self.local_maxima(violations, 2 << (updates / RADIUS_DOUBLING_INTERVAL))
+            self.local_maxima(violations, self.stagnation.radius())
         };
         self.stagnation.record(violations.len(), residual_grows);
         selected
@@ -161,7 +150,7 @@ impl ExchangeRule {
 
 #[cfg(test)]
 mod tests {
-    use super::{BLOCK_UPDATES, ExchangeRule, RADIUS_DOUBLING_INTERVAL, Violation};
+    use super::{ExchangeRule, UPDATES_PER_RADIUS, Violation};
 
     /// A row of violations, each larger than the one before.
     #[test]
@@ -173,25 +162,17 @@ mod tests {
         };
         let violations: Vec<Violation> = (0..16).map(violation).collect();
         let mut rule = ExchangeRule::new([3, 32]);
-        let local_maximum_updates = rule.local_maximum_updates;
-        assert_eq!(
-            local_maximum_updates,
-            BLOCK_UPDATES + 5 * RADIUS_DOUBLING_INTERVAL,
-            "of 32 columns"
-        );
-        let mut selected = (0..local_maximum_updates + 2).map(|_| rule.select(&violations, false));
-        let mut next = |count: i32| selected.by_ref().take(count as usize).last();
+        // All elements, then the radii 2, 4, 8, 16 and 32 on 32 columns, and at last one update with a single element.
+        let mut selected = (0..2 + 6 * UPDATES_PER_RADIUS).map(|_| rule.select(&violations, false));
+        let mut next = |count: u32| selected.by_ref().take(count as usize).last();
         // The first update always counts as an improvement, on any number of violations.
-        assert_eq!(next(2 + BLOCK_UPDATES), Some((0..16).collect()));
+        assert_eq!(next(2 + UPDATES_PER_RADIUS), Some((0..16).collect()));
         assert_eq!(
-            next(RADIUS_DOUBLING_INTERVAL),
+            next(UPDATES_PER_RADIUS),
             Some((0..8).rev().map(|n| 2 * n + 1).collect())
         );
-        assert_eq!(next(RADIUS_DOUBLING_INTERVAL), Some(vec![15, 11, 7, 3]));
-        assert_eq!(
-            next(local_maximum_updates - BLOCK_UPDATES - 2 * RADIUS_DOUBLING_INTERVAL),
-            Some(vec![15])
-        );
+        assert_eq!(next(UPDATES_PER_RADIUS), Some(vec![15, 11, 7, 3]));
+        assert_eq!(next(3 * UPDATES_PER_RADIUS), Some(vec![15]));
         let mut single = violations;
         single[0].size = 100.0;
         assert!(rule.exchanges_single_elements());
@@ -202,8 +183,8 @@ mod tests {
         single.pop();
         rule.select(&single, false);
         assert_eq!(
-            (rule.non_improving(), rule.select(&single, false).len()),
-            (0, 14)
+            (rule.stagnation.radius(), rule.select(&single, false).len()),
+            (1, 14)
         );
     }
 }

@@ -17,8 +17,8 @@ use crate::{BemError, Rows};
 /// Largest box, as a fraction of the elements of the grid, on which the contact is solved in place of the grid. Chosen (case of
 /// `evidence tuning`).
 ///
-/// A larger box takes as long as the grid, because of the operator application on the whole grid at its end. Only the time
-/// depends on it.
+/// A larger box takes as long as the grid, because of the operator application on the whole grid at its end. Only time and memory
+/// depend on it.
 const MAX_BOX_FRACTION: f64 = 0.6;
 
 /// Solves the contact from the load in the state, or by nested iteration if that load is zero everywhere; leaves load and displacement
@@ -101,8 +101,7 @@ fn grow_if_penetrating(
         &state.load,
         &mut state.displacement,
     );
-    // Box and grid round differently, so that the tolerance of the box would be too strict here.
-    let highest = solved.indentation_depth - 2.0 * criterion.tolerance * solved.deflection;
+    let highest = solved.indentation_depth - criterion.tolerance * solved.deflection;
     let displacement = &state.displacement;
     let penetrates = |element: [usize; 2]| {
         let index = element[0] * columns + element[1];

@@ -11,15 +11,6 @@ use crate::BemError;
 use crate::elements::bounds::Bounds;
 use crate::elements::mirror::n_images;
 
-/// Ratio of the area of the contact box that is needed to that of the present one, below which the box shrinks. It exceeds the
-/// ratio 0.6 at which the contact solver would iterate on a smaller box of its own. Chosen; from 0 to 0.99 no answer changes by
-/// more than 1e-8 of its bar (case of `evidence tuning`).
-const SHRINKING_AREA_RATIO: f64 = 0.75;
-/// Factor on the tolerance of the contact in the penetration that is allowed outside the box. Derived: the tolerance counts once
-/// for the contact, and once for the transforms of box and footprint, which round differently. It has a case of
-/// `evidence tuning`.
-const OUTSIDE_TOLERANCE_RATIO: f64 = 2.0;
-
 impl March<'_> {
     /// Solves the contact at the end of a step on a box that is enlarged until the indenter penetrates nowhere outside it.
     pub(super) fn solve_contact(&mut self, step: &ScheduledStep) -> Result<MotionRow, BemError> {
@@ -48,7 +39,7 @@ impl March<'_> {
                 continue;
             }
 
-            // Fail if the contact reaches the boundary of the footprint, and shrink a box that is much larger than the contact.
+            // Fail if the contact reaches the boundary of the footprint, and shrink a box that is larger than the contact needs.
             if let Some(contact) = contact {
                 self.check_footprint(&self.layout.unfolded(&contact), step.end.position)?;
                 self.shrink_box(&contact)?;
@@ -109,7 +100,7 @@ impl March<'_> {
         let [rows, columns] = self.layout.folded_shape();
         let increment = self.history.increment(first_row..first_row + rows);
         let deflection = increment.iter().copied().fold(0.0, f64::max);
-        let allowed = -OUTSIDE_TOLERANCE_RATIO * self.options.contact.tolerance * deflection;
+        let allowed = -self.options.contact.tolerance * deflection;
         let elements = self.initial_gap.iter().zip(increment).enumerate();
         let outside = elements
             .filter(|(_, (gap, increment))| *gap + *increment - depth < allowed)
@@ -129,12 +120,10 @@ impl March<'_> {
         Err(self.options.footprint.boundary_reached(position))
     }
 
-    /// Replaces the contact box by a smaller one around `contact` if that needs less than [`SHRINKING_AREA_RATIO`] of its area.
+    /// Replaces the contact box by the one around `contact` if that is smaller.
     fn shrink_box(&mut self, contact: &Bounds) -> Result<(), BemError> {
-        let shape = self.contact_box.bounds.shape();
         let needed = self.with_margin(contact);
-        let [rows, columns] = [0, 1].map(|axis| needed.shape()[axis].min(shape[axis]));
-        if ((rows * columns) as f64) < SHRINKING_AREA_RATIO * (shape[0] * shape[1]) as f64 {
+        if needed.n_elements() < self.contact_box.bounds.n_elements() {
             self.contact_box = self.contact_box.moved_to(needed)?;
         }
         Ok(())
