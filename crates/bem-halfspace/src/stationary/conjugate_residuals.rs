@@ -10,14 +10,11 @@ use numerics::transforms::Real;
 use crate::parallel::reductions::{add_scaled, sum};
 use crate::parallel::row_blocks::{RowBlocks, copies};
 
-/// Relative drop of the squared norm ‖r‖² of the residual r below which a step stagnates. The next direction is then built from
-/// the last image A p instead of r (Young & Jea 1980). Chosen; values up to 0.05 hardly matter. It has a case of
-/// `evidence tuning`.
-const STAGNATION_REDUCTION: f64 = 0.01;
-/// Ratio of the norm of an image A p after its orthogonalisation to that before, below which only rounding error is left and the
-/// iteration ends (breakdown). Chosen near the rounding 6e-8 of single precision, in which the operators of periodic contacts are
-/// applied. It has a case of `evidence tuning`.
-const BREAKDOWN_TOLERANCE: f64 = 1e-7;
+/// Relative rounding error of single precision, in which the operators of periodic contacts are applied. If the norm of an image A p
+/// falls to this fraction by its orthogonalisation, only rounding error is left and the iteration ends (breakdown). If a step
+/// reduces the squared norm ‖r‖² of the residual r by less than this fraction, it stagnates: the next direction is then built from
+/// the last image A p instead of r (Young & Jea 1980).
+const ROUNDING: f64 = f32::EPSILON as f64;
 
 /// Size of the Krylov basis and length of the iteration.
 #[derive(Debug, Clone, Copy)]
@@ -74,16 +71,14 @@ pub(crate) fn gcr<T: Real>(
         let (factors, products) = orthogonalise(&mut new.image, residual, &basis);
         new.image_square = products.square;
         let square_before = products.square + products.removed_square;
-        if products.square <= BREAKDOWN_TOLERANCE * BREAKDOWN_TOLERANCE * square_before
-            || products.square.is_nan()
-        {
+        if products.square <= ROUNDING * ROUNDING * square_before || products.square.is_nan() {
             return;
         }
 
         // Find the step along the direction that minimises the residual. If it hardly reduces the residual, keep the image as the
         // source of the next direction.
         let step = -products.with_residual / products.square;
-        let stagnates = step * step * products.square < STAGNATION_REDUCTION * residual_square;
+        let stagnates = step * step * products.square < ROUNDING * residual_square;
         stagnant_image = stagnates.then(|| {
             // The image is scaled to the norm of the residual, because a preconditioner that amplifies it in every step would overflow.
             let scale = T::rounded((residual_square / products.square).sqrt());

@@ -23,13 +23,9 @@ use crate::BemError;
 use crate::contact::exchange_rule::{ExchangeRule, Violation};
 use crate::parallel::reductions::larger;
 
-/// Ratio of a penetration next to the active set to the root mean square (RMS) of the residual on the set, below which the
-/// penetration counts as solver error. Chosen as three standard deviations; with 2 or 5 there are as many operator applications.
-/// It has a case of `evidence tuning`.
-const PENETRATION_THRESHOLD_RMS: f64 = 3.0;
-/// Ratio of a penetration far from the active set to the largest residual on the set, below which the penetration counts as
-/// solver error. Chosen; from 0 to 1 no answer changes by more than 5 % of its bar (case of `evidence tuning`).
-const FAR_PENETRATION_THRESHOLD: f64 = 0.3;
+/// Ratio of a penetration to the largest residual on the active set, below which the penetration counts as solver error. Chosen;
+/// from 0 to 1 no answer changes by more than 5 % of its bar (case of `evidence tuning`).
+const PENETRATION_THRESHOLD: f64 = 0.3;
 /// Ratio of the total tension to the force above which an update only removes elements, because the gaps outside then say little.
 /// Chosen (case of `evidence tuning`).
 ///
@@ -89,8 +85,6 @@ pub(crate) trait FixedSetSolver {
     fn solve(&mut self, rms: f64, max: f64) -> Result<(), BemError>;
     /// Writes the pressure on the active set, which may be tensile, into a field of all elements.
     fn copy_pressure_to(&self, pressure: &mut [f64]);
-    /// True if the gap of an element outside the active set has the same error as the gaps on the set.
-    fn is_next_to_active_set(&self, element: usize) -> bool;
     /// Scales the pressure to the given force, if a force is given.
     fn scale_to_force(&self, pressure: &mut [f64]);
     /// Number of iterations so far, in the unit in which the budget of the search is given.
@@ -175,7 +169,6 @@ impl<'a, P: FixedSetSolver> Search<'a, P> {
                 self.inner_tolerance.min(forcing * residual),
                 INNER_SHARE_OF_TOLERANCE * self.allowed_gap(),
             )?;
-            let solver_residual = self.problem.residual_rms();
             self.problem.copy_pressure_to(&mut self.pressure);
 
             // Collect the elements that violate the KKT conditions (head of this file), under the pressure before its tension is
@@ -192,15 +185,12 @@ impl<'a, P: FixedSetSolver> Search<'a, P> {
             self.problem.scale_to_force(&mut self.pressure);
             self.update_gaps();
             let mut converged = self.satisfies_kkt();
-            let thresholds = if rule.exchanges_single_elements() {
-                PenetrationThresholds::default()
+            let solver_error = if rule.exchanges_single_elements() {
+                0.0
             } else {
-                PenetrationThresholds {
-                    next_to_set: PENETRATION_THRESHOLD_RMS * solver_residual,
-                    far: FAR_PENETRATION_THRESHOLD * self.residual * self.scale,
-                }
+                PENETRATION_THRESHOLD * self.residual * self.scale
             };
-            let mut violations = self.violations(&thresholds);
+            let mut violations = self.violations(solver_error);
             if tension > MAX_TENSILE_FRACTION * total {
                 violations.retain(|violation| self.active[violation.element]);
             }
@@ -269,23 +259,19 @@ impl<'a, P: FixedSetSolver> Search<'a, P> {
         self.residual * self.scale <= allowed && !self.gap.iter().zip(&self.active).any(penetrates)
     }
 
-    /// KKT violations: elements of the active set under tension, and elements outside it whose penetration reaches its threshold. Sizes
-    /// are in the unit of the heights.
-    fn violations(&self, thresholds: &PenetrationThresholds) -> Vec<Violation> {
+    /// KKT violations: elements of the active set under tension, and elements outside it whose penetration reaches `solver_error` and
+    /// the allowed gap. Sizes are in the unit of the heights.
+    fn violations(&self, solver_error: f64) -> Vec<Violation> {
         let self_influence = self.problem.self_influence();
-        let next_to_set = thresholds.next_to_set.max(self.allowed_gap());
-        let far = thresholds.far.max(self.allowed_gap());
+        let smallest_penetration = solver_error.max(self.allowed_gap());
         // The violation of an active element is its tension times the self-influence, and that of any other element its
         // penetration.
-        // Far from the set another threshold holds, because gaps there have the error of the whole solution.
         let violation = |element: usize| {
             let [pressure, gap] = [self.pressure[element], self.gap[element]];
             let (size, threshold) = if self.active[element] {
                 (-pressure * self_influence, 0.0)
-            } else if self.problem.is_next_to_active_set(element) {
-                (-gap, next_to_set)
             } else {
-                (-gap, far)
+                (-gap, smallest_penetration)
             };
             (size >= threshold).then(|| Violation {
                 element,
@@ -311,13 +297,4 @@ impl<'a, P: FixedSetSolver> Search<'a, P> {
         let gaps = self.gap.iter().zip(&self.active).filter_map(on_set);
         self.residual = gaps.fold(0.0, |max, gap| larger(max, gap.abs())) / self.scale;
     }
-}
-
-/// Penetrations below these count as solver error, in the unit of the heights.
-#[derive(Default)]
-struct PenetrationThresholds {
-    /// Threshold for elements next to the active set.
-    next_to_set: f64,
-    /// Threshold for elements that are not next to the active set.
-    far: f64,
 }

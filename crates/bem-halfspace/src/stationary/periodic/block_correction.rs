@@ -28,27 +28,13 @@ use crate::{BemError, Grid};
 
 /// Length of a block along x, in elements. Derived: the largest for which no block is divided between two row blocks, the shares
 /// of the threads.
-const BLOCK_LENGTH: usize = RowBlocks::MAX_COARSE_BLOCK;
+pub(super) const BLOCK_LENGTH: usize = RowBlocks::MAX_COARSE_BLOCK;
 /// Weight of an element in the mean over a block, 1/[`BLOCK_LENGTH`].
 const INVERSE_BLOCK_LENGTH: f32 = 1.0 / BLOCK_LENGTH as f32;
-/// Initial tolerance of the residual of the block equation, relative to its right side. Chosen by measurements on rough contacts
-/// (case of `evidence tuning`).
-///
-/// On 1024² elements a contact takes an eighth to a third more operator applications with 1e-2. With 1e-3 it takes as many fewer,
-/// each of which takes longer.
-const INITIAL_TOLERANCE: f64 = 3e-3;
-/// Factor by which the tolerance of the block equation is multiplied when GCR on the elements stagnates. Chosen; from 0.03 to 0.9
-/// no digit of an answer changes.
-///
-/// If the tolerance stays at its initial value, a dense contact on a solid of many branches takes four times as many operator
-/// applications. It has a case of `evidence tuning`.
-const TOLERANCE_REDUCTION: f64 = 0.3;
-/// Lower bound of the tolerance of the block equation, relative to its right side. Chosen above the rounding of single precision,
-/// 6e-8; from 1e-7 to 1e-4 no digit of an answer changes (case of `evidence tuning`).
-const MIN_TOLERANCE: f64 = 1e-5;
-/// Ratio of the constant weight in the preconditioner of the block equation to the mean of the weights W that it replaces.
-/// Chosen: with 1 a contact takes a tenth longer, with 0.1 as long (case of `evidence tuning`).
-const MEAN_WEIGHT_FRACTION: f64 = 0.4;
+/// Tolerance of the residual of the block equation, relative to its right side. Chosen by measurements on rough contacts (case of
+/// `evidence tuning`): with 3e-3 throughout, a dense contact on a solid of many branches takes four times as many operator
+/// applications.
+const TOLERANCE: f64 = 1e-4;
 /// Limits of GCR for the block equation. Measured: up to 2048² elements 40 and 80 steps lead to about as many operator applications,
 /// and so do truncation depths of one, two and eight.
 const GCR_LIMITS: GcrLimits = GcrLimits {
@@ -66,14 +52,12 @@ pub(super) struct BlockCorrection {
     self_influence: f64,
     /// Mean pressure W of each block under the unit gap, row-major; 0 for a block with a mean tension.
     weights: Vec<f32>,
-    /// Constant weight w̄ that replaces W in the preconditioner of the block equation.
+    /// Mean w̄ of W, which replaces W in the preconditioner of the block equation.
     mean_weight: f32,
     /// Symbols K (1 + w̄ K)⁻¹ of that preconditioner.
     preconditioner: Vec<Complex<f32>>,
     /// Displacement d of the blocks for s = W, row-major: the first guess for the next active set.
     unit_gap_displacement: Vec<f32>,
-    /// Tolerance of the residual of the block equation, relative to the right side.
-    tolerance: f64,
 }
 
 impl BlockCorrection {
@@ -100,13 +84,7 @@ impl BlockCorrection {
             mean_weight: 0.0,
             preconditioner: Vec::new(),
             unit_gap_displacement: copies(0.0, blocks.n_elements()),
-            tolerance: INITIAL_TOLERANCE,
         }))
-    }
-
-    /// Reduces the tolerance of the block equation, for a GCR iteration on the elements that stagnates.
-    pub(super) fn tighten_tolerance(&mut self) {
-        self.tolerance = (TOLERANCE_REDUCTION * self.tolerance).max(MIN_TOLERANCE);
     }
 
     /// Sets the packed `weights` w = S 1 of another active set, and replaces `unit_depth_response`, a copy of them, by M 1. Blocks with
@@ -121,7 +99,7 @@ impl BlockCorrection {
         let means = self.means(active, weights);
         self.weights = means.iter().map(|mean| mean.max(0.0)).collect();
         let total = f64::from(sum([&self.weights], |[weight]| weight));
-        let weight = MEAN_WEIGHT_FRACTION * total / self.weights.len() as f64;
+        let weight = total / self.weights.len() as f64;
         self.mean_weight = f32::rounded(weight);
         self.preconditioner = self.kernel.relaxation(weight, self.self_influence);
         // The solution for the previous active set is similar, and serves as the first guess.
@@ -211,13 +189,12 @@ impl BlockCorrection {
             weights,
             mean_weight,
             preconditioner,
-            tolerance,
             ..
         } = self;
         let row_blocks = RowBlocks::new([means.len(), 1]);
         let [mut residual, mut load] = [(); 2].map(|()| copies(0.0, means.len()));
         kernel.apply_single_precision(preconditioner, means, &mut residual);
-        let target = *tolerance * norm(&residual);
+        let target = TOLERANCE * norm(&residual);
         // This is the change of the residual by a change `from` of the displacement: minus the preconditioned operator of the
         // block equation.
         let mut find_image = |from: &[f32], image: &mut [f32]| {

@@ -217,11 +217,6 @@ impl FixedSetSolver for PeriodicFixedSetSolver<'_> {
         self.equations.copy_pressure_to(pressure);
     }
 
-    /// True if one of the eight periodic neighbours of an element is active.
-    fn is_next_to_active_set(&self, element: usize) -> bool {
-        self.equations.has_active_neighbour(element)
-    }
-
     /// Scales a pressure field to the prescribed mean; at a prescribed depth nothing changes.
     fn scale_to_force(&self, pressure: &mut [f64]) {
         if let PeriodicControl::MeanPressure(prescribed) = self.problem.control {

@@ -54,9 +54,6 @@ pub(super) const BASIS_FLOATS_PER_ELEMENT_ON_SMALL_GRID: usize = 256;
 /// Largest size of the GCR basis on a small grid, in single-precision numbers: 64 MiB. Chosen to limit the memory. A larger basis
 /// has only [`BASIS_FLOATS_PER_ELEMENT`] numbers per element of the grid.
 pub(super) const MAX_BASIS_FLOATS_ON_SMALL_GRID: usize = 1 << 24;
-/// Ratio of two successive residuals of GCR above which the coarse-space correction is solved more accurately. Chosen; from 0.5
-/// to 0.99 no answer changes by more than 1e-9 of its bar (case of `evidence tuning`).
-const STAGNATION_RATIO: f64 = 0.9;
 /// Factor on n³/N in the cost of a direct solve with n unknowns on a grid of N elements, in GCR steps. Measured on one thread:
 /// with the library faer (feature `dense`) it is 2e-4 to 7e-4 from 300 to 4000 unknowns. It decides the time, not the solution.
 /// It has a case of `evidence tuning`.
@@ -239,20 +236,13 @@ impl Equations {
                 truncation_depth: max_directions - 1,
             };
 
-            // Run GCR; where it stagnates, solve the coarse-space correction more accurately.
+            // Run GCR.
             let mut gap = std::mem::take(&mut self.gap);
             let mut added = copies(0.0, gap.len());
-            let mut previous = f64::INFINITY;
             gcr(&mut added, &mut gap, limits, |state, direction, image| {
                 let residual = self.rms(state.residual_square.sqrt());
                 let goes_on = !is_converged(residual, state.residual);
                 if goes_on {
-                    if let Some(correction) = &mut self.correction
-                        && residual > STAGNATION_RATIO * previous
-                    {
-                        correction.tighten_tolerance();
-                    }
-                    previous = residual;
                     self.find_direction(state.source, direction, image);
                 }
                 goes_on
@@ -318,20 +308,6 @@ impl Equations {
         self.kernel
             .apply_single_precision(&self.inverse_symbols, &self.scattered, &mut self.image);
         self.active.gather(&self.image, vector);
-    }
-
-    /// True if one of the eight periodic neighbours of an element is active.
-    pub(super) fn has_active_neighbour(&self, element: usize) -> bool {
-        let columns = self.active.columns;
-        let rows = self.scattered.len() / columns;
-        let (row, column) = (element / columns, element % columns);
-        let along_y = [column + columns - 1, column, column + 1].map(|column| column % columns);
-        [row + rows - 1, row, row + 1].iter().any(|row| {
-            let first = row % rows * columns;
-            along_y
-                .iter()
-                .any(|column| self.active.contains(first + column))
-        })
     }
 
     /// Gathers a field of the grid into a packed vector.

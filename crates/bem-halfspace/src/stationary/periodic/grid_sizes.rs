@@ -7,6 +7,7 @@ use numerics::{Accuracy, Request};
 use crate::BemError;
 use crate::dense::MAX_MATRIX_BYTES;
 use crate::elements::grid::{MAX_ELEMENTS, MIN_COARSEST_EDGE};
+use crate::stationary::periodic::block_correction::BLOCK_LENGTH;
 use crate::stationary::periodic::equations::{
     BASIS_FLOATS_PER_ELEMENT_ON_SMALL_GRID, MAX_BASIS_FLOATS_ON_SMALL_GRID,
 };
@@ -20,9 +21,6 @@ const FIRST_ELEMENTS_PER_WAVE: usize = 4;
 ///
 /// Above it the first grid has one element per shortest wave, and contains only the waves that it resolves.
 pub(super) const MAX_USUAL_GRID: f64 = (1_u64 << 22) as f64;
-/// The edges of a first grid with one element per shortest wave are multiples of this number of elements, so that nested
-/// iteration can coarsen them. Chosen; from 2 to 32 no digit of an answer changes (case of `evidence tuning`).
-const COARSE_EDGE_MULTIPLE: usize = 8;
 /// Upper bound of the memory per element without the GCR basis, \[bytes]. Measured: a test compares memory stated and taken
 /// (tests/it/memory.rs).
 const BYTES_PER_ELEMENT: f64 = 186.0;
@@ -77,12 +75,14 @@ fn first_elements(number: usize) -> usize {
 }
 
 /// The shape of the coarsest first grid, with one element per shortest wave: its refinement by two resolves all waves. If it
-/// resolves no wave itself, the shape is that of this refinement.
+/// resolves no wave itself, the shape is that of this refinement. Its edges are multiples of the length of a block, which the
+/// coarse-space correction needs and nested iteration can halve.
 fn coarsest_first_shape(surface: &PeriodicSurface) -> [usize; 2] {
     let first = surface.largest_numbers().map(|number| match number {
         0 => 2,
-        _ => (COARSE_EDGE_MULTIPLE * fast_length((number + 1).div_ceil(COARSE_EDGE_MULTIPLE)))
-            .max(MIN_COARSEST_EDGE),
+        _ => {
+            (BLOCK_LENGTH * fast_length((number + 1).div_ceil(BLOCK_LENGTH))).max(MIN_COARSEST_EDGE)
+        }
     });
     match surface.resolved_on(first) {
         Some(_) => first,

@@ -51,9 +51,6 @@ pub(crate) const MIN_CONTACT_ELEMENTS: usize = 30;
 /// Relative tolerance of the contact on the first grid, halved on each of the next, whatever error is asked for. Chosen; from
 /// 1e-7 to 1e-4 no answer changes by more than 3 % of its bar (case of `evidence tuning`).
 pub(super) const FIRST_TOLERANCE: f64 = 1e-5;
-/// Ratio of the relative error that a bar allows for the solver to the relative residual of the contact. Chosen; from 1 to 100 no
-/// bar changes by more than 10 % (case of `evidence tuning`).
-const RESIDUAL_AMPLIFICATION: f64 = 10.0;
 /// Largest product of the number of elements and the number of steps of a march, about half an hour of one thread. Chosen to
 /// limit the time: a larger march fails with [`BemError::GridTooLarge`].
 const MAX_ELEMENT_STEPS: f64 = 2e9;
@@ -253,7 +250,7 @@ impl RefinementGoal<'_> {
             let change = (value - middle)
                 .abs()
                 .max(rate.min_reduction * previous_change);
-            let solver_error = RESIDUAL_AMPLIFICATION * fine.residual + SUMMATION_ERROR;
+            let solver_error = fine.residual + SUMMATION_ERROR;
             Estimate::new(value, rate.safety * change + solver_error * value.abs())
         };
 

@@ -10,11 +10,9 @@ use crate::parallel::reductions::mean;
 use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
 use crate::{Base, PressureField};
 
-/// Upper bound of the ratio of the area of a gap to the area under tension in full contact.
-///
-/// A round gap is (3/2)^(1/2) times as wide as its tensile area, a long one 2^(1/2) times; the rest is a safety factor. It has a
-/// case of `evidence tuning`.
-const GAP_TO_TENSION_RATIO: f64 = 2.0;
+/// Upper bound of the ratio of the area of a gap to the area under tension in full contact. Derived: a round gap is (3/2)^(1/2)
+/// times as wide as its tensile area, which gives the ratio 3/2; a long one is 2^(1/2) times as wide, which gives this smaller one.
+const GAP_TO_TENSION_RATIO: f64 = 1.5;
 /// Number of points per element along either axis at which the pressure is evaluated if that at the centres is inconclusive. With
 /// four elements per shortest wave the centres exclude gaps only if no pressure is below seven tenths of the mean. Chosen; from 2
 /// to 8 no digit of an answer changes (case of `evidence tuning`).

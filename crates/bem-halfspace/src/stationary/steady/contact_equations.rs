@@ -132,11 +132,6 @@ impl FixedSetSolver for ContactEquations<'_> {
         }
     }
 
-    /// Gaps outside the active set are not part of the equations.
-    fn is_next_to_active_set(&self, _: usize) -> bool {
-        false
-    }
-
     /// Scales loads to the given force; at a given depth nothing changes.
     fn scale_to_force(&self, pressure: &mut [f64]) {
         self.mesh.scale_to_force(pressure);

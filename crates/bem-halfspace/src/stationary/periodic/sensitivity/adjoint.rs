@@ -18,19 +18,12 @@ use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
 use crate::stationary::periodic::kernel::Sliding;
 use crate::{BemError, Grid};
 
-/// Tolerance of the residual of the adjoint equations, relative to the initial one: about the rounding of single precision, in
-/// which each step of the iterative refinement is solved. It has a case of `evidence tuning`.
-const ADJOINT_TOLERANCE: f64 = 1e-7;
-/// Ratio of the residual after a single-precision solve of the iterative refinement to that before, at which the solve ends.
-/// Chosen far above the rounding of single precision. Three solves reduce the residual below [`ADJOINT_TOLERANCE`]. It has a case
-/// of `evidence tuning`.
-const REFINEMENT_REDUCTION: f64 = 1e-3;
+/// Tolerance of the residual of the adjoint equations, relative to the initial one. Derived: the rounding of single precision, in
+/// which each step of the iterative refinement is solved.
+const ADJOINT_TOLERANCE: f64 = f32::EPSILON as f64;
 /// Largest number of steps of the iterative refinement. Chosen to limit the time: beyond it the solution fails with
-/// [`BemError::ContactNotConverged`]. Three suffice if each reaches [`REFINEMENT_REDUCTION`].
+/// [`BemError::ContactNotConverged`]. Two or three suffice.
 const MAX_REFINEMENT_STEPS: usize = 20;
-/// Ratio of the residual after a step of the iterative refinement to that before, above which the refinement stagnates and fails.
-/// Chosen far above [`REFINEMENT_REDUCTION`] and below 1. It has a case of `evidence tuning`.
-const STAGNATION_RATIO: f64 = 0.7;
 
 /// Derivatives of one quantity under a constant mean pressure.
 #[derive(Debug)]
@@ -317,15 +310,12 @@ impl<'a> Adjoint<'a> {
             if residual <= ADJOINT_TOLERANCE * first {
                 return Ok((loads, eta));
             }
-            if residual > STAGNATION_RATIO * before {
-                break;
-            }
             before = residual;
 
-            // Correct the loads by a solution of the equations for this residual, in single precision.
+            // Correct the loads by a solution of the equations for this residual, in single precision. Two solutions reach the tolerance.
             self.equations.set_active_set(&self.contact, &loads, &gap);
             let size = self.equations.residual_rms();
-            self.equations.solve(REFINEMENT_REDUCTION * size, 0.0);
+            self.equations.solve(ADJOINT_TOLERANCE.sqrt() * size, 0.0);
             self.equations.copy_pressure_to(&mut loads);
         }
         Err(BemError::ContactNotConverged {
