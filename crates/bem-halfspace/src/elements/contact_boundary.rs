@@ -21,15 +21,10 @@
 //!
 //! Theory: docs/theory/sensitivities.md.
 
-/// Product κ b of the load–gap ratio κ and the second difference b of the kernel (head of this file), for boundaries of many
-/// elements, on which errors of κ average out. Chosen between 0.3 and 0.6; from 0.1 to 2 sensitivities change by at most half of
-/// their bars (case of `evidence tuning`).
-const LOAD_GAP_RATIO: f64 = 0.4;
-
 /// Product κ b of the load–gap ratio κ at a straight boundary and the second difference b of the kernel of a line of elements, where the
 /// pressure vanishes like a root. Measured under a parabolic cylinder on an elastic half plane: with it the fraction of a pair is linear
 /// in the position of the boundary, to 0.001 (case of `evidence tuning`).
-const ROOT_LOAD_GAP_RATIO: f64 = 0.6;
+const LOAD_GAP_RATIO: f64 = 0.6;
 /// Second difference k₀ − (k₁ + k₋₁)/2 of the kernel of an infinite line of elements, over their width. Derived: 3 ln 3, from the
 /// integral of −2 ln |x| over an element.
 pub(crate) const LINE_SECOND_DIFFERENCE: f64 = 3.295_836_866_004_329;
@@ -73,7 +68,7 @@ impl PolygonArea {
 /// Load–gap ratios κ along both axes, at a straight boundary where the pressure vanishes like a root. The kernel is that of an elastic
 /// half space, with `edges` of the elements; a boundary passes a line of elements at once.
 pub(crate) fn root_load_gap_ratios(edges: [f64; 2]) -> [f64; 2] {
-    edges.map(|edge| ROOT_LOAD_GAP_RATIO / (LINE_SECOND_DIFFERENCE * edge))
+    edges.map(|edge| LOAD_GAP_RATIO / (LINE_SECOND_DIFFERENCE * edge))
 }
 
 /// The derivatives of one quantity, area or boundary weight, at a fixed active set.

@@ -14,11 +14,6 @@ use crate::{BemError, Elastomer};
 /// `evidence tuning`).
 pub(crate) const MAX_HEIGHT_IN_DEPTH_SCALES: f64 = 2.0;
 
-/// Factor from the edges of a footprint to those of the next one, which is tried if the contact reaches its boundary. Chosen
-/// (case of `evidence tuning`): any factor above 1 leads to the same contact. A smaller one takes more trials, a larger one more
-/// elements.
-const GROWTH_FACTOR: f64 = 1.5;
-
 /// The rectangle around the lowest point of the indenter, which lies at [0, 0], in which contact may occur, \[m].
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -134,12 +129,12 @@ impl Footprint {
         }
     }
 
-    /// The rectangle whose edges are [`GROWTH_FACTOR`] times as far from the lowest point.
-    pub(crate) fn grown(&self) -> Self {
-        let grown = |ends: [f64; 2]| ends.map(|end| GROWTH_FACTOR * end);
+    /// The rectangle whose edges are twice as far from the lowest point, which is tried if the contact reaches the boundary of this one.
+    pub(crate) fn doubled(&self) -> Self {
+        let doubled = |ends: [f64; 2]| ends.map(|end| 2.0 * end);
         Self {
-            x: grown(self.x),
-            y: grown(self.y),
+            x: doubled(self.x),
+            y: doubled(self.y),
         }
     }
 

@@ -11,6 +11,8 @@ use crate::estimate::quantities::{Name, Quantities};
 
 /// Index of the friction from the dissipated power in vectors of quantities, after those of [`Name`].
 const DISSIPATED_FRICTION: usize = Name::IN_ORDER.len();
+/// Convergence order that the front of the contact causes (docs/theory/stationary-half-space.md, "Scatter, order, error bar").
+pub(crate) const FRONT_ORDER: f64 = 1.5;
 /// Error of each end of a contact, in elements. Chosen above one element (case of `evidence tuning`).
 ///
 /// The contact boundary follows the elements, and each outermost element is in contact as a whole or not at all. The test

@@ -14,12 +14,12 @@ use numerics::{Accuracy, MAX_STORED_STATES, Request};
 use rheology::{CreepSpectrum, Material as _};
 
 use crate::elements::footprint::Footprint;
-use crate::estimate::bars::order_of_friction;
+use crate::estimate::bars::{FRONT_ORDER, order_of_friction};
 use crate::estimate::plan::GridPlan;
 use crate::estimate::refinement_limits::{MARCH_ORDER, MOTION};
 use crate::march::free::{Schedule, TimedMotion};
-use crate::march::{MAX_STEPS, MarchExtent, largest_retardation_time, n_history_variables};
-use crate::motions::any_motion::{LimitCycle, TOUCH_DURATION_RATIO, refine_motion};
+use crate::march::{MAX_STEPS, MarchExtent, n_history_variables};
+use crate::motions::any_motion::{LimitCycle, refine_motion};
 use crate::motions::indent::footprint_after;
 use crate::motions::slide::{March, Motion, MotionRow};
 use crate::{BemError, Elastomer, GridOptions};
@@ -27,13 +27,6 @@ use crate::{BemError, Elastomer, GridOptions};
 /// Number of time steps in which the body passes an element at its largest speed. With three, the errors of steps and of elements
 /// are about equal (docs/theory/transient-half-space.md, "Linear loads"; case of `evidence tuning`).
 const STEPS_PER_ELEMENT: usize = 3;
-/// Order with which the mean friction of a cycle is extrapolated from n/2 and n elements. Measured on 24 strokes: the errors fall
-/// with orders from 1.2 to 2. An extrapolation with 1.5 to 2 halves them and removes their common sign
-/// (docs/theory/transient-half-space.md, "Linear loads"; case of `evidence tuning`).
-const CYCLE_EXTRAPOLATION_ORDER: f64 = 1.75;
-/// Ratio to the largest retardation time of the time after which a pressed body counts as at rest. Derived: the fraction e^−30,
-/// or 1e-13, of the creep is still to come then. It has a case of `evidence tuning`.
-const REST_OVER_RETARDATION_TIME: f64 = 30.0;
 
 /// Moves `surface` over an undeformed half space or layer, through the points of a motion or reciprocating until the limit cycle.
 ///
@@ -75,12 +68,13 @@ pub fn move_along<'w>(
     let goal = MOTION.goal(request, order);
     let is_elastic = problem.creep.is_elastic();
     // Extrapolate only cycles on viscoelastic materials, and not under cusps sharper than a cone, which converge with an order of
-    // their own.
+    // their own. Measured on 24 strokes: the errors fall with orders from 1.2 to 2. An extrapolation with 1.5 to 2 halves them and
+    // removes their common sign (docs/theory/transient-half-space.md, "Linear loads").
     let has_known_order = load.is_cycle() && !is_elastic && order >= MARCH_ORDER;
     let view = MotionView {
         load,
         is_elastic,
-        extrapolation_order: has_known_order.then_some(CYCLE_EXTRAPOLATION_ORDER),
+        extrapolation_order: has_known_order.then_some(FRONT_ORDER),
     };
     refine_motion(
         &goal,
@@ -151,9 +145,8 @@ impl<'a> MovingBody<'a> {
         let fastest = SlidingLoad::with(control, load.fastest())?;
         let mut plan = GridPlan::sliding(surface, elastomer, &fastest)?;
         if let Control::NormalForce(_) = control {
-            let creep_time = REST_OVER_RETARDATION_TIME * largest_retardation_time(&creep);
-            let duration = if limit_cycle.is_some() && creep_time > 0.0 {
-                creep_time
+            let duration = if limit_cycle.is_some() {
+                f64::MAX
             } else {
                 load.duration()
             };
@@ -190,10 +183,10 @@ impl<'a> MovingBody<'a> {
             .load
             .steps(STEPS_PER_ELEMENT * elements, max_step_length, MAX_STEPS)?;
 
-        // Begin with a first touch at rest, in which the body is pressed only. The steps of the motion, or of one cycle, follow
-        // it.
+        // Begin with a first touch at rest, in which the body is pressed only, for as long as the first step takes. The steps of the
+        // motion, or of one cycle, follow it.
         let start = self.load.stages()[0].start;
-        let touch = TOUCH_DURATION_RATIO * steps[0].duration;
+        let touch = steps[0].duration;
         let ends = steps.iter().map(|step| (step.end, step.duration));
         let points = std::iter::once((start, touch)).chain(ends);
         let motions = points.map(|(point, duration)| TimedMotion {

@@ -17,9 +17,6 @@ use crate::BemError;
 use crate::estimate::bars::reached_or_error;
 use crate::march::largest_retardation_time;
 
-/// Ratio of the duration of the first touch, a step in which the body is pressed without moving, to that of the first step of the
-/// motion. Chosen; from 1e-6 to 1 no answer changes by more than 2e-4 of its bar (case of `evidence tuning`).
-pub(super) const TOUCH_DURATION_RATIO: f64 = 1e-3;
 /// Largest number of cycles in the search for the limit cycle. Chosen to limit the time: the search fails with
 /// [`BemError::NotPeriodic`] after this number. A cycle that is found does not depend on it.
 const MAX_CYCLES: usize = 100;

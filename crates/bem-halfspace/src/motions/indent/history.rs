@@ -9,9 +9,8 @@ use rheology::{CreepSpectrum, Material as _};
 use super::{MotionRow, indent_history_on_grid};
 use crate::{BemError, Elastomer, GridOptions};
 
-/// Smallest ratio of successive changes by halving the steps that an error estimate uses: that of an error of the first order in
-/// their length. Changes that fall faster count with this ratio, because two of them may agree by chance. It has a case of
-/// `evidence tuning`.
+/// Smallest ratio of successive changes by halving the steps that an error estimate uses. Derived: it is that of an error of the first
+/// order in their length. Changes that fall faster count with this ratio, because two of them may agree by chance.
 const FIRST_ORDER_RATIO: f64 = 0.5;
 /// Ratio r of successive changes that is assumed if only one change is known, so that the error r/(1 − r) is twice that change.
 /// Chosen between 1/2, the ratio of the first order, and [`LARGEST_RATIO`]; it decides a bar only where a single halving is

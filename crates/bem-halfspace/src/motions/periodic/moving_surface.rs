@@ -21,7 +21,7 @@ use super::stresses::{Spectra, WaveMotion, WaveStates};
 use super::{CONTACT_TOLERANCE, elements_of_motion, initial_shape};
 use crate::march::MAX_STEPS;
 use crate::march::periodic::PeriodicMarch;
-use crate::motions::any_motion::{LimitCycle, TOUCH_DURATION_RATIO};
+use crate::motions::any_motion::LimitCycle;
 use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
 use crate::stationary::periodic::nested::interpolated;
 use crate::stationary::periodic::perimeter_error::area_fraction;
@@ -266,7 +266,7 @@ impl<'a> MovingSurface<'a> {
         report: &dyn Fn(f64),
     ) -> Result<MotionRecord, BemError> {
         let (grid, heights, steps) = (&on_grid.grid, &on_grid.heights, &on_grid.steps);
-        let touch = TOUCH_DURATION_RATIO * steps[0].duration;
+        let touch = steps[0].duration;
         let mut march = PeriodicMarch::new(grid, heights, self.elastomer, touch)?;
         let start = self.load.stages()[0].start.control;
         let touched = self.solve_step(&mut march, grid, touch, start, &on_grid.waves.states[0])?;

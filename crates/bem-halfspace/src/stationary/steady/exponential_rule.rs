@@ -10,18 +10,11 @@
 //!
 //! Theory: docs/theory/stationary-half-space.md, "Any linear viscoelastic material".
 
-use numerics::{LobattoRule, legendre_values, lobatto_rule, whole_part};
+use numerics::{LobattoRule, legendre_values, lobatto_rule};
 
 /// Largest number of points of a rule. Derived: that of the most accurate panels (`retarded_potential.rs`), whose error is of the
 /// order 6⁻¹².
 pub(super) const MAX_POINTS: usize = 12;
-/// Argument z = rate/2 of the Bessel functions above which their recurrence runs upwards in the degree, stable for degrees up to
-/// z; up to it the recurrence runs downwards. Chosen; from 30 to 120 no answer changes by more than 1e-10 of its bar (case of
-/// `evidence tuning`).
-const UPWARD_RECURRENCE_ARGUMENT: f64 = 60.0;
-/// Degrees by which the downward recurrence starts above the largest degree plus 2 z, so that its truncation is below rounding
-/// error. Chosen; from 20 to 80 no digit of an answer changes (case of `evidence tuning`).
-const EXTRA_DEGREES: usize = 40;
 
 /// Points on [0, 1] or around it, and the projection of values at them onto Legendre polynomials.
 pub(super) struct ExponentialRule {
@@ -102,15 +95,15 @@ fn legendre_moments(rate: f64, count: usize) -> [f64; MAX_POINTS] {
     let first = -(-rate).exp_m1();
     let mut moments = [0.0; MAX_POINTS];
     moments[0] = first;
-    // For large arguments the recurrence of the moments runs upwards. Otherwise the ratios of Bessel functions follow from
-    // Miller's downward recurrence.
-    if z > UPWARD_RECURRENCE_ARGUMENT {
+    // For arguments above the degree the recurrence of the moments is stable and runs upwards. Otherwise the ratios of Bessel
+    // functions follow from Miller's downward recurrence, whose truncation falls by a factor of at least 4 with each degree above z.
+    if z > MAX_POINTS as f64 {
         moments[1] = 1.0 - z.recip();
         for n in 1..count - 1 {
             moments[n + 1] = moments[n - 1] - (2 * n + 1) as f64 / z * moments[n];
         }
     } else {
-        let start = count + EXTRA_DEGREES + 2 * whole_part(z);
+        let start = 4 * MAX_POINTS;
         // The ratios satisfy i_n/i_(n−1) = z/(2n + 1 + z i_(n+1)/i_n). All terms are positive, so that nothing cancels.
         let mut ratio = 0.0;
         let mut ratios = [0.0; MAX_POINTS];

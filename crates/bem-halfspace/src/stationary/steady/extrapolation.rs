@@ -4,8 +4,8 @@
 
 use numerics::Estimate;
 
-/// Convergence order that the front of the contact causes (docs/theory/stationary-half-space.md, "Scatter, order, error bar").
-pub(super) const FRONT_ORDER: f64 = 1.5;
+use crate::estimate::bars::FRONT_ORDER;
+
 /// Convergence order at the edge of a flat end just inside the contact, where the elements resolve a punch only. Derived: the
 /// pressure of a punch grows like the inverse root of the distance, so that an element at the edge carries a part like the root
 /// of its length.

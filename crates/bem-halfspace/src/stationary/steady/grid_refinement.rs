@@ -16,11 +16,11 @@ use numerics::{
 use crate::BemError;
 use crate::Reached;
 use crate::estimate::averages::{Average, Refinement};
-use crate::estimate::bars;
+use crate::estimate::bars::{self, FRONT_ORDER};
 use crate::estimate::plan::{GridPlan, MAX_REFINEMENTS};
 use crate::estimate::quantities::Name;
 use crate::stationary::steady::extrapolation::{
-    ACCEPTED_ERROR_RATIO, CREEPING_ORDERS, FRONT_ORDER, HIDDEN_EDGE_ORDERS, OBSERVED_ORDERS,
+    ACCEPTED_ERROR_RATIO, CREEPING_ORDERS, HIDDEN_EDGE_ORDERS, OBSERVED_ORDERS,
     change_at_observed_order, extrapolate,
 };
 use crate::stationary::steady::loading::Loading;
@@ -58,7 +58,7 @@ const SAFETY_FACTOR_CREEPING: f64 = 1.5;
 /// become 0.2 to 0.4 times as wide (case of `evidence tuning`).
 const SMALL_FRICTION_RATIO: f64 = 0.2;
 /// Smallest number of refinements for an error estimate. Derived: an elimination shortens the sequence of values by two, and the
-/// estimate needs three limits. It has a case of `evidence tuning`.
+/// estimate needs three limits.
 const MIN_REFINEMENTS: i32 = 5;
 /// Largest ratio of the elements of a footprint to the allowed number of unknown pressures. Chosen to limit memory and time:
 /// refinement ends before a larger grid. The ratio is large because a steep body touches with a thin crescent.
@@ -80,12 +80,9 @@ pub(super) const DEFAULT_ASPECT: f64 = 0.5;
 /// fails.
 const CYCLING_SPACING_FACTORS: [f64; 2] = [0.99, 0.98];
 /// Factor on the requested relative error, times the ratio of the friction to the mean slope, that gives the tolerance of a
-/// contact. Chosen; from 1e-6 to 1e-2 only times change, by up to a fifth (case of `evidence tuning`).
+/// contact. Chosen; from 1e-4 to 1e-2 only times change, by up to a fifth (case of `evidence tuning`). In plane strain the constant
+/// potential of the whole strip, which is absorbed in the depth, leaves more rounding error than a smaller one allows.
 const RESIDUAL_SHARE: f64 = 1e-4;
-/// Factor on the requested relative error that gives the tolerance of a contact in plane strain, in place of [`RESIDUAL_SHARE`].
-/// It is larger, because the constant potential of the whole strip, which is absorbed in the depth, leaves more rounding error.
-/// Chosen; from 1e-4 to 1e-2 no answer changes by more than 0.3 % of its bar (case of `evidence tuning`).
-const STRIP_RESIDUAL_SHARE: f64 = 1e-2;
 /// Smallest tolerance of a contact, relative to the depth scale. Chosen above the rounding error of the transforms, below
 /// which a residual has no meaning (case of `evidence tuning`).
 const MIN_TOLERANCE: f64 = 1e-12;
@@ -556,10 +553,6 @@ impl ShiftedGrids<'_> {
         let friction_ratio = last.map_or(1.0, |last| {
             last.friction_coefficient.abs() / last.mean_slope
         });
-        let share = match self.problem.loading.strip {
-            Some(_) => STRIP_RESIDUAL_SHARE,
-            None => RESIDUAL_SHARE,
-        };
-        (share * self.options.relative_error * friction_ratio).max(MIN_TOLERANCE)
+        (RESIDUAL_SHARE * self.options.relative_error * friction_ratio).max(MIN_TOLERANCE)
     }
 }

@@ -23,10 +23,6 @@ use crate::stationary::steady::region::Region;
 use crate::stationary::steady::wake_table::WakeTable;
 use crate::{BemError, Grid};
 
-/// Height below which elements are in the initial active set, in units of the depth scale. Chosen: about the height at the sides
-/// of the contact of a paraboloid. It decides the number of active sets, not the solution (case of `evidence tuning`).
-const GUESSED_HEIGHT: f64 = 0.5;
-
 /// A candidate: an element that may touch.
 struct Element {
     /// Row in the footprint.
@@ -315,9 +311,9 @@ impl Mesh {
         self.elements[element].height
     }
 
-    /// Initial active set: candidates below [`GUESSED_HEIGHT`], with negligible loads.
+    /// Initial active set: candidates below the depth scale, with negligible loads.
     pub(super) fn initial_active_set(&self) -> Vec<(usize, f64)> {
-        let is_low = |element: &usize| self.height(*element) < GUESSED_HEIGHT;
+        let is_low = |element: &usize| self.height(*element) < 1.0;
         let low = (0..self.n_elements()).filter(is_low);
         low.map(|element| (element, f64::EPSILON)).collect()
     }

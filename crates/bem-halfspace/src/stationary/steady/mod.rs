@@ -47,6 +47,7 @@ mod wiener_hopf;
 use indenters::{SlidingLoad, Surface};
 use numerics::{between_zero_and_one, positive};
 
+use crate::elements::grid::MIN_COARSEST_EDGE;
 pub use crate::estimate::averages::{Average, Refinement};
 use crate::parallel::chunks::in_pool;
 use crate::stationary::INITIAL_GUESS_TOLERANCE;
@@ -62,14 +63,6 @@ use plans::Plans;
 pub use sinking_depth::SinkingDepth;
 pub use solution::{SteadyEstimate, SteadySliding};
 pub use wake_influence::wake_influence;
-
-/// Number of candidate elements of a mesh above which nested iteration is used: the solution on a coarser mesh is the initial
-/// guess. Chosen; with 500 or more, also with none at all, no answer changes by more than 1e-10 of its bar (case of
-/// `evidence tuning`).
-const NESTED_ITERATION_MIN_ELEMENTS: usize = 500;
-/// Ratio of the spacing of the coarser mesh of a nested iteration to that of the finer one. Chosen (case of `evidence tuning`): a
-/// smaller one gives a better initial guess for more work. The solution does not depend on it.
-const NESTED_ITERATION_SPACING_FACTOR: f64 = 2.0;
 
 /// One grid for a stationary solution. In plane strain its values along y have no effect.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -160,15 +153,15 @@ fn solve_on_mesh(
     between_zero_and_one("tolerance", options.tolerance)?;
     let mesh = Mesh::new(surface, loading, options, &mut reuse.plans)?;
 
-    // A large mesh starts from the solution on a coarser one (nested iteration). This ends at the latest with an element as long
-    // as the footprint.
+    // A large mesh starts from the solution on elements of twice the edges (nested iteration). This ends at the latest with an
+    // element as long as the footprint.
     let coarse = SteadyOptions {
-        spacing: loading.scaled(options.spacing, NESTED_ITERATION_SPACING_FACTOR),
+        spacing: loading.scaled(options.spacing, 2.0),
         tolerance: options.tolerance.max(INITIAL_GUESS_TOLERANCE),
         ..*options
     };
     let [rear, front] = options.footprint.x;
-    let is_large = mesh.n_elements() > NESTED_ITERATION_MIN_ELEMENTS;
+    let is_large = mesh.n_elements() > MIN_COARSEST_EDGE * MIN_COARSEST_EDGE;
     if reuse.solution.is_none() && is_large && coarse.spacing[0] < front - rear {
         // Only the kernel of a dashpot is the same on both grids, so that its tables are shared.
         let mut separate = Reuse::default();

@@ -59,10 +59,6 @@ const MIN_PANEL_LENGTH: f64 = 1.0 / (1_u64 << 26) as f64;
 /// Smallest distance ahead of the load, in Δx, at which the recursion along rows starts. Chosen; from 4 to 64 no answer changes
 /// by more than 2e-10 of its bar (case of `evidence tuning`).
 const MIN_START_DISTANCE: f64 = 16.0;
-/// Ratio of the distances of the end and the start of a panel from the load, for panels further ahead than the start of the
-/// recursion. Derived: below 2 the panels are shorter than their distance from the load, as the rule of most points requires. It
-/// has a case of `evidence tuning`.
-const PANEL_GROWTH: f64 = 1.9;
 
 /// An interval along x, with lengths in Δx.
 #[derive(Debug, Clone, Copy)]
@@ -189,7 +185,7 @@ impl RetardedPotential {
         while slowest * (end - self.position) < NEGLIGIBLE_EXPONENT
             && end < influence_end.min(1e150)
         {
-            end *= PANEL_GROWTH;
+            end *= 2.0;
             ends.push(end);
         }
         // Integrate panel by panel, from the far end towards the load.

@@ -13,13 +13,9 @@ use crate::estimate::quantities::Quantities;
 use crate::stationary::steady::SteadyOptions;
 use crate::stationary::steady::body_contact::Solution;
 use crate::stationary::steady::mesh::Mesh;
-use crate::stationary::steady::patch_resolution::check_patches;
+use crate::stationary::steady::patch_resolution::{MIN_ELEMENTS_ACROSS, check_patches};
 use crate::stationary::steady::sinking_depth::SinkingDepth;
 use crate::stationary::steady::sliding_creep::SlidingCreep;
-
-/// Distance in elements between an edge of the body and the front of the contact below which the elements do not separate the
-/// two. Chosen; from 1 to 16 no digit of an answer changes (case of `evidence tuning`).
-const EDGE_CLEARANCE: f64 = 4.0;
 
 /// A stationary state with the error of every quantity.
 pub type SteadyEstimate = ContactEstimate<SteadySliding, SteadyOptions>;
@@ -123,9 +119,10 @@ impl SteadySliding {
         creep.subgrid_friction_fraction(self.pressure.grid.spacing()[0], half_length, kinks)
     }
 
-    /// True if the front is closer to an edge of the body than [`EDGE_CLEARANCE`] elements; `radii` are those of the edges, \[m].
+    /// True if the front is closer to an edge of the body than [`MIN_ELEMENTS_ACROSS`] elements, so that these do not separate the two;
+    /// `radii` are those of the edges, \[m].
     pub(super) fn hides_edge(&self, radii: &[f64]) -> bool {
-        let unresolved_distance = EDGE_CLEARANCE * self.pressure.grid.spacing()[0];
+        let unresolved_distance = MIN_ELEMENTS_ACROSS as f64 * self.pressure.grid.spacing()[0];
         let [_, front] = self.contact_x;
         radii
             .iter()

@@ -14,13 +14,11 @@ use crate::stationary::steady::loading::Loading;
 use crate::stationary::steady::sensitivity::collocation_points::{
     CollocationPoints, FrictionSlope, Height, differences,
 };
-use crate::stationary::steady::sensitivity::kernel_gradient::{GridKernel, KernelGradient};
+use crate::stationary::steady::sensitivity::kernel_gradient::{
+    GridKernel, KernelGradient, LENGTH_STEP,
+};
 use crate::stationary::steady::sensitivity::loaded_contact::LoadedContact;
 use crate::stationary::steady::{Reuse, SteadyOptions, SteadySliding, solve_on_mesh};
-
-/// Relative change of all lengths of a body in central differences. Derived: near the cube root 6e-6 of the rounding error, where
-/// truncation and rounding balance. It has a case of `evidence tuning`.
-const DILATION_STEP: f64 = 1e-5;
 
 /// A contact on one grid with the gradients of its quantities.
 #[derive(Debug)]
@@ -186,7 +184,7 @@ impl ContactDerivatives {
         // Stretch all lengths of the body by a factor, and take central differences of heights and slope terms by its logarithm.
         let stretched =
             |factor: f64| move |[x, y]: [f64; 2]| factor * surface.height([x / factor, y / factor]);
-        let ends = [1.0 - DILATION_STEP, 1.0 + DILATION_STEP];
+        let ends = [1.0 - LENGTH_STEP, 1.0 + LENGTH_STEP];
         let by_body = self.between_heights(&stretched(ends[0]), &stretched(ends[1]))?;
         let log_step = (ends[1] / ends[0]).ln();
 

@@ -20,10 +20,10 @@ use crate::stationary::steady::sliding_creep::{
 };
 use crate::stationary::steady::wake_table::WakeTable;
 
-/// Relative step of the one-sided differences by the memory length of a retardation element, the length of a track or the thickness
-/// of a layer. Derived: about the square root of the relative error 1e-11 of kernels, where truncation and that error balance. It
-/// has a case of `evidence tuning`.
-const LENGTH_STEP: f64 = 1e-6;
+/// Relative step of differences by lengths: one-sided by the memory length of a retardation element, the length of a track or the
+/// thickness of a layer, central by those of a body. Derived: between the square root 3e-6 of the relative error 1e-11 of kernels
+/// and the cube root 6e-6 of the rounding error, where truncation and these errors balance.
+pub(super) const LENGTH_STEP: f64 = 4e-6;
 /// Ratio of the wave number that stands for a uniform load to the upper end of a band from 0 on. Chosen; any wave that is far
 /// longer than the contact and all waves of the band serves.
 const UNIFORM_WAVE_NUMBER: f64 = 1e-6;
