@@ -153,8 +153,8 @@ impl SlidingContact<'_> {
         let [half, half_loaded] = [half?, half_loaded?];
         let [fine, coarse] = in_pool(self.pressure.grid.n_elements(), || {
             [
-                heated.on(self.pressure, &loaded.pressure),
-                heated.on(&half, &half_loaded.pressure),
+                heated.on(self.pressure, &loaded.pressure, 1),
+                heated.on(&half, &half_loaded.pressure, 2),
             ]
         });
         let [fine, coarse] = [fine?, coarse?];
@@ -178,8 +178,8 @@ impl SlidingContact<'_> {
     /// at each place.
     ///
     /// Under one wave in full contact it is half of the root mean square slope of the surface. The error bar is about half of the difference
-    /// from the same pressure on elements with twice the edges; around a body also what larger periods may add, and on periods half of the relative difference between the power of the waves and
-    /// [`bulk_power`](Self::bulk_power).
+    /// from the same pressure on elements with twice the edges. Around a body it also has what larger periods may add; on periods, half of
+    /// the relative difference between the power of the waves and [`bulk_power`](Self::bulk_power).
     ///
     /// # Errors
     /// [`BemError::InvalidParameter`] for a velocity that is not positive, a contact without pressure, and a material that flows or does
@@ -190,9 +190,11 @@ impl SlidingContact<'_> {
         let equilibrium = self.material.relaxation().equilibrium_modulus();
         positive("equilibrium modulus", equilibrium)?;
         let strain_on = |grid: BulkGrid, multiple: usize| -> Result<[f64; 2], BemError> {
-            let around = surroundings(self.pressure, kind, grid, multiple)?;
+            // Scale the pressure, of which the weighted strain is the fourth power.
+            let mut around = surroundings(self.pressure, kind, grid, multiple)?;
             let largest = around.pressure.iter().copied().fold(0.0, f64::max);
             positive("largest pressure", largest)?;
+            around.pressure.iter_mut().for_each(|one| *one /= largest);
             let is_periodic = matches!(kind, ContactKind::Period { .. });
             let bulk = BulkHeat::of(self.pressed(&around, is_periodic), DEPTHS_OF_STRAIN)?;
             let n_elements = around.grid.n_elements() as f64;
@@ -200,8 +202,12 @@ impl SlidingContact<'_> {
             let [power, weighted] = bulk.power_and_weighted_strain().map(|mean| area * mean);
             // A period dissipates as much as its waves. Around a body the power includes that far behind it, where there is hardly any
             // strain.
-            let whole = if is_periodic { power } else { self.bulk_power };
-            Ok([(weighted / whole).sqrt(), power])
+            let amplitude = if is_periodic {
+                (weighted / power).sqrt() * largest
+            } else {
+                weighted.sqrt() * (largest / self.bulk_power.sqrt()) * largest
+            };
+            Ok([amplitude, power * largest * largest])
         };
         let grid = match kind {
             ContactKind::Body => STRAIN_OF_BODY,
@@ -233,7 +239,8 @@ impl SlidingContact<'_> {
                 let [first, second] = [long - short, longest - long];
                 // The strain is extrapolated by the ratio of both changes, within the range of orders.
                 let [lowest, highest] = CHANGE_RATIOS;
-                let remaining = second / ((first / second).clamp(lowest, highest) - 1.0);
+                let ratio = (first / second).max(lowest).min(highest);
+                let remaining = second / (ratio - 1.0);
                 let limit = (longest + remaining) / short;
                 Ok((resolved * limit).widened(remaining.abs() / short * fine))
             }
@@ -330,8 +337,14 @@ struct Surroundings {
 }
 
 impl Heated<'_> {
-    /// The temperature for a pressure field, and for the parts of its elements that are in contact, 0 to 1.
-    fn on(&self, pressure: &PressureField, contact: &[f64]) -> Result<Solution, BemError> {
+    /// The temperature for a pressure field, and for the parts of its elements that are in contact, 0 to 1; `multiple` is that of the
+    /// smallest edges of the grid of the bulk.
+    fn on(
+        &self,
+        pressure: &PressureField,
+        contact: &[f64],
+        multiple: usize,
+    ) -> Result<Solution, BemError> {
         let grid = &pressure.grid;
         let area = self.kind.area_of_element(grid);
         let sum_of = |values: &[f64]| values.iter().sum::<f64>();
@@ -348,7 +361,7 @@ impl Heated<'_> {
         let mut weighted_sum = 0.0;
         let mut power = self.contact.shear_power;
         if self.contact.bulk_power > 0.0 {
-            let around = self.surroundings(pressure)?;
+            let around = self.surroundings(pressure, multiple)?;
             unresolved = around.relative_error;
             for (index, rise) in temperature.iter_mut().enumerate() {
                 let [row, column] = [index / grid.shape()[1], index % grid.shape()[1]];
@@ -434,11 +447,19 @@ impl Heated<'_> {
     }
 
     /// The heat of the bulk around a contact.
-    fn surroundings(&self, pressure: &PressureField) -> Result<Surroundings, BemError> {
+    fn surroundings(
+        &self,
+        pressure: &PressureField,
+        multiple: usize,
+    ) -> Result<Surroundings, BemError> {
         let resolution = match self.kind {
             ContactKind::Body => OF_BODY,
             ContactKind::Line => OF_LINE,
             ContactKind::Period { .. } => OF_PERIOD,
+        };
+        let resolution = BulkGrid {
+            most_elements: resolution.most_elements / multiple,
+            ..resolution
         };
         let mut around = surroundings(pressure, self.kind, resolution, 1)?;
         // Scale the pressure, on whose square the power depends.
