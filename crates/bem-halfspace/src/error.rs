@@ -191,6 +191,19 @@ pub enum BemError {
         /// The whole result on the finest grid.
         reached: Box<Reached>,
     },
+    /// Heat spreads too slowly for its wake to be resolved at this velocity.
+    #[error(
+        "at the velocity {} m/s the diffusivity k/(ρc) must be at least {} m²/s, but is {} m²/s",
+        MessageNumber(*velocity), Rounded(*least), Rounded(*diffusivity)
+    )]
+    DiffusivityTooSmall {
+        /// Velocity of the source, \[m/s].
+        velocity: f64,
+        /// Diffusivity that was given, \[m²/s].
+        diffusivity: f64,
+        /// The smallest diffusivity allowed, \[m²/s].
+        least: f64,
+    },
     /// The load has no sliding distance where one is needed.
     #[error("a sliding distance is needed: {why}")]
     SlidingDistanceMissing {

@@ -77,8 +77,8 @@ impl SurfaceTemperature {
     /// the half space is unbounded.
     ///
     /// # Errors
-    /// [`BemError::InvalidParameter`] for a velocity that is not finite and at least 0, a Péclet number vL/(4D) of the grid above
-    /// 1e10, or elements with an aspect ratio out of the range of numbers.
+    /// [`BemError::InvalidParameter`] for a velocity that is not finite and at least 0, or elements with an aspect ratio out of the range
+    /// of numbers; [`BemError::DiffusivityTooSmall`] for a Péclet number vL/(4D) of the grid above 1e10.
     pub fn new(grid: &Grid, conductor: &HeatConductor, velocity: f64) -> Result<Self, BemError> {
         let wake_length = wake_length(grid, conductor, velocity)?;
         let coarse = coarse_grid(grid, grid.spacing().map(|edge| 2.0 * edge))?;
@@ -349,17 +349,18 @@ pub(super) fn wake_length(
     grid: &Grid,
     conductor: &HeatConductor,
     velocity: f64,
-) -> Result<f64, InvalidParameter> {
+) -> Result<f64, BemError> {
     not_negative("velocity", velocity)?;
-    let wake_length = 4.0 * conductor.diffusivity() / velocity;
-    let peclet_number = grid.shape()[0] as f64 * grid.spacing()[0] / wake_length;
-    let holds = peclet_number <= MAX_PECLET_NUMBER;
-    in_range(
-        "Péclet number of the grid",
-        peclet_number,
-        holds,
-        "at most 1e10",
-    )?;
+    let diffusivity = conductor.diffusivity();
+    let wake_length = 4.0 * diffusivity / velocity;
+    let length = grid.shape()[0] as f64 * grid.spacing()[0];
+    if length / wake_length > MAX_PECLET_NUMBER {
+        return Err(BemError::DiffusivityTooSmall {
+            velocity,
+            diffusivity,
+            least: velocity * length / (4.0 * MAX_PECLET_NUMBER),
+        });
+    }
     positive("ratio of the edges", grid.spacing()[1] / grid.spacing()[0])?;
     Ok(wake_length)
 }

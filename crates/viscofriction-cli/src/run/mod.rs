@@ -111,12 +111,15 @@ pub(crate) fn run(options: &Run) -> Result<()> {
     let seconds = started.elapsed().as_secs_f64();
     let (mut answer, mut missed) = match answer {
         Ok(answer) => (answer, None),
-        Err(error) => match error.downcast_ref().and_then(SolveError::reached) {
-            Some(reached) => (reached.clone(), Some(error)),
-            None if error.downcast_ref().is_some_and(SolveError::is_wrong_input) => {
+        Err(error) => match error.downcast_ref::<SolveError>() {
+            Some(SolveError::Scene(refused)) => return Err(source.locate(refused).into()),
+            Some(wrong) if wrong.is_wrong_input() => {
                 return Err(WrongInput(format!("{path}: {error}")).into());
             }
-            None => return Err(error.context(path.to_string())),
+            other => match other.and_then(SolveError::reached) {
+                Some(reached) => (reached.clone(), Some(error)),
+                None => return Err(error.context(path.to_string())),
+            },
         },
     };
     // Add the derivatives that are requested, and the fields if files are written.

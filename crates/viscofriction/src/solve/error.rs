@@ -32,9 +32,9 @@ pub enum SolveError {
     /// An error of the material.
     #[error(transparent)]
     Material(#[from] RheologyError),
-    /// The method needs more memory than the scene or the caller allows.
+    /// A key of the scene is to be changed: the method needs more memory than allowed, or a number has no temperature.
     #[error(transparent)]
-    TooMuchMemory(#[from] SceneError),
+    Scene(#[from] SceneError),
     /// The refinement stopped before a grid that needs more memory, or more time steps, than allowed.
     #[error("{reached}; {refused}")]
     MemoryReached {
@@ -321,7 +321,7 @@ impl SolveError {
             Self::Analytic(FrictionError::Indenter(error)) | Self::Indenter(error) => {
                 is_wrong_body(error)
             }
-            Self::Refused { .. } => true,
+            Self::Refused { .. } | Self::Scene(_) => true,
             _ => false,
         }
     }

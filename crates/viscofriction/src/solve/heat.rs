@@ -6,8 +6,8 @@
 //! Theory: docs/theory/heat.md.
 
 use bem_halfspace::heat::{ContactKind, Counterface, HeatConductor, SlidingContact};
-use bem_halfspace::{Grid, PressureField};
-use numerics::{Estimate, in_range};
+use bem_halfspace::{BemError, Grid, PressureField};
+use numerics::{Estimate, MessageNumber, in_range};
 use rheology::KELVIN_AT_ZERO_CELSIUS;
 
 use super::answer::Answer;
@@ -74,6 +74,23 @@ impl Heating {
             ambient: ambient.or_else(|| half_space.temperature()),
             duration: table.duration,
         }))
+    }
+
+    /// The error of a temperature with the key of the scene to change.
+    fn at_key(&self, error: &BemError) -> SceneError {
+        match error {
+            BemError::DiffusivityTooSmall { .. } => {
+                let problem = format!("{error}; give a larger one, or a smaller load.velocity");
+                SceneError::at("heat.diffusivity", problem)
+            }
+            BemError::InvalidParameter(refused) if !refused.value.is_finite() => {
+                let conductivity = MessageNumber(self.conductor.conductivity());
+                let problem =
+                    format!("{error}, with a conductivity of {conductivity} W/m/K; check its unit");
+                SceneError::at("heat.conductivity", problem)
+            }
+            _ => SceneError::at("heat", error.to_string()),
+        }
     }
 }
 
@@ -216,7 +233,7 @@ impl Problem {
             return Ok(answer);
         };
         let found = contact.temperature(&heating.conductor, heating.counterface, kind);
-        let found = found.map_err(|error| SceneError::at("heat", error.to_string()))?;
+        let found = found.map_err(|error| heating.at_key(&error))?;
         // The temperature is proportional to the dissipated power.
         let power = shear + bulk;
         let relative_error = if power.value > 0.0 {

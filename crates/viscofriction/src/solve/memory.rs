@@ -19,7 +19,7 @@ use crate::scene::{Accuracy, SceneError};
 /// Rejects a method whose first grid, or for a periodic surface the coarsest grid with error estimates, exceeds the memory limit.
 pub(super) fn check_memory(problem: &Problem, method: Method) -> Result<(), SceneError> {
     match check_first_grid(problem, method) {
-        Err(SolveError::TooMuchMemory(refused)) => Err(refused),
+        Err(SolveError::Scene(refused)) => Err(refused),
         // Memory cannot be estimated after another error, which is reported when the problem is solved.
         _ => Ok(()),
     }
