@@ -70,7 +70,7 @@ MAKERS: list[tuple[str, Callable[[], Any]]] = [
     ("indenter.superposition.terms[0].exponent must be finite and greater than 0", lambda: vf.Superposition([(1.0, -1.0)])),
     ("indenter.superposition.terms[0]: a table is needed", lambda: vf.Superposition([(1.0,)])),  # type: ignore[list-item]
     ("indenter.height-map.direction must be 0, 90, 180 or 270, but is 45", lambda: vf.HeightMapFile("map.csv", direction=45)),
-    ("indenter.height-map.unit.inch: unknown variant", lambda: vf.HeightMapFile("map.csv", unit="inch")),  # type: ignore[arg-type]
+    ("indenter.height-map.unit: it must be \"m\", \"mm\", \"um\" or \"nm\", but is \"inch\"", lambda: vf.HeightMapFile("map.csv", unit="inch")),  # type: ignore[arg-type]
     ("material.elastic.poisson_ratio must be greater than -1 and at most 0.5", lambda: vf.Elastic(1e6, poisson_ratio=0.6)),
     ("material.prony.branches[0].relaxation_time must be finite", lambda: vf.Prony(1e6, [(1e6, 0.0)])),
     ("material.file.poisson_ratio must be greater than -1", lambda: vf.MaterialFile("rubber.toml", poisson_ratio=1.0)),

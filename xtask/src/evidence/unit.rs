@@ -42,6 +42,8 @@ impl Unit {
                     "W" => [3, 1, -1, 0],
                     "kg" => [1, 1, 2, 0],
                     "1" | "rad" | "°C" | "K" => [0; 4],
+                    // With the temperatures the thermal energy RT, \[J/mol], stays as it is.
+                    "mol" => [3, 1, 0, 0],
                     _ => bail!("the unit {text:?} of a number of the scene is not known"),
                 };
                 unit.length += power * length;

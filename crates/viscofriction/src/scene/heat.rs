@@ -1,7 +1,7 @@
 //! `[heat]`: temperature of the contact.
 
 use bem_halfspace::heat::{self, HeatCapacity, HeatConductor};
-use numerics::{InvalidParameter, in_range};
+use numerics::InvalidParameter;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use toml::Table;
@@ -57,10 +57,6 @@ impl Heat {
     /// [`SceneError`] for the first number that is missing, out of range, or given twice.
     pub fn check(&self) -> Result<(), SceneError> {
         check_ranges("heat", self)?;
-        if let Counterface::Share(share) = self.counterface {
-            let holds = (0.0..=1.0).contains(&share);
-            in_range("heat.counterface.share", share, holds, "from 0 to 1")?;
-        }
         self.conductor().map(drop)
     }
 
@@ -121,6 +117,6 @@ impl TryFrom<Table> for Heat {
     type Error = SceneError;
 
     fn try_from(table: Table) -> Result<Self, SceneError> {
-        checked(table, &[]).map(|alone: HeatAlone| alone.heat)
+        checked(table).map(|alone: HeatAlone| alone.heat)
     }
 }

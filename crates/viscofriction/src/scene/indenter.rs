@@ -318,7 +318,7 @@ impl TryFrom<toml::Table> for Indenter {
     type Error = SceneError;
 
     fn try_from(table: toml::Table) -> Result<Self, SceneError> {
-        checked(table, &["indenter"]).map(|scene: BodyTable| scene.indenter)
+        checked(table).map(|scene: BodyTable| scene.indenter)
     }
 }
 

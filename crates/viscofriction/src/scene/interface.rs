@@ -200,6 +200,6 @@ impl TryFrom<Table> for Interface {
     type Error = SceneError;
 
     fn try_from(table: Table) -> Result<Self, SceneError> {
-        checked(table, &["interface"]).map(|alone: InterfaceAlone| alone.interface)
+        checked(table).map(|alone: InterfaceAlone| alone.interface)
     }
 }

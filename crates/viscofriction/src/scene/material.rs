@@ -311,6 +311,6 @@ impl TryFrom<Table> for MaterialTable {
     type Error = SceneError;
 
     fn try_from(table: Table) -> Result<Self, SceneError> {
-        checked(table, &["material"]).map(|file: MaterialFile| file.material)
+        checked(table).map(|file: MaterialFile| file.material)
     }
 }

@@ -17,7 +17,7 @@ use super::{Scene, SceneError};
 
 /// Ranges as doc comments state them, with the keywords that they become in the schema. `x-allowed` is the wording in messages,
 /// where it differs from that of the comment.
-fn ranges() -> [(&'static str, Json); 12] {
+fn ranges() -> [(&'static str, Json); 13] {
     [
         (
             "> 0",
@@ -35,6 +35,7 @@ fn ranges() -> [(&'static str, Json); 12] {
             "between 0 and 1",
             json!({ "exclusiveMinimum": 0, "exclusiveMaximum": 1 }),
         ),
+        ("from 0 to 1", json!({ "minimum": 0, "maximum": 1 })),
         ("from 0 to 0.1", json!({ "minimum": 0, "maximum": 0.1 })),
         (
             "from 0.01 to 0.99",
@@ -86,17 +87,21 @@ pub fn json_schema() -> Result<String, serde_json::Error> {
     Ok(text)
 }
 
-/// Adds the keywords of the range and unit that its description states to the schema of a number, or of the numbers of a list.
-/// Other schemas stay unchanged.
+/// Adds the keywords of the range and unit that its description states to the schema of a number, of the numbers of a list, or of the
+/// only key of a table. Other schemas stay unchanged.
 fn add_range_and_unit(schema: &mut Schema, ranges: &[(&str, Json)]) {
     let description = schema
         .get("description")
         .and_then(Json::as_str)
         .unwrap_or_default()
         .to_owned();
-    let words = match schema.get_mut("items") {
-        Some(items) => items.as_object_mut(),
-        None => schema.as_object_mut(),
+    let is_list = schema.get("items").is_some();
+    let words = match schema.get_mut(if is_list { "items" } else { "properties" }) {
+        Some(items) if is_list => items.as_object_mut(),
+        Some(Json::Object(keys)) if keys.len() == 1 => {
+            keys.values_mut().next().and_then(Json::as_object_mut)
+        }
+        _ => schema.as_object_mut(),
     };
     let Some(words) = words.filter(|words| {
         is_of_type(words.get("type"), "number") || is_of_type(words.get("type"), "integer")
@@ -233,14 +238,7 @@ fn check_value(words: &'static Json, value: &Value, path: &str) -> Result<(), Sc
     let words = resolved(words);
     match value {
         Value::Table(table) => table.iter().try_for_each(|(key, value)| {
-            let kinds = words["oneOf"].as_array().into_iter().flatten();
-            let mut tables = std::iter::once(words).chain(kinds);
-            let words = tables.find_map(|table| table["properties"].get(key));
-            check_value(
-                words.unwrap_or(&Json::Null),
-                value,
-                &format!("{path}.{key}"),
-            )
+            check_value(below(words, key), value, &format!("{path}.{key}"))
         }),
         Value::Array(items) => items.iter().enumerate().try_for_each(|(index, item)| {
             check_value(&words["items"], item, &format!("{path}[{index}]"))
@@ -248,6 +246,63 @@ fn check_value(words: &'static Json, value: &Value, path: &str) -> Result<(), Sc
         Value::Float(number) => check_number(words, *number, path),
         Value::Integer(number) => check_number(words, *number as f64, path),
         _ => Ok(()),
+    }
+}
+
+/// The part of the schema for a key of a table, or of a table that is named by its kind; null if there is none.
+pub(super) fn below(words: &'static Json, key: &str) -> &'static Json {
+    let kinds = words["oneOf"].as_array().into_iter().flatten();
+    let mut tables = std::iter::once(words).chain(kinds);
+    let found = tables.find_map(|table| table["properties"].get(key));
+    found.map_or(&Json::Null, resolved)
+}
+
+/// The refusal of a value that is none of the texts and tables of one key that the schema lists for it; `None` if it is one of them, and
+/// where the schema lists nothing, or kinds of tables alone.
+pub(super) fn refused_choice(words: &'static Json, value: &Value) -> Option<String> {
+    let choices = words["oneOf"].as_array()?;
+    let is_met = |choice: &Json| match value {
+        Value::String(text) => choice["const"] == **text,
+        Value::Table(table) if table.len() == 1 => {
+            table.keys().all(|key| !choice["properties"][key].is_null())
+        }
+        _ => false,
+    };
+    let is_kind = |choice| keys(choice).any(|key| keys(key.words).next().is_some());
+    if choices.iter().any(is_met) || choices.iter().all(is_kind) {
+        return None;
+    }
+    let mut allowed: Vec<String> = choices.iter().map(form).collect();
+    let last = allowed.pop()?;
+    let found = match value {
+        Value::String(text) => format!("{text:?}"),
+        Value::Table(table) if table.is_empty() => "an empty table".to_owned(),
+        Value::Table(table) => {
+            let keys: Vec<&str> = table.keys().map(String::as_str).collect();
+            format!("a table of {}", keys.join(", "))
+        }
+        Value::Array(_) => "a list".to_owned(),
+        other => other.to_string(),
+    };
+    Some(format!(
+        "it must be {} or {last}, but is {found}",
+        allowed.join(", ")
+    ))
+}
+
+/// How a value is written of which this is the part of the schema.
+fn form(words: &'static Json) -> String {
+    let (items, key) = (&words["items"], keys(words).next());
+    match (words["const"].as_str(), key, words["x-allowed"].as_str()) {
+        (Some(text), ..) => format!("{text:?}"),
+        (_, Some(key), _) => format!("{{ {} = {} }}", key.name, form(key.words)),
+        _ if !items.is_null() => {
+            let length = words["minItems"].as_u64().unwrap_or(1);
+            let items: Vec<String> = (0..length).map(|_| form(items)).collect();
+            format!("[{}]", items.join(", "))
+        }
+        (.., Some(allowed)) => format!("number {allowed}"),
+        _ => "number".to_owned(),
     }
 }
 

@@ -8,6 +8,7 @@ use serde_path_to_error::Segment;
 use toml::de::{DeTable, DeValue};
 use toml::{Table, Value};
 
+use super::schema::{below, refused_choice, resolved, schema};
 use super::{Scene, SceneError};
 use crate::text::{WrongInput, line_of};
 
@@ -141,13 +142,18 @@ pub(crate) fn quoted(table: &str, key: &str) -> String {
 
 /// The path at which deserialization failed, in the notation of error messages: `a.b[2].c`.
 fn path_of(path: &serde_path_to_error::Path) -> String {
+    let start = String::new();
     path.iter()
-        .fold(String::new(), |before, segment| match segment {
-            Segment::Seq { index } => format!("{before}[{index}]"),
-            Segment::Map { key } => quoted(&before, key),
-            Segment::Enum { variant } => quoted(&before, variant),
-            Segment::Unknown => before,
-        })
+        .fold(start, |before, segment| with_segment(&before, segment))
+}
+
+/// A path with one more segment.
+fn with_segment(before: &str, segment: &Segment) -> String {
+    match segment {
+        Segment::Seq { index } => format!("{before}[{index}]"),
+        Segment::Map { key } | Segment::Enum { variant: key } => quoted(before, key),
+        Segment::Unknown => before.to_owned(),
+    }
 }
 
 /// Rejects the path of an uncertain number without quotes, which TOML reads as nested tables.
@@ -200,22 +206,47 @@ fn escaped_path(table: &DeTable<'_>, text: &str) -> Option<Range<usize>> {
 /// Reads a scene; rejects unknown and missing keys and values of the wrong type.
 pub(crate) fn scene_file(table: Table) -> Result<Scene, SceneError> {
     check_quotes(&table)?;
-    checked(table, &["indenter", "material"])
+    checked(table)
 }
 
-/// Deserializes the tables of a file; each table in `kinds` must contain exactly one table, named by its kind.
-pub(super) fn checked<T: DeserializeOwned>(table: Table, kinds: &[&str]) -> Result<T, SceneError> {
+/// Tables of a scene that contain exactly one table, named by its kind.
+const TABLES_OF_ONE_KIND: [&str; 4] = ["indenter", "material", "interface", "strain"];
+
+/// Deserializes the tables of a file.
+pub(super) fn checked<T: DeserializeOwned>(table: Table) -> Result<T, SceneError> {
     for (key, value) in &table {
         check_tables(key, value)?;
     }
-    for key in kinds {
+    for key in TABLES_OF_ONE_KIND {
         check_kind(key, &table)?;
     }
-    serde_path_to_error::deserialize(table).map_err(|error| {
-        let path = path_of(error.path());
-        let problem = problem_of(error.inner());
-        SceneError::at(full_key(&path, &problem), problem)
+    let value = Value::Table(table);
+    serde_path_to_error::deserialize(value.clone()).map_err(|error| {
+        refused_choice_at(error.path(), &value).unwrap_or_else(|| {
+            let path = path_of(error.path());
+            let problem = problem_of(error.inner());
+            SceneError::at(full_key(&path, &problem), problem)
+        })
     })
+}
+
+/// The error of the first value on a path that is none of the choices of its key; `None` if there is none.
+fn refused_choice_at(path: &serde_path_to_error::Path, mut value: &Value) -> Option<SceneError> {
+    let (mut words, mut key) = (schema(), String::new());
+    for segment in path {
+        (words, value) = match segment {
+            Segment::Seq { index } => (resolved(&words["items"]), value.get(index)?),
+            Segment::Map { key } | Segment::Enum { variant: key } => {
+                (below(words, key), value.get(key)?)
+            }
+            Segment::Unknown => return None,
+        };
+        key = with_segment(&key, segment);
+        if let Some(problem) = refused_choice(words, value) {
+            return Some(SceneError::at(key, problem));
+        }
+    }
+    None
 }
 
 /// Message for a value of the wrong type, without Rust type names.
@@ -239,7 +270,7 @@ const MATRIX_KEYS: [&str; 2] = [".covariance.relative", ".shift.vertical.table"]
 /// Rejects lists in place of tables, whose values serde would assign to the keys by order.
 fn check_tables(key: &str, value: &Value) -> Result<(), SceneError> {
     let table = value.as_table().ok_or_else(|| no_table(key, value))?;
-    let is_kind = ["indenter", "material"].contains(&key);
+    let is_kind = TABLES_OF_ONE_KIND.contains(&key);
     for (name, value) in table {
         let inner = format!("{key}.{name}");
         match value {

@@ -139,6 +139,6 @@ impl TryFrom<Table> for Strain {
     type Error = SceneError;
 
     fn try_from(table: Table) -> Result<Self, SceneError> {
-        checked(table, &["strain"]).map(|alone: StrainAlone| alone.strain)
+        checked(table).map(|alone: StrainAlone| alone.strain)
     }
 }
