@@ -485,7 +485,8 @@ class BellShear(Interface):
 
     ``shear_strength``: Largest shear strength τ_0 > 0, [Pa].
     ``velocity``: Velocity v_0 > 0 of the largest shear strength at the reference temperature, [m/s].
-    ``activation_energy``: Activation energy > 0 of a_T by Arrhenius' law, by default in J/mol; without it the temperature has no influence.
+    ``activation_energy``: Activation energy > 0 of a_T by Arrhenius' law, by default in J/mol, from 1 kJ/mol to 10 MJ/mol; without it the temperature has no
+    influence.
     ``activation_energy_unit``: Unit of the activation energy.
     ``"J/mol"``: Joule per mole.
     ``"kJ/mol"``: Kilojoule per mole.

@@ -44,8 +44,6 @@ const TIME_BOUNDS: [f64; 2] = [1e-4, 1e4];
 const C1_BOUNDS: [f64; 2] = [0.1, 1e3];
 /// Upper bound of the constant C₂ of the WLF law, \[K]. Chosen; C₂ is about 50 K for most polymers at the glass transition.
 const MAX_C2: f64 = 1e4;
-/// Lower and upper bound of the activation energy of an Arrhenius law, \[J/mol]. Chosen; polymers have some 10⁴ to 10⁶.
-const ENERGY_BOUNDS: [f64; 2] = [1e3, 1e7];
 /// Lower and upper bound of the exponent of a power law: the range that scenes accept.
 const EXPONENT_BOUNDS: [f64; 2] = [0.01, 0.99];
 /// Lower bound of the ratio of C₂ to the distance \[K] of the coldest point below the reference temperature. Chosen. The WLF law
@@ -197,7 +195,11 @@ impl<'a> Family<'a> {
             (parameter, constant.start.ln())
         });
         let of_interface = self.strengths.iter().map(|number| {
-            let bounds = strength_bounds(number).map(|factor| factor * number.value);
+            let mut bounds = strength_bounds(number).map(|factor| factor * number.value);
+            if let ([_, ACTIVATION_ENERGY], Some(unit)) = (number.ends(), self.energy_unit()) {
+                let [lowest, highest] = unit.energy_range();
+                bounds = [bounds[0].max(lowest), bounds[1].min(highest)];
+            }
             let parameter = FreeParameter {
                 name: number.path(),
                 unit: self.strength_unit(number),
@@ -295,19 +297,17 @@ impl<'a> Family<'a> {
     /// Unit of a number of the interface in the scene.
     fn strength_unit(&self, number: &Number) -> &'static str {
         let [_, key] = number.ends();
-        match (key, &self.scene.interface) {
-            (
-                ACTIVATION_ENERGY,
-                Some(Interface::Bell {
-                    activation_energy_unit: EnergyUnit::Electronvolt,
-                    ..
-                }),
-            ) => "eV",
-            (ACTIVATION_ENERGY, _) => "J/mol",
-            (PEAK_VELOCITY, _) => "m/s",
-            (WIDTH, _) => "decades",
+        match key {
+            ACTIVATION_ENERGY => self.energy_unit().unwrap_or_default().name(),
+            PEAK_VELOCITY => "m/s",
+            WIDTH => "decades",
             _ => "Pa",
         }
+    }
+
+    /// Unit of the activation energy of the interface; `None` if it has none.
+    fn energy_unit(&self) -> Option<EnergyUnit> {
+        self.scene.interface.as_ref()?.energy_unit()
     }
 
     /// True if the first search multiplies the start value of a parameter by powers of ten: of all moduli; if none is free, of the
@@ -394,7 +394,8 @@ impl<'a> Family<'a> {
                 ),
             ],
             Some(ShiftLaw::Arrhenius(energy)) => {
-                vec![constant("E_a", "J/mol", energy, ENERGY_BOUNDS)]
+                let bounds = EnergyUnit::JoulePerMole.energy_range();
+                vec![constant("E_a", "J/mol", energy, bounds)]
             }
             None => Vec::new(),
         }

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use numerics::{MessageNumber, Rounded};
 use rheology::{
     BellParameters, DEFAULT_BELL_WIDTH, RheologyError, ShearStrength, ShearStrengthPoint,
 };
@@ -36,7 +37,8 @@ pub enum Interface {
         /// Decades w > 0 of velocity over which the shear strength falls to τ_0/e; without it √10.
         #[serde(default = "default_width")]
         width: f64,
-        /// Activation energy > 0 of a_T by Arrhenius' law, by default in J/mol; without it the temperature has no influence.
+        /// Activation energy > 0 of a_T by Arrhenius' law, by default in J/mol, from 1 kJ/mol to 10 MJ/mol; without it the temperature has no
+        /// influence.
         #[serde(skip_serializing_if = "Option::is_none")]
         activation_energy: Option<f64>,
         /// Unit of the activation energy.
@@ -68,7 +70,25 @@ pub enum EnergyUnit {
     Electronvolt,
 }
 
+/// Smallest and largest activation energy, \[J/mol]. Chosen: less is below the thermal energy RT = 2.4e3 and has almost no influence;
+/// polymers have some 1e4 to 1e6.
+const ENERGY_RANGE: [f64; 2] = [1e3, 1e7];
+
 impl EnergyUnit {
+    /// The unit as in a scene.
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::JoulePerMole => "J/mol",
+            Self::KilojoulePerMole => "kJ/mol",
+            Self::Electronvolt => "eV",
+        }
+    }
+
+    /// Smallest and largest activation energy in this unit.
+    pub(crate) fn energy_range(self) -> [f64; 2] {
+        ENERGY_RANGE.map(|bound| bound / self.joule_per_mole())
+    }
+
     /// The unit in \[J/mol].
     pub(crate) const fn joule_per_mole(self) -> f64 {
         match self {
@@ -99,12 +119,40 @@ impl Interface {
         format!("interface.{name}")
     }
 
+    /// Unit of the activation energy; `None` if the law has none.
+    pub(crate) const fn energy_unit(&self) -> Option<EnergyUnit> {
+        match self {
+            Self::Bell {
+                activation_energy_unit,
+                ..
+            } => Some(*activation_energy_unit),
+            _ => None,
+        }
+    }
+
     /// Checks every number against its range.
     ///
     /// # Errors
     /// [`SceneError`] for the first number out of range.
     pub fn check(&self) -> Result<(), SceneError> {
-        check_ranges("interface", self)
+        check_ranges("interface", self)?;
+        if let Self::Bell {
+            activation_energy: Some(energy),
+            ..
+        } = self
+            && let Some(unit) = self.energy_unit()
+        {
+            let [lowest, highest] = unit.energy_range();
+            if !(lowest..=highest).contains(energy) {
+                let (given, unit) = (MessageNumber(*energy), unit.name());
+                let [lowest, highest] = [lowest, highest].map(Rounded);
+                let problem = format!(
+                    "it must be from {lowest} to {highest} {unit}, but is {given} {unit}; activation_energy_unit is \"J/mol\", \"kJ/mol\" or \"eV\""
+                );
+                return Err(SceneError::at("interface.bell.activation_energy", problem));
+            }
+        }
+        Ok(())
     }
 
     /// The shear strength, checked; reads the file of a table.
@@ -201,5 +249,22 @@ impl TryFrom<Table> for Interface {
 
     fn try_from(table: Table) -> Result<Self, SceneError> {
         checked(table).map(|alone: InterfaceAlone| alone.interface)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_of_energies_have_their_names_in_scenes() {
+        for unit in [
+            EnergyUnit::JoulePerMole,
+            EnergyUnit::KilojoulePerMole,
+            EnergyUnit::Electronvolt,
+        ] {
+            let name = serde_json::to_value(unit).expect("a text");
+            assert_eq!(name, unit.name(), "{unit:?}");
+        }
     }
 }

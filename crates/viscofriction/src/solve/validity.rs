@@ -17,6 +17,8 @@ pub(super) const MAX_MEAN_SLOPE: f64 = 0.5;
 /// Ratio of the indentation depth to the radius of a sphere, or to the thickness of a layer, above which a warning is given.
 /// Chosen: strains are then a third or more, beyond the range in which the theory and most elastomers are linear.
 const MAX_RELATIVE_DEPTH: f64 = 1.0 / 3.0;
+/// Friction coefficient above which a warning is given. Chosen: dry rubber has up to 5, soft gels under small loads up to about 10.
+pub(super) const MAX_USUAL_FRICTION: f64 = 10.0;
 
 /// Warnings about the validity of an answer, after those of its files; without any the linear theory holds.
 pub(super) fn warnings(problem: &Problem, answer: &Answer) -> Vec<Warning> {
@@ -40,6 +42,14 @@ pub(super) fn warnings(problem: &Problem, answer: &Answer) -> Vec<Warning> {
         warnings.push(Warning::DeepForLayer {
             indentation_depth: depth,
             thickness: problem.thickness(),
+        });
+    }
+    let friction = [answer.friction_coefficient, answer.peak_friction];
+    let largest = friction.iter().flatten().map(|friction| friction.value);
+    let friction_coefficient = largest.fold(0.0, f64::max);
+    if friction_coefficient > MAX_USUAL_FRICTION {
+        warnings.push(Warning::LargeFriction {
+            friction_coefficient,
         });
     }
     warnings.extend(coupling_warning(problem));

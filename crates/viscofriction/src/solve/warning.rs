@@ -5,7 +5,7 @@ use std::fmt;
 use numerics::Rounded;
 use serde::{Serialize, Serializer};
 
-use super::validity::MAX_MEAN_SLOPE;
+use super::validity::{MAX_MEAN_SLOPE, MAX_USUAL_FRICTION};
 
 /// A limit of the validity of an answer, with the numbers that exceed it.
 ///
@@ -32,6 +32,11 @@ pub enum Warning {
         indentation_depth: f64,
         /// Thickness of the layer, \[m].
         thickness: f64,
+    },
+    /// The friction coefficient is larger than those that are measured on elastomers.
+    LargeFriction {
+        /// Friction coefficient, or its peak.
+        friction_coefficient: f64,
     },
     /// The shear of the contact moves the surface vertically, and the contact without shear is computed.
     NeglectedCoupling {
@@ -131,20 +136,24 @@ impl fmt::Display for Warning {
             Self::DeepForSphere {
                 indentation_depth,
                 radius,
-            } => write!(
-                out,
-                "the indentation depth {indentation_depth:.3e} m is more than a third of the radius {} m of the sphere, where linear \
-                 theory ends",
-                Rounded(*radius)
-            ),
+            } => {
+                let limit = format!("radius {} m of the sphere", Rounded(*radius));
+                write_deep(out, *indentation_depth, &limit)
+            }
             Self::DeepForLayer {
                 indentation_depth,
                 thickness,
+            } => {
+                let limit = format!("thickness {} m of the layer", Rounded(*thickness));
+                write_deep(out, *indentation_depth, &limit)
+            }
+            Self::LargeFriction {
+                friction_coefficient,
             } => write!(
                 out,
-                "the indentation depth {indentation_depth:.3e} m is more than a third of the thickness {} m of the layer, where linear \
-                 theory ends",
-                Rounded(*thickness)
+                "elastomers seldom have friction coefficients above {MAX_USUAL_FRICTION}, and this one is {}: check the units of load, moduli \
+                 and shear strength",
+                Rounded(*friction_coefficient)
             ),
             Self::NeglectedCoupling { is_layer: true, .. } => out.write_str(
                 "on a layer the shear of the contact also moves the surface vertically, and its effect on pressure and area is neglected",
@@ -222,6 +231,14 @@ impl fmt::Display for Warning {
             } => write!(out, "{warning} (of {surfaces} of {of} surfaces)"),
         }
     }
+}
+
+/// Writes that the depth exceeds a third of a length.
+fn write_deep(out: &mut fmt::Formatter<'_>, indentation_depth: f64, length: &str) -> fmt::Result {
+    write!(
+        out,
+        "the indentation depth {indentation_depth:.3e} m is more than a third of the {length}, where linear theory ends"
+    )
 }
 
 /// Writes how much the shear of the contact would change pressure and area for a Poisson ratio below 1/2.

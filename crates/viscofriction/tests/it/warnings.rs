@@ -66,6 +66,25 @@ fn a_deep_contact_has_depth_and_radius_or_thickness_in_the_warning() {
 }
 
 #[test]
+fn a_friction_that_no_elastomer_has_is_a_sign_of_a_wrong_unit() {
+    let ball = |shear_strength: f64| {
+        answer(&format!(
+            "indenter.sphere = {{ radius = 5e-3 }}\nmaterial.elastic = {{ shear_modulus = 1e6 }}\nload = {{ normal_force = 1.0, velocity = 0.01 \
+             }}\nsolve.relative_error = 0.01\ninterface.constant.shear_strength = {shear_strength}"
+        ))
+    };
+    assert_eq!(ball(1e6).warnings, [], "of a strong interface");
+    let large = ball(1e9);
+    let friction = large.friction_coefficient.expect("it slides").value;
+    let warning = only_warning(&large);
+    let expected = Warning::LargeFriction {
+        friction_coefficient: friction,
+    };
+    assert_eq!(warning, &expected);
+    assert!(warning.to_string().contains("check the units"), "{warning}");
+}
+
+#[test]
 fn friction_from_frequencies_that_were_not_measured_has_its_fractions() {
     let answer = answer(
         "indenter.sphere = { radius = 5e-3 }\nload = { normal_force = 2.0, velocity = 0.1 }\nsolve.model = \"line\"\n\
