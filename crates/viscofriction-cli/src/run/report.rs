@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use toml::{Table, Value};
-use viscofriction::scene::{Method, Model, Source};
+use viscofriction::scene::{Key, Method, Model, Source, keys, schema};
 use viscofriction::solve::{Answer, Motion, Problem};
 use viscofriction_plot::{Axis, Figure};
 
@@ -110,17 +110,9 @@ fn method_sentence(problem: &Problem, timed: &Timed<'_>) -> String {
 /// Table of the numbers of a scene: path, quantity with unit, and value.
 fn numbers(scene: &Table) -> comfy_table::Table {
     let mut rows = markdown("key | quantity | value");
-    let keys = [
-        "indenter",
-        "material",
-        "layer",
-        "load",
-        "solve",
-        "uncertainty",
-    ];
-    for key in keys {
-        if let Some(value) = scene.get(key) {
-            add_numbers(key, value, &mut rows);
+    for Key { name, .. } in keys(schema()) {
+        if let Some(value) = scene.get(name) {
+            add_numbers(name, value, &mut rows);
         }
     }
     rows

@@ -85,6 +85,34 @@ fn a_report_is_one_page_that_needs_no_other_file() {
     assert!(other.is_none(), "{other:?}");
 }
 
+/// Paths of all values of a scene.
+fn paths(table: &toml::Table) -> Vec<String> {
+    let below = |(key, value): (&String, &toml::Value)| match value.as_table() {
+        Some(table) => paths(table)
+            .iter()
+            .map(|path| format!("{key}.{path}"))
+            .collect(),
+        None => vec![key.clone()],
+    };
+    table.iter().flat_map(below).collect()
+}
+
+#[test]
+fn a_report_has_every_key_of_the_scene() {
+    let text = "[indenter.sphere]\nradius = 5e-3\n[material.elastic]\nshear_modulus = 1e6\n[interface.constant]\nshear_strength = \
+                1e5\n[heat]\nconductivity = 0.25\ndiffusivity = 1.2e-7\ncounterface = { share = 0.5 }\n[load]\nnormal_force = 1.0\nvelocity = \
+                0.1\n[solve]\nrelative_error = 0.1\n[uncertainty]\n\"load.normal_force\" = 0.1\n";
+    let folder = Folder::new("keys of a report");
+    folder.write("scene.toml", text);
+    folder.json("scene.toml --out out");
+    let page = fs::read_to_string(folder.path("out/report.html")).expect("a page");
+    let scene: toml::Table = text.parse().expect("a scene");
+    for path in paths(&scene) {
+        assert!(page.contains(&path), "no {path} in the report");
+    }
+    assert!(page.contains("conductivity [W/m/K]"), "the unit");
+}
+
 #[test]
 fn what_could_not_be_reached_ends_with_status_1_and_says_how_far_it_came() {
     // A short way is quick on the finest grid.
