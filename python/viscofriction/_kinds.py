@@ -509,7 +509,7 @@ class BellShear(Interface):
 class ShearFile(Interface):
     """Measured shear strengths, interpolated on logarithmic scales and never extrapolated.
 
-    ``file``: A CSV file beside the scene file with the columns velocity_m_per_s and shear_strength_pa, and optionally temperature_c and the standard error shear_strength_error_pa.
+    ``file``: A table beside the scene file with columns of speed and shear strength, and optionally of temperature and standard error.
     """
 
     file: str | os.PathLike[str]

@@ -4,6 +4,7 @@
 //! - [`strain`] reads strain sweeps, the factors of the moduli of filled rubber over the strain amplitude.
 //! - [`indentation`] fits a material to a force–indentation curve, with confidence intervals.
 //! - [`friction`] reads tables of friction over speed and fits the parameters of any friction model.
+//! - [`shear`] reads tables of the shear strength of a contact over speed and temperature.
 //!
 //! ```
 //! use indenters::{Control, HistoryPoint, Sphere};
@@ -37,6 +38,7 @@ mod finding;
 pub mod friction;
 pub mod indentation;
 pub mod moduli;
+pub mod shear;
 pub mod strain;
 mod table;
 

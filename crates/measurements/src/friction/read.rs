@@ -447,4 +447,4 @@ fn track_radius(table: &Table, options: &FrictionTableOptions) -> Result<TrackRa
 }
 
 /// Units of rotational speeds; all are converted to rad/s.
-const ROTATIONAL_UNITS: [&str; 3] = ["rpm", "Hz", "rad/s"];
+pub(crate) const ROTATIONAL_UNITS: [&str; 3] = ["rpm", "Hz", "rad/s"];

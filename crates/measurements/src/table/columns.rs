@@ -6,7 +6,8 @@ use super::Deformation;
 use Quantity::{
     Creep, Deflection, Depth, Displacement, Force, Frequency, Friction, FrictionError,
     FrictionForce, Height, Loss, LossFactor, Magnitude, Other, Phase, Piezo, Radius, Relaxation,
-    Set, Storage, StorageFactor, Strain, Temperature, Time, Tip, Velocity,
+    Set, ShearError, ShearStrength, Storage, StorageFactor, Strain, Temperature, Time, Tip,
+    Velocity,
 };
 
 /// Quantity in a column.
@@ -62,6 +63,10 @@ pub(crate) enum Quantity {
     FrictionError,
     /// Force along the surface.
     FrictionForce,
+    /// Shear strength of the contact.
+    ShearStrength,
+    /// Standard error of the shear strength.
+    ShearError,
     /// Known name of an ignored column.
     Other,
 }
@@ -186,6 +191,12 @@ pub(crate) fn split_unit(cell: &str) -> impl Iterator<Item = (&str, &str)> {
     parts.into_iter().flatten()
 }
 
+/// Divisions of a cell such as `tau_MPa` or `velocity_m_per_s` at its underscores into name and unit, from the last one on.
+pub(super) fn split_underscores(cell: &str) -> impl Iterator<Item = (&str, &str)> {
+    let places = cell.rmatch_indices('_');
+    places.map(|(at, _)| (&cell[..at], &cell[at + 1..]))
+}
+
 /// Half of a ramp; the columns of both halves may be in one table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Half {
@@ -247,6 +258,8 @@ impl Quantity {
             Friction => ("mu", "-  1 %"),
             FrictionError => ("standard error of mu", "-  1 %"),
             FrictionForce => ("friction force", "N mN uN nN pN kN"),
+            ShearStrength => ("tau", "Pa kPa MPa GPa"),
+            ShearError => ("standard error of tau", "Pa kPa MPa GPa"),
             // A deflection may be stated as a force, as a length, or as the voltage of the detector.
             Deflection => ("deflection", "N mN uN nN pN m um nm pm V mV"),
             Other => ("", "-  1"),
@@ -274,7 +287,8 @@ impl Quantity {
             .trim()
             .trim_matches(['[', ']', '(', ')'])
             .trim()
-            .replace(['µ', 'μ'], "u");
+            .replace(['µ', 'μ'], "u")
+            .replace("_per_", "/");
         let same = SAME_UNITS.iter().find(|(other, _)| *other == written);
         let usual = same.map_or(&*written, |(_, usual)| usual);
         let known = self.units().split(' ').find(|known| *known == usual)?;
@@ -307,7 +321,9 @@ impl Quantity {
 }
 
 /// Other spellings of units, each with its usual one.
-const SAME_UNITS: [(&str, &str); 24] = [
+const SAME_UNITS: [(&str, &str); 26] = [
+    ("pa", "Pa"),
+    ("c", "C"),
     ("1/min", "rpm"),
     ("min-1", "rpm"),
     ("U/min", "rpm"),

@@ -18,7 +18,7 @@ use crate::MeasurementError;
 use Quantity::{Frequency, Loss, Storage};
 use choice::{retain_first, retain_half};
 pub(crate) use columns::{Half, Quantity, Vocabulary};
-use columns::{half_of, split_unit};
+use columns::{half_of, split_underscores, split_unit};
 use layout::{Layout, is_comment, tagged};
 
 type Result<T, E = MeasurementError> = std::result::Result<T, E>;
@@ -166,7 +166,14 @@ impl<'a> Source<'a> {
             }
             let meaning = |name| self.vocabulary.meaning(name);
             let mut parts = split_unit(name);
-            let (found, unit) = parts.find_map(|(name, unit)| Some((meaning(name)?, unit)))?;
+            let known = parts.find_map(|(name, unit)| Some((meaning(name)?, unit)));
+            // Behind an underscore only a unit of the quantity is one: force_max is no force.
+            let with_unit = |(name, unit): (_, &'b str)| {
+                let found = meaning(name)?;
+                let is_unit = self.vocabulary.known[found.0].0.unit(unit).is_some();
+                (is_unit && unit.starts_with(char::is_alphabetic)).then_some((found, unit))
+            };
+            let (found, unit) = known.or_else(|| split_underscores(name).find_map(with_unit))?;
             let (order, deformation) = found;
             let quantity = self.vocabulary.known[order].0;
             // A name may be a unit, such as rpm.

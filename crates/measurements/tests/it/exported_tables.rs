@@ -11,6 +11,8 @@ use measurements::indentation::{CurveOptions, indentation_curve};
 use measurements::moduli::{
     Deformation, MeasuredModuli, Measurements, TableOptions, measured_moduli, shear_per_tension,
 };
+use measurements::shear::shear_strength_rows;
+use rheology::ShearStrengthPoint;
 
 use crate::support::assert_close;
 
@@ -257,4 +259,54 @@ fn creep_is_read_as_relaxation() {
             assert_close(name, point.modulus, exact, 0.02);
         }
     }
+}
+
+/// Shear strengths at 1 and 10 mm/s and 20 °C, in the spellings of a script, an instrument and a spreadsheet.
+#[test]
+fn shear_strengths_have_names_and_units_of_all_kinds() {
+    for text in [
+        "velocity_m_per_s,shear_strength_pa,temperature_c,shear_strength_error_pa\n1e-3,1e5,20,1e4\n1e-2,2e5,20,0\n",
+        "# of a ball\nv [mm/s]\ttau_MPa\ttemperature [K]\terror_kPa\n1\t0.1\t293.15\t10\n10\t0.2\t293.15\t0\n",
+        "Geschwindigkeit;Schubspannung;T;standard error\nmm/s;kPa;°C;Pa\n1;100,0;20;10000\n10;200,0;20;0\n",
+    ] {
+        let rows = shear_strength_rows(Path::new("shear.csv"), text.as_bytes());
+        let rows = rows.unwrap_or_else(|error| panic!("{error}"));
+        let numbers = rows.iter().map(|row| {
+            let ShearStrengthPoint {
+                velocity,
+                shear_strength,
+                temperature,
+            } = row.point;
+            [
+                Some(velocity),
+                Some(shear_strength),
+                temperature,
+                row.standard_error,
+            ]
+        });
+        let expected = [[1e-3, 1e5, 20.0, 1e4], [1e-2, 2e5, 20.0, 0.0]];
+        assert_eq!(rows.len(), expected.len(), "{text}");
+        for (found, expected) in numbers.flatten().zip(expected.as_flattened()) {
+            let off = found.map_or(f64::NAN, |found| (found - expected).abs());
+            assert!(off <= 1e-12 * expected, "{found:?}, not {expected}: {text}");
+        }
+    }
+    for (names, needed) in [
+        ("v (mm/s),tau (bar)", "Pa, kPa, MPa, GPa"),
+        ("v (rpm),tau (Pa)", "the speed is that along the surface"),
+    ] {
+        let text = format!("{names}\n1,1\n2,1\n");
+        let refused = shear_strength_rows(Path::new("shear.csv"), text.as_bytes());
+        let refused = refused.expect_err(names).to_string();
+        assert!(refused.contains(needed), "{refused}");
+    }
+}
+
+/// An unknown word behind an underscore is no unit, so that the column is another one.
+#[test]
+fn a_word_behind_an_underscore_is_no_unit() {
+    let text = "v_m/s,tau_kPa,tau_max,v_2\n1,1,9,9\n2,1,9,9\n";
+    let rows = shear_strength_rows(Path::new("shear.csv"), text.as_bytes()).expect("a table");
+    let strengths: Vec<f64> = rows.iter().map(|row| row.point.shear_strength).collect();
+    assert_eq!(strengths, [1e3, 1e3], "{text}");
 }

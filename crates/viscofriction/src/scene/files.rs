@@ -8,8 +8,10 @@ use indenters::rough::TabulatedSpectrum;
 use indenters::{IndenterError, PiecewiseLinearProfile};
 #[cfg(feature = "fit")]
 use measurements::strain::{StrainSweepOptions, strain_sweep};
-use numerics::{InvalidParameter, MessageNumber, in_range, not_negative, positive};
-use rheology::{RheologyError, ShearStrength, ShearStrengthPoint, StrainDependence};
+use numerics::{InvalidParameter, MessageNumber, not_negative, positive};
+use rheology::StrainDependence;
+#[cfg(feature = "fit")]
+use rheology::{RheologyError, ShearStrength, ShearStrengthPoint};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
@@ -77,57 +79,33 @@ pub fn spectrum(file: &Path, contents: &[u8], factor: f64) -> Result<TabulatedSp
         .map_err(|error| wrong((last, error.to_string())))
 }
 
-/// A row of a table of shear strengths: velocity \[m/s], shear strength \[Pa], and optionally temperature \[°C] and standard error
-/// \[Pa].
-#[derive(Debug, Clone, Copy, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ShearStrengthRow {
-    velocity_m_per_s: f64,
-    shear_strength_pa: f64,
-    temperature_c: Option<f64>,
-    shear_strength_error_pa: Option<f64>,
-}
-
-/// Shear strengths from the contents of a CSV file with the columns `velocity_m_per_s` and `shear_strength_pa`, and optionally
-/// `temperature_c` and `shear_strength_error_pa`; the error is a message with file and line.
+/// Shear strengths from the contents of a table over velocity and temperature; the error is a message with file and line.
+#[cfg(feature = "fit")]
 pub(super) fn shear_strengths(file: &Path, contents: &[u8]) -> Result<ShearLaw, String> {
-    let wrong = |(line, problem): (usize, String)| located(file, line, &problem);
-    let rows = rows::<ShearStrengthRow>(contents).map_err(wrong)?;
-    let point = |(_, row): &(usize, ShearStrengthRow)| ShearStrengthPoint {
-        velocity: row.velocity_m_per_s,
-        shear_strength: row.shear_strength_pa,
-        temperature: row.temperature_c,
-    };
-    let points: Vec<ShearStrengthPoint> = rows.iter().map(point).collect();
+    let rows = measurements::shear::shear_strength_rows(file, contents)
+        .map_err(|error| error.to_string())?;
+    let points: Vec<ShearStrengthPoint> = rows.iter().map(|row| row.point).collect();
     let strength = ShearStrength::table(&points).map_err(|error| {
         let row = match &error {
             RheologyError::InvalidElement { index, .. } => rows.get(*index),
             _ => rows.last(),
         };
-        wrong((row.map_or(1, |(line, _)| *line), error.to_string()))
+        located(file, row.map_or(1, |row| row.line), &error.to_string())
     })?;
-    // Either all rows have a standard error, or none.
-    let has_errors = rows
-        .first()
-        .is_some_and(|(_, row)| row.shear_strength_error_pa.is_some());
-    let relative_error = |(line, row): &(usize, ShearStrengthRow)| {
-        let error = row.shear_strength_error_pa.unwrap_or(f64::NAN);
-        let holds = row.shear_strength_error_pa.is_some() == has_errors
-            && (!has_errors || (0.0..f64::INFINITY).contains(&error));
-        let allowed = "finite and at least 0 in all rows, or left out in all";
-        in_range("shear_strength_error_pa", error, holds, allowed)
-            .map_err(|refused| wrong((*line, refused.to_string())))?;
-        Ok(error / row.shear_strength_pa)
-    };
-    let relative_errors: Vec<f64> = rows
-        .iter()
-        .map(relative_error)
-        .collect::<Result<_, String>>()?;
-    let uncertain = points.into_iter().zip(relative_errors);
+    let uncertain = rows.iter().filter_map(|row| {
+        let error = row.standard_error?;
+        Some((row.point, error / row.point.shear_strength))
+    });
     Ok(ShearLaw {
         strength,
-        uncertain_rows: uncertain.filter(|_| has_errors).collect(),
+        uncertain_rows: uncertain.collect(),
     })
+}
+
+/// Rejects a table of shear strengths, whose reader is that of measurements.
+#[cfg(not(feature = "fit"))]
+pub(super) fn shear_strengths(file: &Path, _: &[u8]) -> Result<ShearLaw, String> {
+    Err(unread(file))
 }
 
 /// Factors of the moduli over the strain amplitude from the contents of a CSV file; the error is a message with file and line.
@@ -157,10 +135,14 @@ pub(super) fn strain_dependence(
     _: Option<StrainDeformation>,
     _: StrainAmplitude,
 ) -> Result<StrainDependence, String> {
+    Err(unread(file))
+}
+
+/// The error of a build without the readers of measured tables.
+#[cfg(not(feature = "fit"))]
+fn unread(file: &Path) -> String {
     let file = file.display();
-    Err(format!(
-        "{file}: this build reads no measured tables; the feature fit of viscofriction does"
-    ))
+    format!("{file}: this build reads no measured tables; the feature fit of viscofriction does")
 }
 
 /// A row of a load history: time \[s], and force \[N] or depth \[m].

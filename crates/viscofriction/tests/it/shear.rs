@@ -431,15 +431,15 @@ fn scenes_without_shear_are_refused() {
         ),
         (
             format!("{BALL}[interface.table]\nfile = \"negative.csv\"\n"),
-            "negative.csv:3: shear_strength",
+            "negative.csv, line 3, column 2 (shear_strength_pa): expected a number greater than 0",
         ),
         (
             format!("{BALL}[interface.table]\nfile = \"uncertain.csv\"\n"),
-            "uncertain.csv:3: shear_strength_error_pa must be finite and at least 0",
+            "uncertain.csv, line 3, column 3 (shear_strength_error_pa): expected a number of at least 0",
         ),
         (
             format!("{BALL}[interface.table]\nfile = \"partly.csv\"\n"),
-            "partly.csv:3: shear_strength_error_pa",
+            "partly.csv, line 3, column 3 (shear_strength_error_pa)",
         ),
         (
             format!("{BALL}[interface.table]\nfile = \"none.csv\"\n"),
