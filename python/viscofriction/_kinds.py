@@ -568,7 +568,11 @@ class StrainFile(StrainDependence):
 
     ``file``: A CSV file beside the scene file: strain with storage_factor and loss_factor, or a strain sweep as instruments export it.
     ``amplitude``: Whether strains are half the distance from peak to peak, or the whole.
+    ``"single"``: Half of the distance from peak to peak.
+    ``"double"``: The distance from peak to peak.
     ``deformation``: What the strains of the file are; without it what the names of its moduli say.
+    ``"tension"``: Tension or compression, whose strain is the equivalent one.
+    ``"shear"``: Shear γ, whose equivalent strain is γ/√3.
     """
 
     file: str | os.PathLike[str]

@@ -115,18 +115,23 @@ pub enum Warning {
     },
 }
 
-/// The sentence that there is a second state, at `other`, because of `why`; its friction coefficient is left out if it is not known.
-fn second_state(why: &str, other: &str, friction_coefficient: Option<f64>) -> String {
+/// Writes that there is a second state, at `other`, because of `why`; its friction coefficient is left out if it is not known.
+fn write_second_state(
+    out: &mut fmt::Formatter<'_>,
+    why: &str,
+    other: &str,
+    friction_coefficient: Option<f64>,
+) -> fmt::Result {
     let words = |friction| format!(", with the friction coefficient {friction:.1e}");
     let friction = friction_coefficient.map(words).unwrap_or_default();
-    format!(
+    write!(
+        out,
         "{why}: this answer is that of the lower one, which is reached from rest; the other is about {other}{friction}"
     )
 }
 
 impl fmt::Display for Warning {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let percent = |fraction: f64| format!("{:.0} %", 100.0 * fraction);
         match self {
             Self::SteepContact { mean_slope } => write!(
                 out,
@@ -179,7 +184,7 @@ impl fmt::Display for Warning {
                 friction_coefficient,
             } => {
                 let why = "friction increases with temperature and keeps the contact at one of two temperatures";
-                out.write_str(&second_state(why, &format!("{temperature:.0} °C"), *friction_coefficient))
+                write_second_state(out, why, &format!("{temperature:.0} °C"), *friction_coefficient)
             }
             Self::UnmeasuredStrain { strain, largest } => write!(
                 out,
@@ -190,22 +195,13 @@ impl fmt::Display for Warning {
                 friction_coefficient,
             } => {
                 let why = "the moduli fall so steeply with strain that the contact has one of two strains";
-                out.write_str(&second_state(why, &format!("{strain:.1e}"), *friction_coefficient))
+                write_second_state(out, why, &format!("{strain:.1e}"), *friction_coefficient)
             }
             Self::UnmeasuredFrequencies {
                 outside,
                 outside_window,
                 valid_frequencies,
-            } => {
-                let [below, above] = outside.map(percent);
-                let [lowest, highest] = valid_frequencies.map(Rounded);
-                write!(
-                    out,
-                    "{} of the friction comes from frequencies at which the material was not measured: {below} from below {lowest} rad/s \
-                     and {above} from above {highest} rad/s; there its moduli are extrapolated",
-                    percent(*outside_window)
-                )
-            }
+            } => write_unmeasured_frequencies(out, *outside, *outside_window, *valid_frequencies),
             Self::UnmeasuredTimes {
                 times: [first, last],
                 valid_times: [shortest, longest],
@@ -231,6 +227,24 @@ impl fmt::Display for Warning {
             } => write!(out, "{warning} (of {surfaces} of {of} surfaces)"),
         }
     }
+}
+
+/// Writes which fractions of the friction come from frequencies below and above the measured ones \[rad/s], and from all of these.
+fn write_unmeasured_frequencies(
+    out: &mut fmt::Formatter<'_>,
+    outside: [f64; 2],
+    outside_window: f64,
+    valid_frequencies: [f64; 2],
+) -> fmt::Result {
+    let percent = |fraction: f64| format!("{:.0} %", 100.0 * fraction);
+    let [below, above] = outside.map(percent);
+    let [lowest, highest] = valid_frequencies.map(Rounded);
+    write!(
+        out,
+        "{} of the friction comes from frequencies at which the material was not measured: {below} from below {lowest} rad/s and {above} \
+         from above {highest} rad/s; there its moduli are extrapolated",
+        percent(outside_window)
+    )
 }
 
 /// Writes that the depth exceeds a third of a length.
