@@ -163,7 +163,7 @@ mod tests {
         let expected = read(plain, StrainSweepOptions::default()).expect("a sweep");
         let same = [
             "Strain [%];E' [MPa];E'' [MPa]\n0,1;8;2\n1;4;3\n10;2;1,5\n",
-            "strain %\tE' MPa\ttan delta\n0.1\t8\t0.25\n1\t4\t0.75\n10\t2\t0.75\n",
+            "strain (%)\tE' (MPa)\ttan delta\n0.1\t8\t0.25\n1\t4\t0.75\n10\t2\t0.75\n",
             "Double strain amplitude (%),E' (MPa),E'' (MPa)\n0.2,8,2\n2,4,3\n20,2,1.5\n",
             "shear strain,G' [kPa],G'' [kPa]\n0.00173205080756888,80,20\n0.0173205080756888,40,30\n0.173205080756888,20,15\n",
         ];

@@ -153,8 +153,8 @@ impl SlidingContact<'_> {
         let [half, half_loaded] = [half?, half_loaded?];
         let [fine, coarse] = in_pool(self.pressure.grid.n_elements(), || {
             [
-                heated.on(self.pressure, &loaded.pressure, 1),
-                heated.on(&half, &half_loaded.pressure, 2),
+                heated.on(self.pressure, &loaded.pressure),
+                heated.on(&half, &half_loaded.pressure),
             ]
         });
         let [fine, coarse] = [fine?, coarse?];
@@ -337,14 +337,8 @@ struct Surroundings {
 }
 
 impl Heated<'_> {
-    /// The temperature for a pressure field, and for the parts of its elements that are in contact, 0 to 1; `multiple` is that of the
-    /// smallest edges of the grid of the bulk.
-    fn on(
-        &self,
-        pressure: &PressureField,
-        contact: &[f64],
-        multiple: usize,
-    ) -> Result<Solution, BemError> {
+    /// The temperature for a pressure field, and for the parts of its elements that are in contact, 0 to 1.
+    fn on(&self, pressure: &PressureField, contact: &[f64]) -> Result<Solution, BemError> {
         let grid = &pressure.grid;
         let area = self.kind.area_of_element(grid);
         let sum_of = |values: &[f64]| values.iter().sum::<f64>();
@@ -361,7 +355,7 @@ impl Heated<'_> {
         let mut weighted_sum = 0.0;
         let mut power = self.contact.shear_power;
         if self.contact.bulk_power > 0.0 {
-            let around = self.surroundings(pressure, multiple)?;
+            let around = self.surroundings(pressure)?;
             unresolved = around.relative_error;
             for (index, rise) in temperature.iter_mut().enumerate() {
                 let [row, column] = [index / grid.shape()[1], index % grid.shape()[1]];
@@ -447,19 +441,11 @@ impl Heated<'_> {
     }
 
     /// The heat of the bulk around a contact.
-    fn surroundings(
-        &self,
-        pressure: &PressureField,
-        multiple: usize,
-    ) -> Result<Surroundings, BemError> {
+    fn surroundings(&self, pressure: &PressureField) -> Result<Surroundings, BemError> {
         let resolution = match self.kind {
             ContactKind::Body => OF_BODY,
             ContactKind::Line => OF_LINE,
             ContactKind::Period { .. } => OF_PERIOD,
-        };
-        let resolution = BulkGrid {
-            most_elements: resolution.most_elements / multiple,
-            ..resolution
         };
         let mut around = surroundings(pressure, self.kind, resolution, 1)?;
         // Scale the pressure, on whose square the power depends.
