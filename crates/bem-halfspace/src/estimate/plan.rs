@@ -19,6 +19,13 @@ const MAX_SPACING_OVER_THICKNESS: f64 = 0.5 * MAX_EDGE_OVER_THICKNESS;
 /// contact, relative to the squared slope at the end. Chosen, so that the small kinks of a tabulated profile are negligible (case
 /// of `evidence tuning`).
 pub(crate) const NEGLIGIBLE_KINKS: f64 = 0.01;
+/// Largest number of cells of a height map along the contact at which elements resolve single cells and their edges. Chosen (case
+/// of `evidence tuning`).
+const MAX_VISIBLE_CELLS: f64 = 8.0;
+/// Smallest jump of the slope between two cells of a height map that counts as an edge, as a fraction of the slope at the end of
+/// the contact. Chosen (case of `evidence tuning`). With a smaller one, bodies without edges get the lower order and wider bars
+/// of edges.
+const MIN_EDGE_JUMP: f64 = 0.3;
 /// Largest number of refinements of the coarsest grid by √2. Chosen to limit the time: the finest grid has 2¹² times as many
 /// elements along the contact as the coarsest. Most refinements end earlier at the limit of unknowns.
 pub(crate) const MAX_REFINEMENTS: i32 = 24;
@@ -203,10 +210,11 @@ impl CellSlopes {
         squares.sum::<f64>().min(1.0)
     }
 
-    /// True if the contact lies on no more cells than elements of the coarsest grid, and the slope jumps between two of them away from
-    /// the lowest point. Elements then resolve an edge like that of a flat end.
+    /// True if the contact lies on a few cells, and the slope jumps between two of them away from the lowest point. Elements then
+    /// resolve an edge like that of a flat end.
     fn are_visible(&self) -> bool {
-        self.slopes.len() as f64 <= ELEMENTS_ON_COARSEST_GRID && self.kinks() > NEGLIGIBLE_KINKS
+        self.slopes.len() as f64 <= MAX_VISIBLE_CELLS
+            && self.relative_jumps().any(|jump| jump.abs() > MIN_EDGE_JUMP)
     }
 }
 

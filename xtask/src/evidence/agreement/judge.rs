@@ -477,7 +477,11 @@ impl Pair<'_> {
             // pressed.
             Relation::MoreLoad if name == "contact_area" => presses(&self.derived.case.scene),
             Relation::MoreLoad => ["normal_force", "indentation_depth"].contains(&name),
-            Relation::OtherControl => !name.starts_with(['x', 'y']) && name != "peak_pressure",
+            // At the depth of softer moduli, those of small strains carry another force.
+            Relation::OtherControl => {
+                !name.starts_with(['x', 'y'])
+                    && !["peak_pressure", "linear_friction_coefficient"].contains(&name)
+            }
             Relation::ThickLayer => !name.starts_with("persson"),
             // Mirroring exchanges left and right, so the edges along y are not compared.
             Relation::Mirrored => !name.starts_with('y'),
