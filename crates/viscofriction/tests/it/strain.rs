@@ -104,6 +104,26 @@ fn one_wave_in_full_contact_has_its_closed_form() {
     assert!(error < 0.01 * friction, "{answer}");
 }
 
+/// Of random surfaces the linear answer is the mean over all of them, too.
+#[test]
+fn the_linear_answer_of_an_ensemble_is_its_mean() {
+    let folder = Folder::new("strain-ensemble");
+    let scene = format!(
+        "[indenter.self-affine]\nperiod = [1e-3, 1e-3]\nhurst_exponent = 0.8\nrms_slope = 0.2\nlongest_wavelength = 5e-4\nshortest_wavelength = \
+         2.5e-4\nseed = 1\nrealisations = 2\n{RUBBER}[load]\nmean_pressure = 1e5\nvelocity = 0.05\n[solve]\nelements = 128\n"
+    );
+    let answer = folder.answer(format!("{scene}{KRAUS}"));
+    let linear = folder.answer(scene);
+    for key in ["friction_coefficient", "area_fraction"] {
+        assert_close(
+            key,
+            number(&answer["linear"], key),
+            number(&linear, key),
+            1e-12,
+        );
+    }
+}
+
 /// With heat, every temperature has its own strain.
 #[test]
 fn heat_and_strain_are_found_together() {

@@ -178,7 +178,12 @@ fn mean_of(answers: &[Answer], seeds: &[u64]) -> Answer {
             surfaces: shared.answers,
             of: shared.of,
         });
+    let linear: Option<Vec<Answer>> = answers
+        .iter()
+        .map(|one| one.linear.as_deref().cloned())
+        .collect();
     let mut mean = Answer {
+        linear: linear.map(|linear| Box::new(mean_of(&linear, seeds))),
         persson: Persson::mean(answers.iter().map(|one| one.persson)),
         without_shortest_octave: without_shortest_octave(answers),
         dissipation: Dissipation {
