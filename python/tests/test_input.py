@@ -249,3 +249,14 @@ def test_friction_from_outside_of_the_measured_frequencies_is_said() -> None:
     assert share["below_window"][0] > 0.99 and share["outside_window"][1] < 0.1 and share["above_window"][2] > 0.5
     (warning,) = friction.warnings
     assert "was not measured" in warning and warning.endswith("(at 2 of 3 points)")
+
+
+def test_strain_dependences_are_checked_when_they_are_made() -> None:
+    for made in (lambda: vf.KrausStrain(-1.0, 0.3), lambda: vf.KrausStrain(0.1, 2.0)):
+        with pytest.raises(ValueError, match="strain.kraus"):
+            made()
+    with pytest.raises(ValueError, match="strain must be a KrausStrain or StrainFile"):
+        vf.slide(BALL, RUBBER, normal_force=1.0, velocity=0.1, strain=0.3)  # type: ignore[arg-type]
+    softer = vf.slide(BALL, RUBBER, normal_force=1.0, velocity=0.1, relative_error=0.05, strain=vf.KrausStrain(0.01, 0.3))
+    assert softer.strain is not None and softer.strain > 0
+    assert softer.friction_coefficient != softer.linear_friction_coefficient

@@ -90,7 +90,24 @@ impl Strain {
     /// # Errors
     /// [`SceneError`] for the first number out of range.
     pub fn check(&self) -> Result<(), SceneError> {
-        check_ranges("strain", self)
+        check_ranges("strain", self)?;
+        let Self::Kraus {
+            critical_strain,
+            exponent,
+            storage_ratio,
+            loss_peak_ratio,
+        } = *self
+        else {
+            return Ok(());
+        };
+        let model = KrausModel {
+            critical_strain,
+            exponent,
+            storage_ratio,
+            loss_peak_ratio,
+        };
+        let refused = |error: RheologyError| SceneError::at(self.key(), error.to_string());
+        StrainDependence::kraus(model).map(drop).map_err(refused)
     }
 
     /// The factors over the strain, checked; reads the file of a table.
