@@ -42,16 +42,17 @@ pub(super) struct DepthRule {
     negligible_share: f64,
 }
 
-/// Depths for the power. Derived, and the negligible share chosen: the trapezoidal rule of (qz)³ e^(−2qz) over ln z has the relative error 2 |Γ(3 + 2πi/0.6)|/Γ(3) = 7e-5;
-/// above the smallest depth lies 1.2e-3 of the power of the shortest wave, and less of that of longer ones.
+/// Depths for the power. Derived, and the negligible share chosen: the trapezoidal rule of (qz)³ e^(−2qz) over ln z has the relative
+/// error 2 |Γ(3 + 2πi/0.6)|/Γ(3) = 7e-5; above the smallest depth lies 1.2e-3 of the power of the shortest wave, and less of that of
+/// longer ones.
 pub(super) const DEPTHS_OF_POWER: DepthRule = DepthRule {
     log_step: 0.6,
     smallest: 0.1,
     with_strain: false,
     negligible_share: 0.01,
 };
-/// Depths for the product of power and squared strain. Derived, and the negligible share chosen: the trapezoidal rule of (qz)⁵ e^(−4qz) over ln z has the relative error
-/// 2 |Γ(5 + 2πi/0.4)|/Γ(5) = 1e-6, and above the smallest depth lies 3e-6 of the integral.
+/// Depths for the product of power and squared strain. Derived, and the negligible share chosen: the trapezoidal rule of (qz)⁵ e^(−4qz)
+/// over ln z has the relative error 2 |Γ(5 + 2πi/0.4)|/Γ(5) = 1e-6, and above the smallest depth lies 3e-6 of the integral.
 pub(super) const DEPTHS_OF_STRAIN: DepthRule = DepthRule {
     log_step: 0.4,
     smallest: 0.05,

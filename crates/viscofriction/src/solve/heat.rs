@@ -227,7 +227,9 @@ impl Problem {
         if self.strain_dependence().is_some() {
             let found = contact.strain_amplitude(kind);
             let found = found.map_err(|error| SceneError::at("strain", error.to_string()))?;
-            answer.strain = Some(found);
+            // The square of the strain is relative to the power.
+            let relative_error = 0.5 * bulk.error / bulk.value;
+            answer.strain = Some(found.widened(relative_error * found.value));
         }
         let Some(heating) = self.heating() else {
             return Ok(answer);
