@@ -289,6 +289,12 @@ pub enum BemError {
         "factors of the moduli at a strain amplitude have a meaning in stationary sliding only, whose derivatives with them are not computed"
     )]
     FactorsWithoutStationaryState,
+    /// A shift by the wavelength without stationary waves on a period.
+    #[error(
+        "a shift of times and moduli by the wavelength has a meaning in stationary sliding of periodic surfaces only, whose derivatives with it \
+         are not computed"
+    )]
+    WaveShiftWithoutPeriod,
     /// Moduli with different factors on a closed track.
     #[error("on a track the moduli may not have different factors at the strain amplitude")]
     FactorsOnTrack,

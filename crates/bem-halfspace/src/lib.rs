@@ -96,5 +96,6 @@ pub use steady::{steady_line, steady_line_on_grid, steady_on_grid};
 pub use substrate::base::{Base, Elastomer, Substrate};
 pub use substrate::influence::influence;
 pub use substrate::layer::Layer;
+pub use substrate::wave_shift::{ShiftOfWave, WaveShift};
 pub use transform::convolution::{Convolution, ConvolutionWorkspace, Rows};
 pub use transform::pressure_spectrum::line_spectrum;

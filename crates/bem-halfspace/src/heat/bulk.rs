@@ -26,7 +26,7 @@ use rustfft::num_complex::Complex;
 use crate::parallel::row_blocks::{copies, for_each_row};
 use crate::transform::plane_transform::ZERO;
 use crate::transform::plane_transform::complex_product::signed_offset;
-use crate::{BemError, PressureField};
+use crate::{BemError, Grid, PressureField, WaveShift};
 
 /// The depths z at which fields are computed.
 #[derive(Debug, Clone, Copy)]
@@ -90,19 +90,22 @@ pub(super) struct Pressed<'a> {
     pub(super) material: &'a dyn Material,
     /// Factors of its moduli.
     pub(super) factors: ModulusFactors,
+    /// Shift of its times and moduli by the wavelength, on a period; `None` for the same material under all waves.
+    pub(super) wave_shift: Option<&'a WaveShift>,
     /// Velocity along +x, \[m/s].
     pub(super) velocity: f64,
 }
 
 /// Fourier coefficients of a field on a period, `[wave along y][wave along x]`.
-type Coefficients = Vec<Complex<f64>>;
+pub(super) type Coefficients = Vec<Complex<f64>>;
 
-/// Filter from stress to the root of the dissipated power per volume of a branch, by the wave number along x.
+/// Filter from stress to the root of the dissipated power per volume of a branch, or to the strain: one number for each wave number along
+/// x, or for each wave as in [`Coefficients`] if the material depends on the wavelength.
 type Filter = Vec<Complex<f64>>;
 
 /// Coefficients of the power dissipated at one depth.
 #[derive(Default)]
-struct Plane {
+pub(super) struct Plane {
     /// Depth z, \[m].
     depth: f64,
     /// Elements of the period on which it is computed.
@@ -155,6 +158,21 @@ impl BulkHeat {
         })
     }
 
+    /// Elements of the period.
+    pub(super) const fn shape(&self) -> [usize; 2] {
+        self.shape
+    }
+
+    /// Step of ln z from depth to depth.
+    pub(super) const fn log_step(&self) -> f64 {
+        self.log_step
+    }
+
+    /// The planes with the waves of their power, from the surface downwards.
+    pub(super) fn spectra(&self) -> &[Plane] {
+        &self.planes
+    }
+
     /// Power per area, \[W/m²], and the same with each part multiplied by the squared equivalent strain where it is dissipated.
     pub(super) fn power_and_weighted_strain(&self) -> [f64; 2] {
         let [mut power, mut weighted] = [0.0; 2];
@@ -185,13 +203,77 @@ impl BulkHeat {
 }
 
 /// Wave numbers of the longest waves along x and y of the period that a field covers, \[rad/m].
-fn wave_steps(field: &PressureField) -> [f64; 2] {
+pub(super) fn wave_steps(field: &PressureField) -> [f64; 2] {
     let (shape, spacing) = (field.grid.shape(), field.grid.spacing());
     [0, 1].map(|axis| 2.0 * PI / (shape[axis] as f64 * spacing[axis]))
 }
 
-/// Filters from the stress of waves to other fields, by the wave number along x.
+/// Waves that have one filter coefficient, and the material under them.
+struct FilteredWave {
+    /// Wave number along x, \[rad/m].
+    q_x: f64,
+    /// Factor of all times.
+    time_factor: f64,
+    /// Factor of all moduli.
+    modulus_factor: f64,
+}
+
+impl FilteredWave {
+    /// The waves of all filter coefficients of a contact; `steps` are the wave numbers of the longest waves along x and y.
+    fn of(contact: &Pressed<'_>, steps: [f64; 2]) -> Vec<Self> {
+        let [rows, columns] = contact.pressure.grid.shape();
+        let wave = |q_x: f64, [time_factor, modulus_factor]: [f64; 2]| Self {
+            q_x,
+            time_factor,
+            modulus_factor,
+        };
+        let Some(shift) = contact.wave_shift else {
+            // Filters whose reach is limited are computed on a period that is longer by far.
+            let longer = if contact.is_periodic {
+                1
+            } else {
+                PERIODS_OF_FILTER
+            };
+            let numbers = wave_numbers(longer * rows, steps[0] / longer as f64);
+            return numbers.into_iter().map(|q_x| wave(q_x, [1.0; 2])).collect();
+        };
+        let [along, across] = [
+            wave_numbers(rows, steps[0]),
+            wave_numbers(columns, steps[1]),
+        ];
+        let of_column = |q_y: &f64| {
+            let shifted = |q_x: &f64| wave(*q_x, shift.factors(q_x.hypot(*q_y)));
+            along.iter().map(shifted).collect::<Vec<_>>()
+        };
+        across.iter().flat_map(of_column).collect()
+    }
+}
+
+/// Waves of a field that is constant on each element of a period, `[wave along y][wave along x]`, without those that the elements do not
+/// resolve.
+pub(super) fn waves_of_elements(grid: &Grid, field: &[f64]) -> Coefficients {
+    let shape = grid.shape();
+    let mut waves: Coefficients = field.iter().map(|value| Complex::from(*value)).collect();
+    PlanePlans::new(shape).forward(&mut waves);
+    // An element has the transform sin(a)/a with half of the phase across it, along each axis.
+    let ratio = |index: usize, n: usize| {
+        let half_phase = PI * signed_offset(index, n) as f64 / n as f64;
+        if index == 0 {
+            1.0
+        } else {
+            half_phase.sin() / half_phase
+        }
+    };
+    for (index, wave) in waves.iter_mut().enumerate() {
+        *wave *= ratio(index % shape[0], shape[0]) * ratio(index / shape[0], shape[1]);
+    }
+    waves
+}
+
+/// Filters from the stress of waves to other fields.
 struct Filters {
+    /// Whether filters have one number for each wave number along x, and not for each wave.
+    is_by_row: bool,
     /// Filters to fields whose squares add up to the power per volume.
     branches: Vec<Filter>,
     /// Equivalent strain; `None` if it is not wanted.
@@ -208,31 +290,35 @@ impl Filters {
     ) -> Result<Self, BemError> {
         let spectrum = contact.material.relaxation();
         let shape = contact.pressure.grid.shape();
-        let rows: Vec<f64> = wave_numbers(shape[0], step_x);
-        // Filters whose reach is limited are computed on a period that is longer by far.
-        let longer = if contact.is_periodic {
-            1
-        } else {
-            PERIODS_OF_FILTER
-        };
-        let numbers = wave_numbers(longer * shape[0], step_x / longer as f64);
-        let modulus = |q_x: &f64| -> Result<Complex<f64>, BemError> {
-            let small = spectrum.complex_modulus(q_x.abs() * contact.velocity)?;
+        let of_filters = FilteredWave::of(contact, [step_x, step_y]);
+        let modulus = |wave: &FilteredWave| -> Result<Complex<f64>, BemError> {
+            let frequency = wave.q_x.abs() * contact.velocity * wave.time_factor;
+            let small = spectrum.complex_modulus(frequency)?;
             let ComplexModulus { storage, loss } = contact.factors.on(small);
-            Ok(Complex::new(storage, -q_x.signum() * loss))
+            Ok(Complex::new(storage, -wave.q_x.signum() * loss) * wave.modulus_factor)
         };
-        let moduli: Vec<Complex<f64>> = numbers.iter().map(modulus).collect::<Result<_, _>>()?;
-        // Power of each wave number along x up to the factor of the filter.
-        let mut powers = vec![0.0; shape[0]];
-        for (column, waves) in waves.chunks_exact(shape[0]).enumerate() {
+        let moduli: Vec<Complex<f64>> = of_filters.iter().map(modulus).collect::<Result<_, _>>()?;
+        // Power of each wave number along x, or of each wave, up to the factor of the filter.
+        let is_by_row = contact.wave_shift.is_none();
+        let rows = wave_numbers(shape[0], step_x);
+        let mut powers = vec![0.0; if is_by_row { rows.len() } else { waves.len() }];
+        for (column, waves) in waves.chunks_exact(rows.len()).enumerate() {
             let q_y = signed_offset(column, shape[1]) as f64 * step_y;
-            for ((power, wave), q_x) in powers.iter_mut().zip(waves).zip(&rows) {
+            let first = if is_by_row { 0 } else { column * rows.len() };
+            for ((power, wave), q_x) in powers[first..].iter_mut().zip(waves).zip(&rows) {
                 let q = q_x.hypot(q_y);
                 if q > 0.0 {
                     *power += wave.norm_sqr() / q;
                 }
             }
         }
+        let within_reach = |filter: Filter| {
+            if contact.is_periodic {
+                filter
+            } else {
+                within_half_a_period(filter, shape[0])
+            }
+        };
         // A material that flows also dissipates under waves that do not move along x: then iω/G*(ω) is the inverse of its viscosity.
         let rate_over_modulus_at_rest = if spectrum.equilibrium_modulus() > 0.0 {
             0.0
@@ -244,8 +330,10 @@ impl Filters {
         let branches = branches.map(|branch| [branch.viscosity(), branch.relaxation_time]);
         let dashpot = [spectrum.viscosity(), 0.0];
         let filter = |[viscosity, time]: [f64; 2]| -> Filter {
-            let of_wave = |(q_x, modulus): (&f64, &Complex<f64>)| {
-                let omega = -q_x * contact.velocity;
+            let of_wave = |(wave, modulus): (&FilteredWave, &Complex<f64>)| {
+                let omega = -wave.q_x * contact.velocity;
+                let time = time * wave.time_factor;
+                let viscosity = viscosity * wave.time_factor * wave.modulus_factor;
                 let ratio = if omega == 0.0 {
                     Complex::from(rate_over_modulus_at_rest)
                 } else {
@@ -254,17 +342,14 @@ impl Filters {
                 // The factor of the loss modulus is one of the dissipated power.
                 ratio * (0.5 * contact.factors.loss() * viscosity).sqrt()
             };
-            let filter = numbers.iter().zip(&moduli).map(of_wave).collect();
-            within_half_a_period(filter, shape[0])
+            within_reach(of_filters.iter().zip(&moduli).map(of_wave).collect())
         };
         let branches: Vec<Filter> = branches.chain([dashpot]).map(filter).collect();
         let strain = |modulus: &Complex<f64>| modulus.inv() * (0.5 * (2.0_f64 / 3.0).sqrt());
         Ok(Self {
+            is_by_row,
             branches: combined(&branches, &powers, rule.negligible_share),
-            strain: Some(within_half_a_period(
-                moduli.iter().map(strain).collect(),
-                shape[0],
-            )),
+            strain: Some(within_reach(moduli.iter().map(strain).collect())),
         })
     }
 }
@@ -321,9 +406,6 @@ fn wave_numbers(n: usize, step: f64) -> Vec<f64> {
 /// direction, and none beyond.
 fn within_half_a_period(mut filter: Filter, n: usize) -> Filter {
     let long = filter.len();
-    if long == n {
-        return filter;
-    }
     f64::inverse(long).process(&mut filter);
     let scale = (long as f64).recip();
     let place = |index: usize| signed_offset(index, n).rem_euclid(long.cast_signed());
@@ -335,6 +417,31 @@ fn within_half_a_period(mut filter: Filter, n: usize) -> Filter {
 }
 
 impl Plane {
+    /// Depth z, \[m].
+    pub(super) const fn depth(&self) -> f64 {
+        self.depth
+    }
+
+    /// Mean power per volume.
+    pub(super) fn mean_power(&self) -> f64 {
+        self.power[0].re
+    }
+
+    /// Wave of the power per volume with the signed wave numbers along x and y in units of the longest waves; `None` beyond the
+    /// resolution of the plane.
+    pub(super) fn wave(&self, place: [isize; 2]) -> Option<Complex<f64>> {
+        let is_resolved = |axis: usize| 2 * place[axis].unsigned_abs() < self.shape[axis];
+        if !(is_resolved(0) && is_resolved(1)) {
+            return None;
+        }
+        let [row, column] = [0, 1].map(|axis| {
+            place[axis]
+                .rem_euclid(self.shape[axis].cast_signed())
+                .unsigned_abs()
+        });
+        Some(self.power[column * self.shape[0] + row])
+    }
+
     /// Computes the power dissipated at this depth from the pressure waves of a period of `period` elements.
     fn compute(
         &mut self,
@@ -354,7 +461,7 @@ impl Plane {
             }
             elements
         });
-        // Stress of each wave at this depth with its direction and its index along x; a wave at the limit of resolution has no direction.
+        // Stress of each wave at this depth with its direction and the index of its filter coefficient; a wave at the limit of resolution has no direction.
         let is_limit = |axis: usize, index: isize| {
             2 * index.unsigned_abs() == self.shape[axis] && self.shape[axis] > 1
         };
@@ -362,8 +469,13 @@ impl Plane {
             let [x, y] = [steps[0] * row as f64, steps[1] * column as f64];
             let q = (x * x + y * y).sqrt();
             #[expect(clippy::cast_sign_loss, reason = "an index")]
-            let wave = waves[from as usize];
-            let along = row.rem_euclid(period[0].cast_signed()).unsigned_abs();
+            let index = from as usize;
+            let wave = waves[index];
+            let along = if filters.is_by_row {
+                row.rem_euclid(period[0].cast_signed()).unsigned_abs()
+            } else {
+                index
+            };
             let is_still = q == 0.0 || is_limit(0, row) || is_limit(1, column);
             if is_still {
                 return (ZERO, [0.0; 2], along);

@@ -9,7 +9,10 @@
 use numerics::{Estimate, finite, not_negative, positive, whole_part};
 use rheology::{Material, ModulusFactors};
 
-use crate::heat::bulk::{BulkHeat, DEPTHS_OF_POWER, DEPTHS_OF_STRAIN, Pressed};
+use crate::heat::bulk::{
+    BulkHeat, DEPTHS_OF_POWER, DEPTHS_OF_STRAIN, Pressed, wave_steps, waves_of_elements,
+};
+use crate::heat::depth::{DEPTH_ERROR, DepthHeat, DepthProfile};
 use crate::heat::operator::{HeatKernel, HeatOperator};
 use crate::heat::periodic_waves::PeriodicWaves;
 use crate::heat::rise::{TemperatureRise, estimate, sampling_error, wake_length};
@@ -18,7 +21,7 @@ use crate::heat::time_rule::TimeRule;
 use crate::heat::{Counterface, HeatConductor};
 use crate::parallel::chunks::in_pool;
 use crate::transform::fast_length::fast_length;
-use crate::{BemError, Grid, PressureField};
+use crate::{BemError, Grid, PressureField, WaveShift};
 
 /// Resolution of fields below the surface.
 #[derive(Clone, Copy)]
@@ -80,6 +83,8 @@ pub struct SlidingContact<'a> {
     pub material: &'a dyn Material,
     /// Factors of its moduli at the strain amplitude of the contact.
     pub factors: ModulusFactors,
+    /// Shift of its times and moduli by the wavelength of the pressure on a period; `None` for the same material under all waves.
+    pub wave_shift: Option<&'a WaveShift>,
     /// Velocity v > 0, \[m/s].
     pub velocity: f64,
     /// Power ≥ 0 of the shear of the interface, which is uniform in the contact, \[W]; per length of a line contact, \[W/m].
@@ -112,15 +117,18 @@ struct Solution {
     sampling_error: f64,
     /// Relative error by waves that the grid of the bulk does not resolve.
     unresolved: f64,
+    /// Temperature below the surface of a period that dissipates there.
+    by_depth: Option<DepthProfile>,
 }
 
 impl SlidingContact<'_> {
     /// Temperature rise of the surface, in the stationary state or after the duration of [`ContactKind::Period`].
     ///
-    /// The rise [`flux_weighted_mean`](TemperatureRise::flux_weighted_mean) is weighted with the whole dissipated power below each
-    /// element of the surface, also outside the contact.
+    /// The rise [`flux_weighted_mean`](TemperatureRise::flux_weighted_mean) is that of the surface, weighted with the whole dissipated power
+    /// below each element, also outside the contact.
     ///
     /// # Errors
+    /// [`BemError::WaveShiftWithoutPeriod`] for a shift by the wavelength unless the contact is a period;
     /// [`BemError::InvalidParameter`] for a velocity that is not positive, a negative power, a contact without pressure, and results that
     /// overflow.
     pub fn temperature(
@@ -130,6 +138,7 @@ impl SlidingContact<'_> {
         kind: ContactKind,
     ) -> Result<TemperatureRise, BemError> {
         positive("velocity", self.velocity)?;
+        self.check_wave_shift(kind)?;
         let shear_power = not_negative("power of the shear", self.shear_power)?;
         let bulk_power = not_negative("power of the bulk", self.bulk_power)?;
         let largest = self.pressure.pressure.iter().copied().fold(0.0, f64::max);
@@ -161,12 +170,20 @@ impl SlidingContact<'_> {
         let within = |rise: f64, coarse: f64| {
             estimate(rise, coarse).map(|rise| rise.widened(fine.unresolved * rise.value.abs()))
         };
+        let by_depth = match (fine.by_depth, coarse.by_depth) {
+            (Some(fine), Some(coarse)) => {
+                let mean = within(fine.mean().value, coarse.mean().value)?;
+                Some(fine.with_mean(mean.widened(DEPTH_ERROR * mean.value.abs())))
+            }
+            _ => None,
+        };
         Ok(TemperatureRise {
             grid: self.pressure.grid,
             temperature: fine.temperature,
             largest: within(fine.largest, coarse.largest)?.widened(fine.sampling_error),
             mean: within(fine.mean, coarse.mean)?,
             flux_weighted_mean: within(fine.power_weighted_mean, coarse.power_weighted_mean)?,
+            by_depth,
             total_power: finite("total power", shear_power + bulk_power)?,
             absorbed_power: share * shear_power + bulk_power,
         })
@@ -182,10 +199,11 @@ impl SlidingContact<'_> {
     /// the relative difference between the power of the waves and [`bulk_power`](Self::bulk_power).
     ///
     /// # Errors
-    /// [`BemError::InvalidParameter`] for a velocity that is not positive, a contact without pressure, and a material that flows or does
-    /// not dissipate.
+    /// [`BemError::WaveShiftWithoutPeriod`] as for [`temperature`](Self::temperature); [`BemError::InvalidParameter`] for a velocity that
+    /// is not positive, a contact without pressure, and a material that flows or does not dissipate.
     pub fn strain_amplitude(&self, kind: ContactKind) -> Result<Estimate, BemError> {
         positive("velocity", self.velocity)?;
+        self.check_wave_shift(kind)?;
         positive("power of the bulk", self.bulk_power)?;
         let equilibrium = self.material.relaxation().equilibrium_modulus();
         positive("equilibrium modulus", equilibrium)?;
@@ -247,6 +265,16 @@ impl SlidingContact<'_> {
         }
     }
 
+    /// Refuses a shift by the wavelength of a contact that is not a period.
+    const fn check_wave_shift(&self, kind: ContactKind) -> Result<(), BemError> {
+        match (self.wave_shift, kind) {
+            (None, _) | (_, ContactKind::Period { .. }) => Ok(()),
+            (Some(_), ContactKind::Body | ContactKind::Line) => {
+                Err(BemError::WaveShiftWithoutPeriod)
+            }
+        }
+    }
+
     /// The material that passes below a pressure on a period.
     const fn pressed<'a>(&'a self, pressure: &'a PressureField, is_periodic: bool) -> Pressed<'a> {
         Pressed {
@@ -254,6 +282,7 @@ impl SlidingContact<'_> {
             is_periodic,
             material: self.material,
             factors: self.factors,
+            wave_shift: self.wave_shift,
             velocity: self.velocity,
         }
     }
@@ -334,6 +363,10 @@ struct Surroundings {
     rise: Vec<f64>,
     /// Relative error of the rise by waves that the grid does not resolve.
     relative_error: f64,
+    /// Power per volume at each depth, in units of `scale`.
+    bulk: BulkHeat,
+    /// Power per volume of one unit of `bulk`, \[W/m³].
+    scale: f64,
 }
 
 impl Heated<'_> {
@@ -352,34 +385,35 @@ impl Heated<'_> {
         }
         // The bulk is heated around the contact, where the shear of the interface changes the temperature, too.
         let mut unresolved = 0.0;
-        let mut weighted_sum = 0.0;
-        let mut power = self.contact.shear_power;
+        let [mut weighted_sum, mut power] = [0.0, self.contact.shear_power];
+        let mut around = None;
         if self.contact.bulk_power > 0.0 {
-            let around = self.surroundings(pressure)?;
-            unresolved = around.relative_error;
+            let found = self.surroundings(pressure)?;
+            unresolved = found.relative_error;
             for (index, rise) in temperature.iter_mut().enumerate() {
                 let [row, column] = [index / grid.shape()[1], index % grid.shape()[1]];
                 let place = |axis: usize, number: usize| {
                     pressure.origin[axis] + number as f64 * grid.spacing()[axis]
                 };
-                *rise += around.at([place(0, row), place(1, column)]);
+                *rise += found.at([place(0, row), place(1, column)]);
             }
-            let coarse = &around.pressure.grid;
+            let absorbed_flux = PressureField {
+                pressure: flux.iter().map(|flux| self.share * flux).collect(),
+                ..pressure.clone()
+            };
+            let (coarse, origin) = (&found.pressure.grid, found.pressure.origin);
+            let absorbed_flux = absorbed_flux.resampled(coarse, origin).pressure;
             let mut of_shear = vec![0.0; coarse.n_elements()];
             if absorbed > 0.0 {
-                let shear = PressureField {
-                    pressure: flux.clone(),
-                    ..pressure.clone()
-                };
-                let flux = shear.resampled(coarse, around.pressure.origin).pressure;
-                of_shear = self.rise(coarse, [(&SourceDepth::Surface, &*flux)], self.share)?;
+                of_shear = self.rise(coarse, [(&SourceDepth::Surface, &*absorbed_flux)], 1.0)?;
             }
-            let rises = around.rise.iter().zip(&of_shear);
+            let rises = found.rise.iter().zip(&of_shear);
             let weighted = rises
-                .zip(&around.power)
+                .zip(&found.power)
                 .map(|((bulk, shear), power)| (bulk + shear) * power);
             weighted_sum += weighted.sum::<f64>() * self.kind.area_of_element(coarse);
-            power += sum_of(&around.power) * self.kind.area_of_element(coarse);
+            power += sum_of(&found.power) * self.kind.area_of_element(coarse);
+            around = Some((found, absorbed_flux));
         }
         let in_contact = temperature.iter().zip(contact);
         let of_contact: f64 = in_contact.map(|(rise, part)| rise * part).sum();
@@ -395,11 +429,15 @@ impl Heated<'_> {
                 power_weighted_mean: 0.0,
                 sampling_error: 0.0,
                 unresolved,
+                by_depth: None,
             });
         };
+        let mean = of_contact / sum_of(contact);
+        let by_depth = around
+            .and_then(|(around, absorbed_flux)| self.depth_profile(&around, &absorbed_flux, mean));
         Ok(Solution {
             largest: temperature[hottest],
-            mean: of_contact / sum_of(contact),
+            mean,
             power_weighted_mean: if power > 0.0 {
                 weighted_sum / power
             } else {
@@ -408,7 +446,31 @@ impl Heated<'_> {
             sampling_error: sampling_error(&temperature, hottest, grid.shape()),
             unresolved,
             temperature,
+            by_depth,
         })
+    }
+
+    /// The temperature below a period with the mean rise `contact` of its contact area \[K]; `None` for other contacts.
+    fn depth_profile(
+        &self,
+        around: &Surroundings,
+        absorbed_flux: &[f64],
+        contact: f64,
+    ) -> Option<DepthProfile> {
+        let ContactKind::Period { duration } = self.kind else {
+            return None;
+        };
+        let diffusivity = self.conductor.diffusivity();
+        let heat = DepthHeat {
+            bulk: &around.bulk,
+            unit_power: around.scale,
+            surface_flux: waves_of_elements(&around.pressure.grid, absorbed_flux),
+            steps: wave_steps(&around.pressure),
+            velocity_over_diffusivity: self.contact.velocity / diffusivity,
+            mean_length: 2.0 * (diffusivity.sqrt() * duration.sqrt()),
+            conductivity: self.conductor.conductivity(),
+        };
+        heat.profile(contact)
     }
 
     /// Temperature rise \[K] on a grid by `share` times the fluxes \[W/m²] at some depths.
@@ -482,6 +544,8 @@ impl Heated<'_> {
             power,
             rise,
             relative_error: ERROR_OVER_POWER_ERROR * power_error,
+            bulk,
+            scale,
         })
     }
 }

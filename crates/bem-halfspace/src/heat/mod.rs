@@ -33,6 +33,7 @@
 mod bulk;
 mod conductor;
 mod contact;
+mod depth;
 mod operator;
 mod periodic_waves;
 mod rise;
@@ -41,5 +42,6 @@ mod time_rule;
 
 pub use conductor::{HeatCapacity, HeatConductor};
 pub use contact::{ContactKind, SlidingContact};
+pub use depth::{DepthProfile, DepthRise};
 pub use rise::{SurfaceTemperature, TemperatureRise};
 pub use source::{Counterface, DissipatingWave, DissipationProfile, HeatSource, SourceDepth};

@@ -6,7 +6,7 @@ use crate::heat::operator::{HeatKernel, HeatOperator};
 use crate::heat::periodic_waves::PeriodicWaves;
 use crate::heat::source::SourceDepth;
 use crate::heat::time_rule::{KERNEL_ERROR, TimeRule};
-use crate::heat::{Counterface, HeatConductor, HeatSource};
+use crate::heat::{Counterface, DepthProfile, HeatConductor, HeatSource};
 use crate::parallel::chunks::in_pool;
 use crate::{BemError, Grid, PressureField};
 
@@ -47,6 +47,8 @@ pub struct TemperatureRise {
     pub mean: Estimate,
     /// Mean rise weighted with the flux of all sources before the counterface takes its share, \[K].
     pub flux_weighted_mean: Estimate,
+    /// Temperature below the surface; `None` unless a [`SlidingContact`](crate::heat::SlidingContact) on a period dissipates there.
+    pub by_depth: Option<DepthProfile>,
     /// Power of all sources, \[W]; on a line per length, \[W/m].
     pub total_power: f64,
     /// Power that the elastomer receives, \[W]; on a line per length, \[W/m].
@@ -227,6 +229,7 @@ impl SurfaceTemperature {
                 averages.flux_weighted_mean,
                 coarse_averages.flux_weighted_mean,
             )?,
+            by_depth: None,
             total_power: finite("total power", sources.iter().map(power).sum())?,
             absorbed_power: sources.iter().map(absorbed_power).sum(),
         })

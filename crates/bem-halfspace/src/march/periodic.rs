@@ -27,7 +27,7 @@ use crate::parallel::reductions::{add_scaled, dot, mean};
 use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
 use crate::stationary::periodic::kernel::Sliding;
 use crate::stationary::periodic::{PeriodicLoad, check_surface};
-use crate::substrate::base::check_small_strains;
+use crate::substrate::base::check_unchanged_moduli;
 use crate::transform::plane_transform::ZERO;
 use crate::{
     Base, BemError, ContactOptions, ContactProblem, ContactState, Control, Convolution,
@@ -188,7 +188,7 @@ impl<'a> PeriodicMarch<'a> {
         time_step: f64,
     ) -> Result<Self, BemError> {
         let n = grid.n_elements();
-        check_small_strains(elastomer)?;
+        check_unchanged_moduli(elastomer)?;
         let creep = elastomer.material().creep();
         // Discretise the creep law of the material in time, and the influence of the half space or layer in space.
         let step = ExponentialStep::creep(&creep, time_step)?;
@@ -228,8 +228,8 @@ impl<'a> PeriodicMarch<'a> {
     ) -> Result<(), BemError> {
         self.step = ExponentialStep::creep(&self.creep, time_step)?;
         let waves = &mut self.waves;
-        waves.apply(self.given, &mut self.heights, |row, _| symbols(row)[0]);
-        waves.apply(self.given, &mut self.slopes, |row, _| symbols(row)[1]);
+        waves.apply(self.given, &mut self.heights, |wave| symbols(wave.row)[0]);
+        waves.apply(self.given, &mut self.slopes, |wave| symbols(wave.row)[1]);
         Ok(())
     }
 

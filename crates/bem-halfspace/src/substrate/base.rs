@@ -28,7 +28,7 @@ use rheology::{Material, ModulusFactors, check_spectra};
 
 use crate::substrate::correction::{Correction, MAX_WAVE_NUMBER};
 use crate::substrate::rectangle::integrate_smooth;
-use crate::{BemError, influence};
+use crate::{BemError, WaveShift, influence};
 
 /// A deformable body with a plane surface: every [`Material`] is a half space, and [`Layer`](crate::Layer) is a layer of a
 /// material on a base.
@@ -44,15 +44,30 @@ pub trait Elastomer {
     fn modulus_factors(&self) -> ModulusFactors {
         ModulusFactors::NONE
     }
+
+    /// Shift of times and moduli by the wavelength of the pressure; `None` for the same material under all waves. Only the stationary
+    /// sliding of periodic surfaces has it: all other functions refuse it.
+    fn wave_shift(&self) -> Option<WaveShift> {
+        None
+    }
 }
 
-/// Refuses spectra that contradict each other, and moduli with factors, which have no meaning but in a stationary state.
-pub(crate) fn check_small_strains(elastomer: &dyn Elastomer) -> Result<(), BemError> {
+/// Refuses spectra that contradict each other, and moduli that a stationary state has changed: by factors, or by a shift of each wave.
+pub(crate) fn check_unchanged_moduli(elastomer: &dyn Elastomer) -> Result<(), BemError> {
     check_spectra(&elastomer.material())?;
+    check_no_wave_shift(elastomer)?;
     if elastomer.modulus_factors() == ModulusFactors::NONE {
         Ok(())
     } else {
         Err(BemError::FactorsWithoutStationaryState)
+    }
+}
+
+/// Refuses a shift by the wavelength, which has a meaning only under the stationary waves of a period.
+pub(crate) fn check_no_wave_shift(elastomer: &dyn Elastomer) -> Result<(), BemError> {
+    match elastomer.wave_shift() {
+        None => Ok(()),
+        Some(_) => Err(BemError::WaveShiftWithoutPeriod),
     }
 }
 

@@ -9,7 +9,7 @@ use numerics::{InvalidParameter, in_range};
 use rheology::{Material, ModulusFactors, layer_deficit, layer_factor};
 
 use crate::substrate::correction::RIGID_BASE_INFLUENCE_RADIUS;
-use crate::{Base, Elastomer, Substrate};
+use crate::{Base, Elastomer, Substrate, WaveShift};
 
 /// A layer of a material on a rigid base, or on a [`Substrate`] of one's own.
 #[derive(Debug)]
@@ -20,6 +20,8 @@ pub struct Layer<'a, M: ?Sized> {
     base: Base,
     /// Factors of its moduli.
     factors: ModulusFactors,
+    /// Shift by the wavelength of the pressure.
+    wave_shift: Option<WaveShift>,
 }
 
 impl<'a, M: Material + ?Sized> Layer<'a, M> {
@@ -53,6 +55,7 @@ impl<'a, M: Material + ?Sized> Layer<'a, M> {
             material,
             base,
             factors: ModulusFactors::NONE,
+            wave_shift: None,
         }
     }
 
@@ -61,6 +64,16 @@ impl<'a, M: Material + ?Sized> Layer<'a, M> {
     #[must_use]
     pub fn with_modulus_factors(self, factors: ModulusFactors) -> Self {
         Self { factors, ..self }
+    }
+
+    /// The same elastomer with times and moduli that depend on the wavelength of the pressure, as at a temperature that changes with the
+    /// depth. Only the stationary sliding of periodic surfaces has it; all other functions refuse it.
+    #[must_use]
+    pub fn with_wave_shift(self, shift: WaveShift) -> Self {
+        Self {
+            wave_shift: Some(shift),
+            ..self
+        }
     }
 }
 
@@ -78,6 +91,11 @@ impl<M: Material + ?Sized> Elastomer for Layer<'_, M> {
     /// The factors of [`Layer::with_modulus_factors`].
     fn modulus_factors(&self) -> ModulusFactors {
         self.factors
+    }
+
+    /// The shift of [`Layer::with_wave_shift`].
+    fn wave_shift(&self) -> Option<WaveShift> {
+        self.wave_shift.clone()
     }
 }
 

@@ -9,3 +9,4 @@ mod correction;
 pub(crate) mod influence;
 pub(crate) mod layer;
 pub(crate) mod rectangle;
+pub(crate) mod wave_shift;

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use bem_halfspace::heat::{
     ContactKind, Counterface, HeatConductor, SlidingContact, TemperatureRise,
 };
-use bem_halfspace::{BemError, Grid, InvalidParameter, PressureField};
+use bem_halfspace::{BemError, Grid, InvalidParameter, PressureField, ShiftOfWave, WaveShift};
 use numerics::Estimate;
 use rheology::{
     Material, ModulusFactors, Prony, RelaxationBranch, RelaxationSpectrum, StandardSolid,
@@ -86,6 +86,7 @@ fn the_bulk_under_a_hertzian_pressure_has_the_temperature_of_point_sources() {
                 pressure: &field,
                 material: &material,
                 factors: ModulusFactors::NONE,
+                wave_shift: None,
                 velocity,
                 shear_power: 0.0,
                 bulk_power,
@@ -112,8 +113,9 @@ fn the_bulk_under_a_hertzian_pressure_has_the_temperature_of_point_sources() {
     }
 }
 
-/// A wave of pressure q in full contact dissipates q³ z² e^(−2qz) everywhere alike, of which the surface has the mean temperature
-/// (√(4Dt/π) − 3/(2q)) Q/k at long times.
+/// A wave of pressure q in full contact dissipates p(z) = 4q³ z² e^(−2qz) everywhere alike, of which the surface has the mean temperature
+/// (√(4Dt/π) − 3/(2q)) Q/k at long times, and the material that dissipates (√(4Dt/π) − 63/(32q)) Q/k: the mean of the larger of two depths
+/// of this distribution. A shift of the material changes the power alone.
 #[test]
 fn one_wave_in_full_contact_has_its_closed_form() {
     let (n, period, amplitude) = (64, 1e-3, 1e4);
@@ -133,31 +135,51 @@ fn one_wave_in_full_contact_has_its_closed_form() {
     let branches = vec![branch(3e6, 0.3 / frequency), branch(2e6, 4.0 / frequency)];
     let spectrum = RelaxationSpectrum::new(1e6, 0.0, branches).expect("a spectrum");
     let material = Prony::new(spectrum).expect("a material");
-    // The power per area is ω J'' p²/(4q) in the mean over the wave.
-    let loss = material
-        .complex_compliance(frequency)
-        .expect("a compliance")
-        .loss;
-    let flux = frequency * loss * amplitude.powi(2) / (4.0 * wave_number);
-    let contact = SlidingContact {
-        pressure: &field,
-        material: &material,
-        factors: ModulusFactors::NONE,
-        velocity,
-        shear_power: 0.0,
-        bulk_power: flux * period * period,
-    };
-    let duration = 1e4;
-    let found = heated(&contact, ContactKind::Period { duration });
-    let depth = (4.0 * DIFFUSIVITY * duration / PI).sqrt() - 1.5 / wave_number;
-    let expected = flux * depth / CONDUCTIVITY;
-    for rise in [found.largest, found.mean, found.flux_weighted_mean] {
-        let off = (rise.value / expected - 1.0).abs();
-        assert!(
-            off < 5e-5 && off * expected < rise.error,
-            "{rise}, not {expected}: {off:.1e}"
-        );
-        assert!(rise.error < 0.01 * expected, "{rise}");
+    for [time_factor, modulus_factor] in [[1.0, 1.0], [0.2, 1.3]] {
+        let shift = |wave_number| ShiftOfWave {
+            wave_number,
+            time_factor,
+            modulus_factor,
+        };
+        let shift = WaveShift::new(&[shift(wave_number)]).expect("a shift");
+        // The power per area is ω J'' p²/(4q) in the mean over the wave.
+        let compliance = material.complex_compliance(frequency * time_factor);
+        let loss = compliance.expect("a compliance").loss / modulus_factor;
+        let flux = frequency * loss * amplitude.powi(2) / (4.0 * wave_number);
+        let contact = SlidingContact {
+            pressure: &field,
+            material: &material,
+            factors: ModulusFactors::NONE,
+            wave_shift: (time_factor < 1.0).then_some(&shift),
+            velocity,
+            shear_power: 0.0,
+            bulk_power: flux * period * period,
+        };
+        let duration = 1e4;
+        let found = heated(&contact, ContactKind::Period { duration });
+        let expected = |depth: f64| {
+            let diffused = (4.0 * DIFFUSIVITY * duration / PI).sqrt();
+            flux * (diffused - depth / wave_number) / CONDUCTIVITY
+        };
+        let by_depth = found.by_depth.as_ref().expect("a profile");
+        let of_wave = Estimate::exact(by_depth.of_wave(wave_number));
+        for (rise, expected, allowed) in [
+            (found.largest, expected(1.5), 5e-5),
+            (found.mean, expected(1.5), 5e-5),
+            (found.flux_weighted_mean, expected(1.5), 5e-5),
+            (by_depth.mean(), expected(63.0 / 32.0), 2e-4),
+            (of_wave, expected(63.0 / 32.0), 2e-4),
+        ] {
+            let off = (rise.value / expected - 1.0).abs();
+            assert!(off < allowed, "{rise}, not {expected}: {off:.1e}");
+            assert!(rise.error < 0.012 * expected, "{rise}");
+        }
+        for rise in [found.largest, found.mean] {
+            assert!((rise.value - expected(1.5)).abs() < rise.error, "{rise}");
+        }
+        let refused = contact.temperature(&rubber(), Counterface::Insulating, ContactKind::Body);
+        let is_refused = matches!(refused, Err(BemError::WaveShiftWithoutPeriod));
+        assert_eq!(is_refused, time_factor < 1.0);
     }
 }
 
@@ -172,6 +194,7 @@ fn a_wrong_power_widens_the_bars() {
             pressure: &field,
             material: &material,
             factors: ModulusFactors::NONE,
+            wave_shift: None,
             velocity,
             shear_power: 0.0,
             bulk_power,
@@ -199,6 +222,7 @@ fn both_sources_add_up_and_a_conductor_takes_the_shear() {
             pressure: &field,
             material: &material,
             factors: ModulusFactors::NONE,
+            wave_shift: None,
             velocity,
             shear_power,
             bulk_power,
@@ -243,6 +267,7 @@ fn shear_alone_heats_a_disc_like_a_given_flux() {
         pressure: &field,
         material: &material,
         factors: ModulusFactors::NONE,
+        wave_shift: None,
         velocity,
         shear_power: 1e-3,
         bulk_power: 0.0,
@@ -285,6 +310,7 @@ fn a_line_contact_has_the_temperature_of_a_long_body() {
         pressure,
         material: &material,
         factors: ModulusFactors::NONE,
+        wave_shift: None,
         velocity,
         shear_power: power,
         bulk_power: power,
@@ -308,6 +334,7 @@ fn impossible_contacts_are_refused() {
         pressure: &field,
         material: &material,
         factors: ModulusFactors::NONE,
+        wave_shift: None,
         velocity: 1.0,
         shear_power: 1.0,
         bulk_power: 1.0,

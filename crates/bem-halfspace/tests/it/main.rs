@@ -41,3 +41,4 @@ mod support;
 #[cfg(feature = "rayon")]
 mod thread_count;
 mod tracks;
+mod wave_shift;

@@ -1,5 +1,6 @@
 //! The answer of a method: quantities in SI units, each with its error.
 
+use bem_halfspace::heat::DepthProfile;
 use bem_halfspace::slide::PressureField;
 use bem_halfspace::steady::SteadyOptions;
 use numerics::{ErrorParts, Estimate, ValueWithError};
@@ -63,8 +64,11 @@ pub struct Answer {
     pub largest_temperature_rise: Option<Estimate>,
     /// Mean rise of the temperature over the contact area, \[K]; `None` without heat.
     pub mean_temperature_rise: Option<Estimate>,
-    /// Mean rise of the temperature weighted with the dissipated power, \[K]; `None` without heat.
+    /// Mean rise of the temperature weighted with the dissipated power, below a periodic surface with that of the bulk, \[K]; `None` without
+    /// heat.
     pub(crate) dissipation_weighted_rise: Option<Estimate>,
+    /// Temperature rise below a periodic surface; `None` for other bodies and without heat.
+    pub(crate) temperature_by_depth: Option<DepthProfile>,
     /// Temperature of material and shear strength: that of the surroundings plus the mean rise weighted with the dissipated power,
     /// \[°C]; `None` if neither depends on the temperature.
     pub effective_temperature: Option<Estimate>,
@@ -251,6 +255,7 @@ impl Answer {
             largest_temperature_rise: None,
             mean_temperature_rise: None,
             dissipation_weighted_rise: None,
+            temperature_by_depth: None,
             effective_temperature: None,
             temperature_model_spread: None,
             strain: None,

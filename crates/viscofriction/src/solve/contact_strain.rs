@@ -19,6 +19,9 @@ use rheology::StrainDependence;
 
 /// Strain up to which a second state is looked for. Chosen: linear theory ends far below it.
 const MAX_STRAIN: f64 = 1.0;
+/// Logarithm of the ratio of the factors of two strains up to which they differ little. Chosen: the factor of the loss modulus has a maximum
+/// over the strain, whose height is no less.
+const NARROW_LOG_RATIO: f64 = 0.2;
 /// Difference of assumed and caused strain that counts as none. Chosen: far below the strains of about 0.001 at which filled rubber begins
 /// to soften.
 const NEGLIGIBLE_STRAIN: f64 = 1e-6;
@@ -101,11 +104,19 @@ impl Caused for ContactStrain<'_> {
         is_steep.then_some(MAX_STRAIN.max(MAX_INCREASE_RATIO * found))
     }
 
+    fn is_narrow(&self, from: f64, to: f64) -> bool {
+        let [from, to] = [from, to].map(|strain| self.law.factors(strain));
+        let ratios = [from.storage() / to.storage(), from.loss() / to.loss()];
+        ratios
+            .iter()
+            .all(|ratio| ratio.ln().abs() <= NARROW_LOG_RATIO)
+    }
+
     fn negligible(&self) -> f64 {
         NEGLIGIBLE_STRAIN
     }
 
-    fn problem_at(&self, value: f64) -> Result<Problem> {
+    fn problem_at(&self, value: f64, _: Option<&Answer>) -> Result<Problem> {
         Ok(self.problem.with_modulus_factors(self.law.factors(value)))
     }
 

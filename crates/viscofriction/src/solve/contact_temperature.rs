@@ -19,6 +19,9 @@ use super::warning::Warning;
 /// Rise above the surroundings from which a second state is looked for if the laws have no highest temperature, \[K]. Chosen: elastomers
 /// decompose at smaller ones.
 const MAX_RISE: f64 = 500.0;
+/// Range of temperatures over which material and shear strength change little, \[K]. Chosen: by the universal constants of WLF 3 K change
+/// times by a factor of 1.8 at 50 K above the glass transition.
+const NARROW_RANGE: f64 = 3.0;
 /// Difference of assumed and caused temperature that counts as none, \[K]. Chosen: no shift law is known so well.
 const NEGLIGIBLE_EXCESS: f64 = 1e-3;
 
@@ -51,8 +54,12 @@ pub(super) fn solve(first: Plan, watch: &dyn Progress) -> Result<Answer> {
     };
     let mut found = fixed_point.solve()?;
     found.answer.temperature_model_spread = temperature.spread(&found, &fixed_point)?;
-    let hottest =
-        (found.answer.largest_temperature_rise).map_or(ambient, |rise| ambient + rise.value);
+    let of_surface = found
+        .answer
+        .largest_temperature_rise
+        .map_or(0.0, |rise| rise.value);
+    let below = found.answer.temperature_by_depth.as_ref();
+    let hottest = ambient + below.map_or(of_surface, |below| below.largest().max(of_surface));
     if hottest > temperature.highest {
         found.answer.warnings.push(Warning::HotterThanLaws {
             temperature: hottest,
@@ -81,12 +88,28 @@ impl Caused for ContactTemperature<'_> {
         Some(self.ambient + MAX_RISE.max(MAX_INCREASE_RATIO * (found - self.ambient)))
     }
 
+    fn is_narrow(&self, from: f64, to: f64) -> bool {
+        (to - from).abs() <= NARROW_RANGE
+    }
+
     fn negligible(&self) -> f64 {
         NEGLIGIBLE_EXCESS
     }
 
-    fn problem_at(&self, value: f64) -> Result<Problem> {
-        Ok(self.problem.at_temperature(value)?)
+    /// Below a periodic surface the rise has the distribution over the depth of the answer `near`, with another size.
+    fn problem_at(&self, value: f64, near: Option<&Answer>) -> Result<Problem> {
+        let uniform = self.problem.at_temperature(value)?;
+        let near = near.and_then(|near| {
+            let caused = near.dissipation_weighted_rise?.value;
+            Some((near.temperature_by_depth.as_ref()?, caused))
+        });
+        let rise = value - self.ambient;
+        match near {
+            Some((by_depth, caused)) if caused > 0.0 && rise > 0.0 => {
+                Ok(uniform.with_rises(self.ambient, by_depth.scaled(rise / caused))?)
+            }
+            _ => Ok(uniform),
+        }
     }
 
     fn solve(&self, plan: Plan, watch: &dyn Progress) -> Result<Answer> {
@@ -99,6 +122,23 @@ impl Caused for ContactTemperature<'_> {
         rise.map_or(Estimate::exact(self.ambient), |rise| {
             Estimate::new(self.ambient + rise.value, rise.error)
         })
+    }
+
+    fn difference(&self, answer: &Answer, problem: &Problem) -> f64 {
+        let (Some(assumed), Some(caused)) = (problem.by_depth(), &answer.temperature_by_depth)
+        else {
+            return 0.0;
+        };
+        let scaled = assumed.scaled(caused.mean().value / assumed.mean().value);
+        // The temperature of the contact area changes the part of the shear, if its strength depends on it.
+        let of_shear = match (answer.friction_from_shear, answer.friction_coefficient) {
+            (Some(shear), Some(all)) if problem.shear_depends_on_temperature() => {
+                shear.value / all.value
+            }
+            _ => 0.0,
+        };
+        let of_contact = (caused.contact() - scaled.contact()).abs();
+        caused.difference_from(&scaled) + of_shear * of_contact
     }
 
     fn at_fixed_point(&self, answer: Answer, value: Estimate) -> Answer {
@@ -142,7 +182,7 @@ impl ContactTemperature<'_> {
         if hottest > self.highest {
             return Ok(None);
         }
-        let hottest = fixed_point.state(hottest, fixed_point.search_accuracy())?;
+        let hottest = fixed_point.state(hottest, None, fixed_point.search_accuracy())?;
         let friction = |state: &State| state.answer.friction_coefficient;
         let (Some(known), Some(cold), Some(hot)) = (
             friction(found.near()),

@@ -36,6 +36,12 @@ const SCANNED_VALUES: u32 = 7;
 /// Smallest distance of two values, as a fraction of the increase, between which slopes are taken. Chosen: over smaller ones the errors
 /// of the solutions of the search would be taken for slopes.
 const SLOPE_DISTANCE: f64 = 0.1;
+/// Largest distance of the states between which slopes are taken, as a fraction of the increase, unless the problem hardly changes between
+/// them. Chosen: friction has one maximum over the value, and may be the same at both ends of the increase.
+const FARTHEST_NEIGHBOUR: f64 = 0.5;
+/// Distance of a state that is solved for slopes alone, as a fraction of the increase. Chosen between [`SLOPE_DISTANCE`] and
+/// [`FARTHEST_NEIGHBOUR`].
+const NEIGHBOUR_DISTANCE: f64 = 0.2;
 /// Factor of safety of the slopes of quantities over the value, by which its error widens their bars. Chosen: slopes are those of coarse
 /// solutions over a part of the increase.
 const SLOPE_SAFETY_FACTOR: f64 = 2.0;
@@ -65,17 +71,27 @@ pub(super) trait Caused {
     /// Value up to which a second fixed point is looked for, above a first one; `None` if there can be none.
     fn farthest(&self, found: f64) -> Option<f64>;
 
+    /// Whether the problem changes so little between two values that quantities are taken to be monotone in between.
+    fn is_narrow(&self, from: f64, to: f64) -> bool;
+
     /// Difference of assumed and caused value that counts as none.
     fn negligible(&self) -> f64;
 
-    /// The problem at a value.
-    fn problem_at(&self, value: f64) -> Result<Problem>;
+    /// The problem at a value. If that stands for a distribution, it is the one that the answer `near` causes, scaled; without such an
+    /// answer it is uniform.
+    fn problem_at(&self, value: f64, near: Option<&Answer>) -> Result<Problem>;
 
     /// Solves the problem at a value for everything else.
     fn solve(&self, plan: Plan, watch: &dyn Progress) -> Result<Answer>;
 
     /// The value that an answer causes.
     fn caused_by(&self, answer: &Answer) -> Estimate;
+
+    /// Mean difference between the distribution that the answer to a problem causes and the one that the problem assumes, if the value
+    /// stands for one.
+    fn difference(&self, _answer: &Answer, _problem: &Problem) -> f64 {
+        0.0
+    }
 
     /// The answer at the fixed point, with that value.
     fn at_fixed_point(&self, answer: Answer, value: Estimate) -> Answer;
@@ -94,8 +110,10 @@ pub(super) trait Caused {
 pub(super) struct State {
     /// The value.
     pub(super) value: f64,
-    /// The value that the answer causes.
+    /// The value that the answer causes; its error contains the difference of distributions.
     pub(super) caused: Estimate,
+    /// Mean difference between the caused and the assumed distribution.
+    difference: f64,
     /// The answer.
     pub(super) answer: Answer,
     /// Reason why the answer misses the request; `None` if it does not.
@@ -167,6 +185,7 @@ impl State {
         Self {
             value: self.value,
             caused: self.caused,
+            difference: self.difference,
             answer: Answer {
                 fields: Fields::default(),
                 ..self.answer.clone()
@@ -191,7 +210,7 @@ impl FixedPoint<'_> {
     /// The fixed point, with the answer there as finely as requested.
     pub(super) fn solve(&self) -> Result<Found> {
         let accuracy = self.search_accuracy();
-        let states = self.search_upwards(accuracy)?;
+        let states = self.with_neighbour(self.search_upwards(accuracy)?, accuracy)?;
         let second = self.second(&states, accuracy)?;
         let found = &states[states.len() - 1];
         let (answer, missed) = self.refined([self.neighbour(&states), found])?;
@@ -214,17 +233,27 @@ impl FixedPoint<'_> {
         }
     }
 
-    /// Solves at a value to an accuracy.
-    pub(super) fn state(&self, value: f64, accuracy: Accuracy) -> Result<State> {
-        let near = self.of.problem_at(value)?.with_accuracy(accuracy);
-        let (answer, missed) = match self.of.solve(plan_again(&near, self.method)?, self.watch) {
+    /// Solves at a value to an accuracy, with the distribution of the answer `near` or a uniform one.
+    pub(super) fn state(
+        &self,
+        value: f64,
+        near: Option<&Answer>,
+        accuracy: Accuracy,
+    ) -> Result<State> {
+        let problem = self.of.problem_at(value, near)?.with_accuracy(accuracy);
+        let (answer, missed) = match self
+            .of
+            .solve(plan_again(&problem, self.method)?, self.watch)
+        {
             Ok(answer) => (answer, None),
             Err(SolveError::NotReached { answer, why }) => (*answer, Some(why)),
             Err(other) => return Err(other),
         };
+        let difference = self.of.difference(&answer, &problem);
         Ok(State {
             value,
-            caused: self.of.caused_by(&answer),
+            caused: self.of.caused_by(&answer).widened(difference),
+            difference,
             answer,
             missed,
         })
@@ -233,14 +262,15 @@ impl FixedPoint<'_> {
     /// The states of the search upwards: the first has the smallest value, the last is the fixed point.
     fn search_upwards(&self, accuracy: Accuracy) -> Result<Vec<State>> {
         let [smallest, largest] = [self.of.smallest(), self.of.largest()];
-        let first = self.state(smallest, accuracy)?.without_fields();
+        let first = self.state(smallest, None, accuracy)?.without_fields();
         let mut next = first.caused.value.min(largest);
         // Value and excess at both ends of the bracket; there is no upper one before a state causes less than it assumes.
         let mut below = [first.value, first.excess()];
         let mut above: Option<[f64; 2]> = None;
         let mut states = vec![first];
         for solution in 1..=MAX_SEARCH_SOLUTIONS {
-            let state = self.state(next, accuracy)?.without_fields();
+            let near = states.last().map(|state| &state.answer);
+            let state = self.state(next, near, accuracy)?.without_fields();
             let [value, excess] = [state.value, state.excess()];
             let increase = value - smallest;
             let slope = (state.caused.value - states[0].caused.value) / increase;
@@ -280,6 +310,22 @@ impl FixedPoint<'_> {
             .not_found([below[0], above.map_or(next, |above| above[0])]))
     }
 
+    /// The states of the search with one near the fixed point, unless they have it: between states that are far apart quantities may have
+    /// extrema, so that slopes over the value do not follow from them.
+    fn with_neighbour(&self, mut states: Vec<State>, accuracy: Accuracy) -> Result<Vec<State>> {
+        let found = &states[states.len() - 1];
+        let increase = found.value - self.of.smallest();
+        let neighbour = self.neighbour(&states).value;
+        let is_near = (neighbour - found.value).abs() <= FARTHEST_NEIGHBOUR * increase;
+        if is_near || self.of.is_narrow(neighbour, found.value) {
+            return Ok(states);
+        }
+        let value = found.value - NEIGHBOUR_DISTANCE * increase;
+        let state = self.state(value, Some(&found.answer), accuracy)?;
+        states.insert(states.len() - 1, state.without_fields());
+        Ok(states)
+    }
+
     /// A state near a fixed point at a larger value than the one found from below; `None` if there is none.
     ///
     /// A second one needs a caused value that grows with the value. It is taken to have one maximum, so that there is no second one if
@@ -299,16 +345,18 @@ impl FixedPoint<'_> {
         let ratio = (increase / (largest - smallest)).powf((f64::from(SCANNED_VALUES)).recip());
         let mut upper = largest;
         let mut lower = None;
+        let mut near = found.answer.clone();
         for step in 0..SCANNED_VALUES {
             let increase = (largest - smallest) * ratio.powi(step.cast_signed());
             // The sum may exceed the largest value by rounding.
             let value = (smallest + increase).min(largest);
-            let state = self.state(value, accuracy)?.without_fields();
+            let state = self.state(value, Some(&near), accuracy)?.without_fields();
             if state.excess() >= 0.0 {
                 lower = Some(state);
                 break;
             }
             upper = value;
+            near = state.answer;
         }
         let Some(mut lower) = lower else {
             return Ok(None);
@@ -316,7 +364,9 @@ impl FixedPoint<'_> {
         // Halve the bracket to about the accuracy of the search.
         while upper - lower.value > SLOPE_DISTANCE * (upper - smallest) {
             let middle = 0.5 * (lower.value + upper);
-            let state = self.state(middle, accuracy)?.without_fields();
+            let state = self
+                .state(middle, Some(&lower.answer), accuracy)?
+                .without_fields();
             if state.excess() >= 0.0 {
                 lower = state;
             } else {
@@ -343,11 +393,15 @@ impl FixedPoint<'_> {
         let mut solutions = 0;
         loop {
             solutions += 1;
-            let state = self.state(value, accuracy)?;
+            let shape = before.as_ref().unwrap_or(found);
+            let state = self.state(value, Some(&shape.answer), accuracy)?;
             // Two solutions at the requested accuracy tell the response better than those of the search.
             let increase = value - self.of.smallest();
             let distance = SLOPE_DISTANCE * TOLERANCE * increase;
-            let is_far = |before: &&State| (before.value - value).abs() > distance;
+            // Between states whose distributions differ more than their values, changes are no slopes over the value.
+            let is_far = |before: &&State| {
+                (before.value - value).abs() > distance.max(before.difference + state.difference)
+            };
             let far = before.as_ref().filter(is_far);
             if let Some(before) = far {
                 response = self::response([before.point(), state.point()]);

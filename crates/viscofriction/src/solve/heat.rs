@@ -5,7 +5,7 @@
 //!
 //! Theory: docs/theory/heat.md.
 
-use bem_halfspace::heat::{ContactKind, Counterface, HeatConductor, SlidingContact};
+use bem_halfspace::heat::{ContactKind, Counterface, DepthProfile, HeatConductor, SlidingContact};
 use bem_halfspace::{BemError, Grid, PressureField};
 use numerics::{Estimate, MessageNumber, in_range};
 use rheology::KELVIN_AT_ZERO_CELSIUS;
@@ -211,6 +211,7 @@ impl Problem {
             pressure: &pressure,
             material: self.material(),
             factors: self.modulus_factors(),
+            wave_shift: self.wave_shift(),
             velocity,
             shear_power: shear.value * area.correction,
             bulk_power: bulk.value,
@@ -246,7 +247,10 @@ impl Problem {
         let widened = |rise: Estimate| rise.widened(relative_error * rise.value.abs());
         answer.largest_temperature_rise = Some(widened(found.largest));
         answer.mean_temperature_rise = Some(widened(found.mean));
-        answer.dissipation_weighted_rise = Some(widened(found.flux_weighted_mean));
+        let of_material =
+            (found.by_depth.as_ref()).map_or(found.flux_weighted_mean, DepthProfile::mean);
+        answer.dissipation_weighted_rise = Some(widened(of_material));
+        answer.temperature_by_depth = found.by_depth;
         answer.fields.temperature = Some(TemperatureField {
             grid: found.grid,
             origin: pressure.origin,

@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use bem_halfspace::{BemError, Layer};
+use bem_halfspace::heat::DepthProfile;
+use bem_halfspace::{BemError, Layer, ShiftOfWave, WaveShift};
 use indenters::{Control, HistoryPoint, IndenterError, MovingLoad, PressingLoad, SlidingLoad};
 use numerics::positive;
 use rheology::{Material, ModulusFactors, RheologyError, StrainDependence};
@@ -45,6 +46,10 @@ pub struct Problem {
     strain: Option<StrainDependence>,
     /// Factors of the moduli at one strain.
     factors: ModulusFactors,
+    /// Temperature rise below a periodic surface; `None` for one temperature.
+    by_depth: Option<DepthProfile>,
+    /// Shift of the material by the wavelength, which follows from it.
+    wave_shift: Option<WaveShift>,
     accuracy: Accuracy,
     method: Option<Method>,
     model: Model,
@@ -172,6 +177,8 @@ impl Problem {
             heating,
             strain: strain.transpose()?,
             factors: ModulusFactors::NONE,
+            by_depth: None,
+            wave_shift: None,
             accuracy: scene.solve.accuracy(scene.strain.is_some())?,
             method: scene.solve.method,
             model: scene.solve.model.or(of_method).unwrap_or(Model::HalfSpace),
@@ -358,8 +365,13 @@ impl Problem {
 
     /// True if the answer depends on the temperature: the material has a shift law, or the shear strength depends on it.
     pub(super) fn depends_on_temperature(&self) -> bool {
+        self.has_shift_law() || self.shear_depends_on_temperature()
+    }
+
+    /// True if the shear strength depends on the temperature.
+    pub(super) fn shear_depends_on_temperature(&self) -> bool {
         let depends = |shear: &Shear| shear.law.strength.depends_on_temperature();
-        self.has_shift_law() || self.shear.as_ref().is_some_and(depends)
+        self.shear.as_ref().is_some_and(depends)
     }
 
     /// True if the material is known at other temperatures.
@@ -386,7 +398,11 @@ impl Problem {
     /// # Errors
     /// [`SceneError`] for a temperature outside the range of the shift law.
     pub(super) fn at_temperature(&self, celsius: f64) -> Result<Self, SceneError> {
-        let mut problem = self.clone();
+        let mut problem = Self {
+            by_depth: None,
+            wave_shift: None,
+            ..self.clone()
+        };
         if let Some(shifted) = self.parts.half_space.at(celsius) {
             let half_space = shifted?;
             let not_reduced = |error: RheologyError| SceneError::at("material", error.to_string());
@@ -397,6 +413,53 @@ impl Problem {
             shear.temperature = Some(celsius);
         }
         Ok(problem)
+    }
+
+    /// The problem whose material has a temperature for each wave and whose shear strength has that of the contact: the temperature
+    /// `ambient` \[°C] and the rise below the surface. The material of the problem itself has one temperature, about which it is shifted.
+    ///
+    /// Waves that are hotter than the laws allow take their highest temperature.
+    ///
+    /// # Errors
+    /// [`SceneError`] as for [`Self::at_temperature`].
+    pub(super) fn with_rises(
+        mut self,
+        ambient: f64,
+        by_depth: DepthProfile,
+    ) -> Result<Self, SceneError> {
+        let highest = self.highest_temperature();
+        // Rises may be negative by rounding.
+        let at = |rise: f64| (ambient + rise).min(highest).max(ambient);
+        if let Some(shift) = self.parts.half_space.shift() {
+            let refused = |error: RheologyError| SceneError::at("heat", error.to_string());
+            let wave = |wave_number: f64| {
+                let celsius = at(by_depth.of_wave(wave_number));
+                Ok(ShiftOfWave {
+                    wave_number,
+                    time_factor: 10_f64.powf(shift.log10_factor(celsius)?),
+                    modulus_factor: shift.modulus_factor(celsius)?,
+                })
+            };
+            let waves = by_depth.wave_numbers().into_iter().map(wave);
+            let waves = waves.collect::<Result<Vec<_>, _>>().map_err(refused)?;
+            let shift = WaveShift::new(&waves);
+            self.wave_shift = Some(shift.map_err(|error| refused(error.into()))?);
+        }
+        if let Some(shear) = &mut self.shear {
+            shear.temperature = Some(at(by_depth.contact()));
+        }
+        self.by_depth = Some(by_depth);
+        Ok(self)
+    }
+
+    /// Temperature rise below a periodic surface; `None` for one temperature.
+    pub(super) const fn by_depth(&self) -> Option<&DepthProfile> {
+        self.by_depth.as_ref()
+    }
+
+    /// Shift of the material by the wavelength; `None` for the same material under all waves.
+    pub(super) const fn wave_shift(&self) -> Option<&WaveShift> {
+        self.wave_shift.as_ref()
     }
 
     /// Length of the closed track, after which the body returns to the same place, \[m]; `None` without a track.
@@ -470,7 +533,11 @@ impl Problem {
     pub(crate) fn elastomer(&self) -> Result<Layer<'_, dyn Material>, SolveError> {
         let layer = Layer::new(&*self.parts.half_space.material, self.thickness);
         let layer = layer.map_err(BemError::from)?;
-        Ok(layer.with_modulus_factors(self.factors))
+        let layer = layer.with_modulus_factors(self.factors);
+        Ok(match &self.wave_shift {
+            None => layer,
+            Some(shift) => layer.with_wave_shift(shift.clone()),
+        })
     }
 
     /// Rejects sliding at a given depth over a half space whose material a Prony series approximates: the force depends on

@@ -49,7 +49,7 @@ pub enum Warning {
     ModuliWithoutTemperature,
     /// The hottest place of the contact is hotter than the laws of material and shear strength are known for.
     HotterThanLaws {
-        /// Largest temperature in the contact, \[°C].
+        /// Largest temperature in the contact or below a periodic surface, \[°C].
         temperature: f64,
         /// Highest temperature of the laws, \[°C].
         highest: f64,

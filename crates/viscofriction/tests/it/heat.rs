@@ -217,6 +217,102 @@ fn a_rough_surface_grows_hotter_with_time() {
     );
 }
 
+/// A rough surface with a perfect conductor has its isothermal friction to the last bit.
+#[test]
+fn a_perfect_conductor_under_a_rough_surface_keeps_the_isothermal_answer() {
+    let folder = Folder::new("heat-rough-none");
+    let (_, rubber) = BALL.split_once("[material").expect("a material");
+    let scene = format!(
+        "[indenter.self-affine]\nperiod = [1e-2, 1e-2]\nhurst_exponent = 0.8\nrms_slope = 0.1\nlongest_wavelength = 1e-2\nshortest_wavelength = \
+         2.5e-3\nseed = 1\n[material{rubber}{SHEAR}"
+    );
+    let scene = with(&scene, ["normal_force = 1.0", "mean_pressure = 1e5"]);
+    let isothermal = folder.answer(&scene);
+    let cold = with(HEAT, ["0.25", "1e30"]);
+    let conducting = folder.answer(format!("{scene}{cold}duration = 10.0\n"));
+    for key in [
+        "friction_coefficient",
+        "contact_area",
+        "friction_coefficient_error",
+    ] {
+        let [one, other] = [&isothermal, &conducting].map(|answer| number(answer, key));
+        assert_eq!(one.to_bits(), other.to_bits(), "{key}: {one} and {other}");
+    }
+}
+
+/// One wave in full contact has the temperature of its depth, where it dissipates like 4 q³ z² e^(−2qz), everywhere alike: a scalar
+/// fixed point of a double integral. The surface is colder at first, and hotter by the heat of an interface.
+#[test]
+fn one_wave_in_full_contact_has_the_temperature_of_its_depth() {
+    let folder = Folder::new("heat-wave");
+    let (n, amplitude, period, pressure) = (32_i32, 1e-4, 1e-3, 2e7);
+    let height = |place: i32| -amplitude * (2.0 * PI * f64::from(place) / f64::from(n)).cos();
+    let line: Vec<String> = (0..n).map(|place| format!("{:e}", height(place))).collect();
+    folder.write("wave.csv", vec![line.join(","); 8].join("\n"));
+    let (spacing, velocity, relaxation_time) = (period / f64::from(n), 1.0, 8e-4);
+    let q = 2.0 * PI / period;
+    for (duration, shear) in [(0.004_f64, 0.0_f64), (0.06, 0.0), (0.06, 1e5)] {
+        let interface = format!("[interface.constant]\nshear_strength = {shear}\n");
+        let answer = folder.answer(format!(
+            "[indenter.height-map]\nfile = \"wave.csv\"\nspacing = [{spacing}, {spacing}]\nedges = \"periodic\"\n{}[material.prony]\n\
+             equilibrium_modulus = 1e6\nbranches = [{{ modulus = 4e6, relaxation_time = {relaxation_time} }}]\nshift = {{ temperature = 20.0, \
+             temperature_range = [-20.0, 200.0], law = {{ wlf = [8.86, 101.6] }} }}\n{HEAT}duration = {duration}\n[load]\nmean_pressure = \
+             {pressure}\nvelocity = {velocity}\n[solve]\nrelative_error = 0.03\n",
+            if shear > 0.0 { &interface } else { "" }
+        ));
+        // Rise per power: the temperature of a plane at the other depth and of its mirror image (Carslaw & Jaeger 1959, § 2.5).
+        let length = 2.0 * (1.2e-7 * duration).sqrt();
+        let ierfc = |x: f64| (-x * x).exp() / PI.sqrt() - x * libm::erfc(x);
+        let rise_at = |z: f64, source: f64| {
+            0.5 * length / 0.25
+                * (ierfc((z - source).abs() / length) + ierfc((z + source) / length))
+        };
+        let layers = 400;
+        let layer = |index: i32| (f64::from(index) + 0.5) * 10.0 / (f64::from(layers) * q);
+        let thickness = 10.0 / (f64::from(layers) * q);
+        let share = |z: f64| 4.0 * q * (q * z).powi(2) * (-2.0 * q * z).exp() * thickness;
+        let [mut of_bulk, mut of_shear] = [0.0; 2];
+        for place in (0..layers).map(layer) {
+            of_shear += share(place) * rise_at(place, 0.0);
+            for source in (0..layers).map(layer) {
+                of_bulk += share(place) * share(source) * rise_at(place, source);
+            }
+        }
+        let friction = |rise: f64| {
+            let omega = q * velocity * relaxation_time * 10_f64.powf(-8.86 * rise / (101.6 + rise));
+            4e6 * omega / (1.0 + omega * omega) * (q * amplitude).powi(2) / pressure
+        };
+        // The caused rise falls with the rise: bisect.
+        let [mut lower, mut upper] = [0.0, 180.0];
+        for _ in 0..60 {
+            let rise = 0.5 * (lower + upper);
+            let caused = (of_bulk * friction(rise) * pressure + of_shear * shear) * velocity;
+            if caused > rise {
+                lower = rise;
+            } else {
+                upper = rise;
+            }
+        }
+        let key = if shear > 0.0 {
+            "friction_from_hysteresis"
+        } else {
+            "friction_coefficient"
+        };
+        let [found, error] = ["", "_error"].map(|end| number(&answer, &format!("{key}{end}")));
+        let off = (found - friction(lower)).abs();
+        assert!(
+            off < error,
+            "{duration} s, {shear} Pa: {found} ± {error}, not {}",
+            friction(lower)
+        );
+        assert!(error < 0.04 * found, "{duration} s: {found} ± {error}");
+        assert!(
+            (friction(lower) / friction(0.0) - 1.0).abs() > 0.01,
+            "{lower} K: {answer}"
+        );
+    }
+}
+
 /// Requires that a scene is refused with these words.
 #[track_caller]
 fn assert_refused(text: &str, words: &str) {

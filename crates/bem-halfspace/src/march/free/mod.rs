@@ -24,7 +24,7 @@ use crate::contact::{ContactBox, check_heights};
 use crate::elements::bounds::Bounds;
 use crate::elements::pressure_field::PressureField;
 use crate::elements::resolution::Layout;
-use crate::substrate::base::check_small_strains;
+use crate::substrate::base::check_unchanged_moduli;
 use crate::{BemError, Elastomer, GridOptions};
 use history::MaterialHistory;
 pub use motion::{Motion, MotionRow};
@@ -135,7 +135,7 @@ impl<'a> March<'a> {
         let layout = options.layout([along_x && schedule.is_at_rest(), along_y])?;
         let [dx, dy] = options.spacing;
         // Find the creep spectrum of the material, and the coefficients of its creep law over the first step.
-        check_small_strains(elastomer)?;
+        check_unchanged_moduli(elastomer)?;
         let creep = elastomer.material().creep();
         let time_step = schedule.steps[0].time_step;
         let creep_step = (schedule.step_rule)(&creep, time_step)?;

@@ -17,7 +17,7 @@ use crate::estimate::plan::GridPlan;
 use crate::estimate::quantities::Quantities;
 use crate::estimate::refinement_limits::PRESS;
 use crate::march::{March, Motion};
-use crate::substrate::base::check_small_strains;
+use crate::substrate::base::check_unchanged_moduli;
 use crate::{Base, BemError, Elastomer, Footprint, GridOptions, Layer};
 
 /// Convergence order that error estimates assume for depth and force. Chosen as a lower bound, which also holds under cusps; a
@@ -192,7 +192,7 @@ pub(super) struct Spring {
 impl Spring {
     /// The spring of a material at equilibrium. Fails with [`BemError::NoEquilibrium`] for one that flows.
     fn at_rest(elastomer: &dyn Elastomer) -> Result<Self, BemError> {
-        check_small_strains(elastomer)?;
+        check_unchanged_moduli(elastomer)?;
         let material = elastomer.material();
         let modulus = material.relaxation().equilibrium_modulus();
         if modulus == 0.0 {
@@ -235,7 +235,7 @@ impl Spring {
     /// The spring that a material is equivalent to at the end of a load: its creep compliance under a force, its relaxation modulus
     /// at a depth.
     pub(super) fn after(elastomer: &dyn Elastomer, load: &PressingLoad) -> Result<Self, BemError> {
-        check_small_strains(elastomer)?;
+        check_unchanged_moduli(elastomer)?;
         let material = elastomer.material();
         // A force acts through the creep compliance, a depth through the relaxation modulus. If the material creeps under a force, the
         // pressure depends on the history, unlike force and depth.

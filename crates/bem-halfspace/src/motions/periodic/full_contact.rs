@@ -15,7 +15,7 @@ use rustfft::num_complex::Complex;
 use super::stresses::WaveMotion;
 use crate::Grid;
 use crate::parallel::reductions::{dot, mean};
-use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
+use crate::stationary::periodic::fourier_multiplier::{FourierMultiplier, Wave};
 use crate::transform::plane_transform::ZERO;
 
 /// A surface on a grid, for the test whether its contact is full and for its closed form.
@@ -63,7 +63,7 @@ impl FullContactSurface<'_> {
         motion.states[1..].iter().all(|state| {
             let (heights, factor) = (self.heights, self.factor);
             let stress = |row: usize| value_of_row(&state.stress, row, rows);
-            let symbol = |row: usize, [_, q]: [f64; 2]| -stress(row) * q / factor;
+            let symbol = |wave: &Wave| -stress(wave.row) * wave.stiffness / factor;
             self.waves.apply(heights, &mut field, symbol);
             let mean = mean(&field);
             field.iter().all(|p| (p - mean).abs() < allowed)
@@ -82,8 +82,13 @@ impl FullContactSurface<'_> {
         let weights: Vec<f64> = (0..wave_numbers.len())
             .map(|number| {
                 let is_own = |row: usize| row.min(rows - row) == number;
-                let symbol = |row: usize, [_, q]: [f64; 2]| {
-                    Complex::from(if is_own(row) { q / self.factor } else { 0.0 })
+                let symbol = |wave: &Wave| {
+                    let own = is_own(wave.row);
+                    Complex::from(if own {
+                        wave.stiffness / self.factor
+                    } else {
+                        0.0
+                    })
                 };
                 self.waves.apply(self.heights, &mut field, symbol);
                 dot(&field, self.heights) / n

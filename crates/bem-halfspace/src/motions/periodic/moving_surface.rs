@@ -25,7 +25,7 @@ use crate::motions::any_motion::LimitCycle;
 use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
 use crate::stationary::periodic::nested::interpolated;
 use crate::stationary::periodic::perimeter_error::area_fraction;
-use crate::substrate::base::check_small_strains;
+use crate::substrate::base::check_unchanged_moduli;
 use crate::{BemError, ContactOptions, Elastomer, Grid};
 
 /// Largest product of the number of elements and the number of steps of a cycle or path. Chosen: grids with a larger product are
@@ -90,7 +90,7 @@ impl<'a> MovingSurface<'a> {
         accuracy: Accuracy,
     ) -> Result<Self, BemError> {
         // Find the spectra of the material. Refuse a reciprocating motion without a limit cycle, and what is not supported.
-        check_small_strains(elastomer)?;
+        check_unchanged_moduli(elastomer)?;
         let (relaxation, creep) = {
             let material = elastomer.material();
             (material.relaxation(), material.creep())
@@ -493,7 +493,7 @@ mod tests {
                     let dashpot: Vec<f64> = pairs.map(|(all, spring)| all - spring).collect();
                     // Find the displacement that the pressures of the dashpot cause on an incompressible half space of the
                     // modulus 1.
-                    kernel.apply(&dashpot, &mut moved, |_, [_, q]| (0.5 / q).into());
+                    kernel.apply(&dashpot, &mut moved, |wave| (0.5 / wave.stiffness).into());
                     let work: f64 = dashpot.iter().zip(&moved).map(|(p, u)| p * u).sum();
                     let times = step.duration / element.retardation_time;
                     let passed = -(-2.0 * times).exp_m1();

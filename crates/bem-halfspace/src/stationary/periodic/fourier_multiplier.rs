@@ -9,6 +9,19 @@ use crate::parallel::row_blocks::{copies, for_each_row};
 use crate::transform::plane_transform::{PlaneTransform, Workspace, rounded};
 use crate::{Base, Grid};
 
+/// A wave of the transform of a field.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Wave {
+    /// Row of the transform, by which the waves of one wave number along x have the same material frequency.
+    pub(crate) row: usize,
+    /// Index among all waves, `[column][row]` of the transform.
+    pub(crate) index: usize,
+    /// Wave number along x, \[rad/m]; positive for the shortest wave.
+    pub(crate) q_x: f64,
+    /// Stiffness |q|/M, \[rad/m]; for the mean that of the longest wave.
+    pub(crate) stiffness: f64,
+}
+
 /// Transform plans and wave numbers of a periodic grid, for products of fields with symbols.
 pub(crate) struct FourierMultiplier {
     /// Rows and columns of the grid.
@@ -19,6 +32,8 @@ pub(crate) struct FourierMultiplier {
     single: Option<Transforms<f32>>,
     /// Wave number q_x of each row of a transformed field, \[rad/m]; positive for the shortest wave.
     pub(crate) along_x: Vec<f64>,
+    /// Wave number q_y of the second column of a transformed field, \[rad/m].
+    step_y: f64,
     /// Stiffness |q|/M of all waves, `[column][row]` of the transform, \[rad/m]; for the mean that of the longest wave. Here q is
     /// the wave vector and M the compliance ratio of a layer (1 on a half space).
     stiffness: Vec<f64>,
@@ -52,27 +67,33 @@ impl FourierMultiplier {
             double: None,
             single: None,
             along_x,
+            step_y: unit_y,
             stiffness,
         }
     }
 
-    /// Multiplies every wave of a field by `symbol(row, [q_x, |q|/M])`, with its row in the transform and wave numbers \[rad/m].
-    ///
-    /// For the mean, |q|/M is that of the longest wave. Allocates only at the first call.
+    /// Wave numbers q_x and |q| of all waves, `[column][row]` of the transform, \[rad/m].
+    pub(super) fn wave_numbers(&self) -> impl ExactSizeIterator<Item = [f64; 2]> + '_ {
+        let rows = self.along_x.len();
+        (0..self.stiffness.len()).map(move |index| {
+            let q_x = self.along_x[index % rows];
+            [q_x, q_x.hypot((index / rows) as f64 * self.step_y)]
+        })
+    }
+
+    /// Multiplies every wave of a field by its symbol. Allocates only at the first call.
     pub(crate) fn apply(
         &mut self,
         field: &[f64],
         result: &mut [f64],
-        symbol: impl Fn(usize, [f64; 2]) -> Complex<f64> + Sync,
+        symbol: impl Fn(&Wave) -> Complex<f64> + Sync,
     ) {
         let (along_x, stiffness) = (&self.along_x, &self.stiffness);
         let transforms = Transforms::get_or_plan(&mut self.double, self.shape);
         let normalisation = transforms.plans.normalisation();
         transforms.multiply(field, result, |column, values| {
-            let stiffness = &stiffness[column * along_x.len()..];
-            let waves = along_x.iter().zip(stiffness).enumerate();
-            for (value, (row, (&q_x, &q))) in values.iter_mut().zip(waves) {
-                *value *= symbol(row, [q_x, q]) * normalisation;
+            for (value, wave) in values.iter_mut().zip(waves_of(along_x, stiffness, column)) {
+                *value *= symbol(&wave) * normalisation;
             }
         });
     }
@@ -97,21 +118,20 @@ impl FourierMultiplier {
         });
     }
 
-    /// Symbols of all waves for [`apply_single_precision`](Self::apply_single_precision), `[column][row]`, from `symbol(row, |q|/M)`.
+    /// Symbols of all waves for [`apply_single_precision`](Self::apply_single_precision), `[column][row]`.
     ///
     /// The symbol of the mean is `mean`, or that of the longest wave for `None`. Symbols contain the normalisation of the transforms.
     pub(crate) fn symbols(
         &self,
         mean: Option<f64>,
-        symbol: impl Fn(usize, f64) -> Complex<f64> + Sync,
+        symbol: impl Fn(&Wave) -> Complex<f64> + Sync,
     ) -> Vec<Complex<f32>> {
-        let (rows, stiffness) = (self.along_x.len(), &self.stiffness);
+        let (along_x, stiffness) = (&self.along_x, &self.stiffness);
         let normalisation = 1.0 / (self.shape[0] as f64 * self.shape[1] as f64);
         let mut symbols = copies(Complex::default(), stiffness.len());
-        for_each_row(&mut symbols, rows, |column, symbols| {
-            let waves = stiffness[column * rows..].iter().enumerate();
-            for (place, (row, &q)) in symbols.iter_mut().zip(waves) {
-                *place = rounded(symbol(row, q) * normalisation);
+        for_each_row(&mut symbols, along_x.len(), |column, symbols| {
+            for (place, wave) in symbols.iter_mut().zip(waves_of(along_x, stiffness, column)) {
+                *place = rounded(symbol(&wave) * normalisation);
             }
         });
         if let Some(mean) = mean {
@@ -136,6 +156,22 @@ impl FourierMultiplier {
             }
         });
     }
+}
+
+/// The waves of one column of the transform.
+fn waves_of<'w>(
+    along_x: &'w [f64],
+    stiffness: &'w [f64],
+    column: usize,
+) -> impl Iterator<Item = Wave> + 'w {
+    let first = column * along_x.len();
+    let of_column = along_x.iter().zip(&stiffness[first..]).enumerate();
+    of_column.map(move |(row, (q_x, stiffness))| Wave {
+        row,
+        index: first + row,
+        q_x: *q_x,
+        stiffness: *stiffness,
+    })
 }
 
 /// Transforms of whole fields with their buffers.

@@ -19,8 +19,9 @@ use rheology::{Material as _, StationaryCreep, check_spectra};
 use rustfft::num_complex::Complex;
 
 use crate::parallel::reductions::mean;
-use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
-use crate::{Base, BemError, Elastomer, Grid};
+use crate::stationary::periodic::fourier_multiplier::{FourierMultiplier, Wave};
+use crate::substrate::base::check_no_wave_shift;
+use crate::{Base, BemError, Elastomer, Grid, WaveShift};
 
 /// A material under a surface that slides at a constant speed.
 #[derive(Debug, Clone)]
@@ -33,6 +34,8 @@ pub(crate) struct Sliding {
     velocity: f64,
     /// Base of the material: a half space of the same material, or a substrate.
     base: Base,
+    /// Shift of the creep by the wavelength; `None` for the same creep under all waves.
+    wave_shift: Option<WaveShift>,
 }
 
 impl Sliding {
@@ -53,12 +56,14 @@ impl Sliding {
             creep,
             velocity,
             base: elastomer.base(),
+            wave_shift: elastomer.wave_shift(),
         })
     }
 
     /// The material at rest, a `time` \[s] after a step of pressure: a spring with its creep compliance at that time.
     #[cfg(feature = "rough")]
     pub(super) fn at_rest(elastomer: &dyn Elastomer, time: f64) -> Result<Self, BemError> {
+        check_no_wave_shift(elastomer)?;
         let creep = elastomer.material().creep();
         let spring = CreepSpectrum::new(creep.creep_compliance(time)?, 0.0, Vec::new())?;
         Ok(Self {
@@ -66,6 +71,7 @@ impl Sliding {
             factor: 0.5 * elastomer.material().half_space_factor(),
             velocity: 0.0,
             base: elastomer.base(),
+            wave_shift: None,
         })
     }
 
@@ -93,23 +99,50 @@ impl Sliding {
     /// Displacement of a layer at rest per mean pressure, \[m/Pa]; 0 for a half space, whose displacements are measured from their
     /// mean.
     pub(super) fn mean_compliance(&self) -> Result<f64, BemError> {
-        Ok(self.compliances(&[0.0])?[0].re * self.base.uniform_compliance())
+        Ok(self.compliance(0.0, 0.0)?.re * self.base.uniform_compliance())
     }
 
     /// Complex compliances (1 − ν) [J'(|q_x| v) + i sign(q_x) J''(|q_x| v)], one for each wave number q_x \[rad/m] in `along_x`,
-    /// \[1/Pa].
+    /// \[1/Pa], of waves that are not shifted.
     pub(crate) fn compliances(&self, along_x: &[f64]) -> Result<Vec<Complex<f64>>, BemError> {
-        let compliance = |q_x: &f64| {
-            let compliance = self.creep.complex_compliance(self.frequency(*q_x))?;
-            positive("storage compliance", compliance.storage)?;
-            let loss = compliance.loss.copysign(*q_x);
-            Ok(Complex::new(compliance.storage, loss) * self.factor)
-        };
+        let compliance = |q_x: &f64| self.compliance_at(*q_x, self.frequency(*q_x));
         along_x.iter().map(compliance).collect()
+    }
+
+    /// Complex compliance of a wave with the wave numbers q_x along x and q in all, \[rad/m].
+    fn compliance(&self, q_x: f64, q: f64) -> Result<Complex<f64>, BemError> {
+        let [time_factor, modulus_factor] =
+            (self.wave_shift.as_ref()).map_or([1.0; 2], |shift| shift.factors(q));
+        let compliance = self.compliance_at(q_x, self.frequency(q_x) * time_factor)?;
+        Ok(compliance / modulus_factor)
+    }
+
+    /// Complex compliance at an angular frequency \[rad/s], with the sign of the wave number q_x \[rad/m].
+    fn compliance_at(&self, q_x: f64, frequency: f64) -> Result<Complex<f64>, BemError> {
+        let compliance = self.creep.complex_compliance(frequency)?;
+        positive("storage compliance", compliance.storage)?;
+        let loss = compliance.loss.copysign(q_x);
+        Ok(Complex::new(compliance.storage, loss) * self.factor)
     }
 }
 
-/// The kernel K on one grid: a Fourier multiplier with a complex compliance for each row of the transform, that is each q_x.
+/// Complex numbers of the waves of a grid.
+struct OfWaves {
+    /// One number for each row of the transform, that is each q_x, or one for each wave, `[column][row]`.
+    values: Vec<Complex<f64>>,
+    /// Whether all waves of a row have the same number.
+    is_by_row: bool,
+}
+
+impl OfWaves {
+    /// The number of a wave.
+    fn of(&self, wave: &Wave) -> Complex<f64> {
+        self.values[if self.is_by_row { wave.row } else { wave.index }]
+    }
+}
+
+/// The kernel K on one grid: a Fourier multiplier with a complex compliance for each row of the transform, that is each q_x; if times
+/// and moduli depend on the wavelength, for each wave.
 ///
 /// A mean pressure compresses a layer, and leaves the mean of a half space where it is.
 pub(super) struct PeriodicKernel {
@@ -117,37 +150,47 @@ pub(super) struct PeriodicKernel {
     waves: FourierMultiplier,
     /// Displacement per mean pressure, \[m/Pa]; 0 for a half space.
     pub(super) mean_compliance: f64,
-    /// Compliance |q| û/(p̂ M) of each row at the centre of an element, \[1/Pa].
-    at_centre: Vec<Complex<f64>>,
-    /// Phase shift from the centre to the point at which the gap is evaluated.
+    /// Compliance |q| û/(p̂ M) at the centre of an element, \[1/Pa].
+    at_centre: OfWaves,
+    /// Phase shift of each row from the centre to the point at which the gap is evaluated.
     shift: Vec<Complex<f64>>,
     /// Product of both: the compliance at the point where the gap is evaluated.
-    at_gap: Vec<Complex<f64>>,
+    at_gap: OfWaves,
 }
 
 impl PeriodicKernel {
     /// Kernel of a material at its speed on a grid, as a compliance for each wave.
     pub(super) fn new(sliding: &Sliding, grid: &Grid) -> Result<Self, BemError> {
-        // Compute the compliance of each row of the transform, and from the loss angle of the shortest wave the shift θ in elements.
+        // Compute the compliance of each row of the transform, or of each wave, and from the loss angle of the shortest wave the shift θ
+        // in elements.
         let dx = grid.spacing()[0];
         let waves = FourierMultiplier::new(grid, &sliding.base);
         let along_x = &waves.along_x;
-        let mut at_centre = sliding.compliances(along_x)?;
-        let shortest = sliding.compliances(&[PI / dx])?[0];
-        let theta = -shortest.arg() / PI;
+        let is_by_row = sliding.wave_shift.is_none();
+        let mut at_centre: Vec<Complex<f64>> = if is_by_row {
+            sliding.compliances(along_x)?
+        } else {
+            let of_waves = waves.wave_numbers();
+            of_waves
+                .map(|[q_x, q]| sliding.compliance(q_x, q))
+                .collect::<Result<_, _>>()?
+        };
+        let theta = -sliding.compliance(PI / dx, PI / dx)?.arg() / PI;
         // A shift of the points by this distance multiplies each wave by a phase factor.
         let turn = |q_x: &f64| Complex::from_polar(1.0, q_x * theta * dx);
         let mut shift: Vec<_> = along_x.iter().map(turn).collect();
-        let mut at_gap: Vec<_> = at_centre.iter().zip(&shift).map(|(c, s)| c * s).collect();
+        let of_rows = shift.iter().cycle();
+        let mut at_gap: Vec<_> = at_centre.iter().zip(of_rows).map(|(c, s)| c * s).collect();
         let rows = along_x.len();
         if rows.is_multiple_of(2) {
-            // The shortest wave stands for both directions, so that its symbols are real.
-            let middle = rows / 2;
-            at_gap[middle] = Complex::from(at_gap[middle].norm());
-            for symbols in [&mut at_centre, &mut shift] {
-                symbols[middle] = Complex::from(symbols[middle].re);
+            // The shortest wave along x stands for both directions, so that its symbols are real.
+            for middle in (rows / 2..at_gap.len()).step_by(rows) {
+                at_gap[middle] = Complex::from(at_gap[middle].norm());
+                at_centre[middle] = Complex::from(at_centre[middle].re);
             }
+            shift[rows / 2] = Complex::from(shift[rows / 2].re);
         }
+        let [at_centre, at_gap] = [at_centre, at_gap].map(|values| OfWaves { values, is_by_row });
         Ok(Self {
             waves,
             mean_compliance: sliding.mean_compliance()?,
@@ -159,7 +202,7 @@ impl PeriodicKernel {
 
     /// Displacements \[m] under a pressure field \[Pa], at the points where the gaps are evaluated.
     pub(super) fn displace(&mut self, pressure: &[f64], result: &mut [f64]) {
-        let symbol = |row: usize, [_, q]: [f64; 2]| self.at_gap[row] / q;
+        let symbol = |wave: &Wave| self.at_gap.of(wave) / wave.stiffness;
         self.waves.apply(pressure, result, symbol);
         set_mean(result, self.mean_compliance * mean(pressure));
     }
@@ -167,7 +210,7 @@ impl PeriodicKernel {
     /// Displacements \[m] under a pressure field \[Pa], at the centres of the elements; the mean has no meaning.
     #[cfg(feature = "rough")]
     pub(super) fn displace_centres(&mut self, pressure: &[f64], result: &mut [f64]) {
-        let symbol = |row: usize, [_, q]: [f64; 2]| self.at_centre[row] / q;
+        let symbol = |wave: &Wave| self.at_centre.of(wave) / wave.stiffness;
         self.waves.apply(pressure, result, symbol);
     }
 
@@ -176,24 +219,24 @@ impl PeriodicKernel {
     ///
     /// The inverse has the mean of the longest wave, so that it exists on a half space too.
     pub(super) fn symbols(&self, self_influence: f64) -> [Vec<Complex<f32>>; 2] {
-        let factor = |row: usize, q: f64| self.at_gap[row] / (q * self_influence);
+        let factor = |wave: &Wave| self.at_gap.of(wave) / (wave.stiffness * self_influence);
         let mean = self.mean_compliance / self_influence;
         [
             self.waves.symbols(Some(mean), factor),
-            self.waves.symbols(None, |row, q| factor(row, q).inv()),
+            self.waves.symbols(None, |wave| factor(wave).inv()),
         ]
     }
 
     /// The pressure without mean \[Pa] under which the points where gaps are evaluated are displaced by a field \[m] less its mean.
     pub(super) fn invert(&mut self, field: &[f64], result: &mut [f64]) {
-        let symbol = |row: usize, [_, q]: [f64; 2]| self.at_gap[row].inv() * q;
+        let symbol = |wave: &Wave| self.at_gap.of(wave).inv() * wave.stiffness;
         self.waves.apply(field, result, symbol);
         set_mean(result, 0.0);
     }
 
     /// The pressure \[Pa] under which the centres of all elements are displaced by a field \[m]; its mean has no meaning.
     pub(super) fn invert_at_centre(&mut self, field: &[f64], result: &mut [f64]) {
-        let symbol = |row: usize, [_, q]: [f64; 2]| self.at_centre[row].inv() * q;
+        let symbol = |wave: &Wave| self.at_centre.of(wave).inv() * wave.stiffness;
         self.waves.apply(field, result, symbol);
     }
 
@@ -201,9 +244,9 @@ impl PeriodicKernel {
     pub(super) fn relaxation(&self, weight: f64, self_influence: f64) -> Vec<Complex<f32>> {
         let mean = self.mean_compliance / self_influence;
         self.waves
-            .symbols(Some(mean / (mean * weight + 1.0)), |row, q| {
-                let kernel = self.at_centre[row] / self_influence;
-                kernel / (kernel * weight + q)
+            .symbols(Some(mean / (mean * weight + 1.0)), |wave| {
+                let kernel = self.at_centre.of(wave) / self_influence;
+                kernel / (kernel * weight + wave.stiffness)
             })
     }
 
@@ -219,15 +262,16 @@ impl PeriodicKernel {
 
     /// Heights at the points where the gaps are evaluated, by trigonometric interpolation of those at the centres.
     pub(super) fn shifted(&mut self, heights: &[f64], result: &mut [f64]) {
-        self.waves.apply(heights, result, |row, _| self.shift[row]);
+        self.waves
+            .apply(heights, result, |wave| self.shift[wave.row]);
     }
 
     /// Slopes ∂h/∂x at the centres of the elements, of the trigonometric polynomial through the heights.
     pub(super) fn slopes(&mut self, heights: &[f64], result: &mut [f64]) {
         let rows = self.shift.len();
-        self.waves.apply(heights, result, |row, [q_x, _]| {
+        self.waves.apply(heights, result, |wave| {
             // The slope of the shortest wave vanishes at the centres.
-            Complex::new(0.0, if 2 * row == rows { 0.0 } else { q_x })
+            Complex::new(0.0, if 2 * wave.row == rows { 0.0 } else { wave.q_x })
         });
     }
 
@@ -235,7 +279,7 @@ impl PeriodicKernel {
     /// the pressure is the dissipated power per area and velocity, \[Pa].
     pub(super) fn dissipate(&mut self, pressure: &[f64], result: &mut [f64]) {
         let symbol =
-            |row: usize, [q_x, q]: [f64; 2]| Complex::from(q_x * self.at_centre[row].im / q);
+            |wave: &Wave| Complex::from(wave.q_x * self.at_centre.of(wave).im / wave.stiffness);
         self.waves.apply(pressure, result, symbol);
     }
 }

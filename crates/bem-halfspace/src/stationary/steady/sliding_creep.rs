@@ -23,6 +23,7 @@ use indenters::SlidingLoad;
 use numerics::{finite, positive};
 use rheology::{ComplexCompliance, Material as _, StationaryCreep, check_spectra};
 
+use crate::substrate::base::check_no_wave_shift;
 use crate::{Base, BemError, Elastomer};
 
 /// Rate Δx/(v λ) of the retardation element that replaces the free flow of a layer on a rigid base, whose influence radius is
@@ -131,6 +132,7 @@ impl SlidingCreep {
     pub(super) fn new(elastomer: &dyn Elastomer, velocity: f64) -> Result<Self, BemError> {
         let (material, base) = (elastomer.material(), elastomer.base());
         check_spectra(&material)?;
+        check_no_wave_shift(elastomer)?;
         let creep = StationaryCreep::new(&material, elastomer.modulus_factors())?;
         base.check_flow(creep.retarded().fluidity())?;
         Ok(Self {

@@ -160,8 +160,9 @@ impl<'a> Adjoint<'a> {
         let mut response = vec![0.0; loads.len()];
         let mean = mean(loads);
         let without_mean: Vec<f64> = loads.iter().map(|load| load - mean).collect();
-        self.waves
-            .apply(&without_mean, &mut response, |_, [_, q]| q.recip().into());
+        self.waves.apply(&without_mean, &mut response, |wave| {
+            wave.stiffness.recip().into()
+        });
         response
     }
 

@@ -32,7 +32,7 @@ use crate::stationary::periodic::kernel::{PeriodicKernel, Sliding};
 use crate::stationary::periodic::nested::interpolated;
 use crate::stationary::periodic::{PeriodicControl, PeriodicLoad, PeriodicOptions, solve_from};
 use crate::steady::sensitivity::{ByModuli, Change, TwoGridExtrapolation};
-use crate::substrate::base::check_small_strains;
+use crate::substrate::base::check_unchanged_moduli;
 use crate::{BemError, Elastomer, Grid, PressureField};
 use adjoint::{Adjoint, Gradient, KernelChange, unit_pressure};
 
@@ -115,7 +115,7 @@ impl PeriodicSensitivity {
         load: &PeriodicLoad,
         pressure: &PressureField,
     ) -> Result<Self, BemError> {
-        check_small_strains(elastomer)?;
+        check_unchanged_moduli(elastomer)?;
         let sliding = Sliding::new(elastomer, load.velocity())?;
         let control = load.require_stationary()?;
         let grid = pressure.grid;
@@ -177,7 +177,9 @@ impl PeriodicSensitivity {
         elastomers: [&dyn Elastomer; 2],
         velocities: [f64; 2],
     ) -> Result<Change<Estimate>, BemError> {
-        elastomers.into_iter().try_for_each(check_small_strains)?;
+        elastomers
+            .into_iter()
+            .try_for_each(check_unchanged_moduli)?;
         let [from, to] = [0, 1].map(|end| Sliding::new(elastomers[end], velocities[end]));
         let ends = [from?, to?];
         self.with_error(|state| state.between_elastomers(ends.each_ref()))

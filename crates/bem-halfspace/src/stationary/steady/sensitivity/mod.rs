@@ -48,7 +48,7 @@ use crate::stationary::steady::line::strip_on_grid;
 use crate::stationary::steady::loading::Loading;
 use crate::stationary::steady::sliding_creep::SlidingCreep;
 use crate::stationary::steady::{Reuse, SteadyOptions};
-use crate::substrate::base::check_small_strains;
+use crate::substrate::base::check_unchanged_moduli;
 use crate::{BemError, Elastomer};
 use contact_derivatives::{ContactDerivatives, Gradient};
 use kernel_gradient::{CreepChange, GridKernel};
@@ -142,7 +142,7 @@ impl SteadySensitivity {
         load: &SlidingLoad,
         options: &SteadyOptions,
     ) -> Result<Self, BemError> {
-        check_small_strains(elastomer)?;
+        check_unchanged_moduli(elastomer)?;
         let loading = loading(surface, elastomer, load, options)?;
         Self::on_shifted_grids(surface, &loading, options, &SENSITIVITY_PHASES)
     }
@@ -157,7 +157,7 @@ impl SteadySensitivity {
         load: &SlidingLoad,
         options: &SteadyOptions,
     ) -> Result<Self, BemError> {
-        check_small_strains(elastomer)?;
+        check_unchanged_moduli(elastomer)?;
         let (strip, loading, mut grid) = strip_on_grid(&profile, elastomer, load, options)?;
         grid.spacing[0] *= STRIP_SPACING_FACTOR;
         Self::on_shifted_grids(&strip, &loading, &grid, &STRIP_SENSITIVITY_PHASES)
@@ -238,7 +238,7 @@ impl SteadySensitivity {
         elastomer: &dyn Elastomer,
         velocity: f64,
     ) -> Result<Change<Estimate>, BemError> {
-        check_small_strains(elastomer)?;
+        check_unchanged_moduli(elastomer)?;
         let creep = SlidingCreep::new(elastomer, velocity)?;
         self.limit(|grids| grids.to_elastomer(&creep))
     }
@@ -314,7 +314,7 @@ impl SensitivityOnGrid {
         load: &SlidingLoad,
         options: &SteadyOptions,
     ) -> Result<Self, BemError> {
-        check_small_strains(elastomer)?;
+        check_unchanged_moduli(elastomer)?;
         let loading = loading(surface, elastomer, load, options)?;
         let phases = [options.phase];
         Self::on_shifted_grids(surface, &loading, options, &phases, &mut Reuse::default())
@@ -330,7 +330,7 @@ impl SensitivityOnGrid {
         load: &SlidingLoad,
         options: &SteadyOptions,
     ) -> Result<Self, BemError> {
-        check_small_strains(elastomer)?;
+        check_unchanged_moduli(elastomer)?;
         let (strip, loading, grid) = strip_on_grid(&profile, elastomer, load, options)?;
         let phases = [grid.phase];
         Self::on_shifted_grids(&strip, &loading, &grid, &phases, &mut Reuse::default())
