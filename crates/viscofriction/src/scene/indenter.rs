@@ -3,6 +3,10 @@
 use std::f64::consts::TAU;
 use std::path::PathBuf;
 
+use indenters::{
+    FlatCone, FlatPunch, Hyperboloid, PowerProfile, PowerTerm, RoundTippedCone, Sphere, Spheroid,
+    Superposition, TruncatedParaboloid,
+};
 use numerics::{MessageNumber, in_range};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -10,6 +14,7 @@ use strum::{EnumDiscriminants, EnumIter, IntoStaticStr};
 
 use super::SceneError;
 use super::height_map::HeightMapTable;
+use super::revolution::Revolution;
 use super::schema::check_ranges;
 use super::source::checked;
 
@@ -217,6 +222,50 @@ pub struct Term {
 }
 
 impl Indenter {
+    /// Builds the body of revolution whose numbers the scene gives.
+    ///
+    /// # Errors
+    /// [`SceneError`] for the first number that is out of range, and for a kind that is read from a file or is no body of revolution.
+    pub fn revolution(&self) -> Result<Revolution, SceneError> {
+        let built = match self {
+            &Self::Power {
+                coefficient,
+                exponent,
+            } => PowerProfile::new(coefficient, exponent).map(Revolution::Power),
+            &Self::Cone { slope } => PowerProfile::cone(slope).map(Revolution::Power),
+            &Self::Paraboloid { curvature } => {
+                PowerProfile::paraboloid(curvature).map(Revolution::Power)
+            }
+            &Self::Sphere { radius } => Sphere::new(radius).map(Revolution::Sphere),
+            &Self::Spheroid { radius, height } => {
+                Spheroid::new(radius, height).map(Revolution::other)
+            }
+            Self::Superposition { terms } => Ok(Revolution::Sum(superposition(terms)?)),
+            &Self::FlatPunch { radius } => FlatPunch::new(radius).map(Revolution::other),
+            &Self::FlatCone { radius, slope } => {
+                FlatCone::new(radius, slope).map(Revolution::other)
+            }
+            &Self::RoundTippedCone { radius, slope } => {
+                RoundTippedCone::new(radius, slope).map(Revolution::other)
+            }
+            &Self::Hyperboloid { radius, slope } => {
+                Hyperboloid::new(radius, slope).map(Revolution::other)
+            }
+            &Self::TruncatedParaboloid { radius, curvature } => {
+                TruncatedParaboloid::new(radius, curvature).map(Revolution::other)
+            }
+            Self::Cylinder { .. }
+            | Self::Table { .. }
+            | Self::HeightMap(_)
+            | Self::SelfAffine(_)
+            | Self::Spectrum(_) => {
+                let problem = "it is not a body of revolution that is given by numbers";
+                return Err(SceneError::at(self.key(), problem));
+            }
+        };
+        built.map_err(|error| SceneError::of_body(&self.key(), error))
+    }
+
     /// True if the surface of the body repeats itself, so that it has no end.
     pub fn is_periodic(&self) -> bool {
         match self {
@@ -295,6 +344,16 @@ impl Indenter {
         let seed = *seed;
         Some((one, seed))
     }
+}
+
+/// The body of revolution h = Σ cᵢ r^pᵢ.
+fn superposition(terms: &[Term]) -> Result<Superposition, SceneError> {
+    let term = |term: &Term| PowerTerm {
+        coefficient: term.coefficient,
+        exponent: term.exponent,
+    };
+    Superposition::new(terms.iter().map(term).collect())
+        .map_err(|error| SceneError::at("indenter.superposition.terms", error.to_string()))
 }
 
 /// Rejects a shortest wavelength above the longest.

@@ -5,11 +5,12 @@ use std::f64::consts::PI;
 use indenters::Surface as _;
 
 use super::answer::Answer;
-use super::body::{Body, Revolution};
+use super::body::Body;
 use super::curve::{AREA, DEPTH, RADIUS};
 use super::half_space::Simple;
 use super::problem::{Motion, Problem};
 use super::warning::Warning;
+use crate::scene::Revolution;
 
 /// Mean slope of the body in contact above which a warning is given. Chosen: linear theory neglects the square of the slope
 /// against 1, here a quarter.
