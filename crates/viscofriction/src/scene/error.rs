@@ -57,6 +57,15 @@ impl SceneError {
         Self::value(format!("{table}.{}", refused.parameter), refused)
     }
 
+    /// The same error, which also says that `option` may be left out.
+    #[must_use]
+    pub fn or_without(self, option: &str) -> Self {
+        match self {
+            Self::At { key, problem } => Self::at(key, format!("{problem}, or leave {option} out")),
+            other => other,
+        }
+    }
+
     /// Error for a body that cannot be built from the table at the path `table`, at the number that the error names.
     pub(crate) fn of_body(table: &str, error: IndenterError) -> Self {
         match error {
