@@ -95,6 +95,14 @@ impl ShearStrength {
         }
     }
 
+    /// Activation energy of its change with temperature, [J/mol]; `None` unless it is a bell that has one.
+    pub const fn activation_energy(&self) -> Option<f64> {
+        match self {
+            Self::Bell(bell) => bell.parameters.activation_energy,
+            Self::Constant(_) | Self::Table(_) => None,
+        }
+    }
+
     /// Highest temperature at which it is known, \[°C]; infinite unless it is a table over the temperature.
     pub fn highest_temperature(&self) -> f64 {
         match self {

@@ -18,7 +18,7 @@ use super::parts::Parts;
 use super::sensitivity::check_uncertainties;
 use super::shear::Shear;
 use crate::files::{Files, ReadFile};
-use crate::scene::{Accuracy, Method, Model, Scene, SceneError};
+use crate::scene::{Accuracy, Method, Model, Scene, SceneError, Shift};
 use crate::text::WrongInput;
 
 /// A validated scene, as the methods receive it.
@@ -359,12 +359,12 @@ impl Problem {
     /// True if the answer depends on the temperature: the material has a shift law, or the shear strength depends on it.
     pub(super) fn depends_on_temperature(&self) -> bool {
         let depends = |shear: &Shear| shear.law.strength.depends_on_temperature();
-        self.has_shift_law() || self.shear.as_ref().is_some_and(depends)
+        self.shift().is_some() || self.shear.as_ref().is_some_and(depends)
     }
 
-    /// True if the material is known at other temperatures.
-    pub(super) fn has_shift_law(&self) -> bool {
-        self.parts.half_space.shift().is_some()
+    /// Temperature dependence of the material; `None` if it is not known.
+    pub(super) fn shift(&self) -> Option<&Shift> {
+        self.parts.half_space.shift()
     }
 
     /// Highest temperature at which material and shear strength are known, \[°C]; infinite if there is none.
@@ -373,8 +373,7 @@ impl Problem {
             .shear
             .as_ref()
             .map(|shear| shear.law.strength.highest_temperature());
-        let of_material = self.parts.half_space.shift();
-        let of_material = of_material.map(|shift| shift.temperature_range[1]);
+        let of_material = self.shift().map(|shift| shift.temperature_range[1]);
         [of_shear, of_material]
             .into_iter()
             .flatten()
