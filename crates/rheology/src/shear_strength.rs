@@ -11,7 +11,7 @@ use crate::{ArrheniusShift, KELVIN_AT_ZERO_CELSIUS, RheologyError};
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum ShearStrength {
-    /// The same at every velocity and temperature.
+    /// Constant at every velocity and temperature.
     Constant(ConstantShearStrength),
     /// A bell over the logarithm of the velocity.
     Bell(BellShearStrength),

@@ -105,7 +105,7 @@ pub enum Indenter {
     },
     /// A body of revolution from a table of radii and heights, linear between its rows.
     Table {
-        /// CSV file with the columns radius_m and height_m, beside the scene file; both begin with 0, radii increase.
+        /// CSV file with the columns radius_m and height_m, in the folder of the scene; both begin with 0, radii increase.
         file: PathBuf,
     },
     /// A surface from a grid of heights: bilinear between them, or periodic, the sum of waves through them.
@@ -161,7 +161,7 @@ pub struct SelfAffineSurface {
 #[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SpectrumSurface {
-    /// CSV file with the columns wave_number q = 2π/λ, \[1/m], and density C, \[m⁴], beside the scene file; wave numbers increase,
+    /// CSV file with the columns wave_number q = 2π/λ, \[1/m], and density C, \[m⁴], in the folder of the scene; wave numbers increase,
     /// and ln C is linear in ln q between the rows. The spectrum.csv of `viscofriction surface` is one.
     pub file: PathBuf,
     /// What the densities are.

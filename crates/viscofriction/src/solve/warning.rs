@@ -170,14 +170,7 @@ impl fmt::Display for Warning {
             Self::UnusualActivationEnergy {
                 key,
                 activation_energy,
-            } => {
-                let [lowest, highest] = USUAL_ACTIVATION_ENERGIES;
-                write!(
-                    out,
-                    "{key} is {} J/mol, and polymers have activation energies from {lowest:.0} J/mol to {highest:.0} J/mol: check its unit",
-                    Rounded(*activation_energy)
-                )
-            }
+            } => write_unusual_energy(out, key, *activation_energy),
             Self::NeglectedCoupling { is_layer: true, .. } => out.write_str(
                 "on a layer the shear of the contact also moves the surface vertically, and its effect on pressure and area is neglected",
             ),
@@ -245,6 +238,16 @@ impl fmt::Display for Warning {
             } => write!(out, "{warning} (of {surfaces} of {of} surfaces)"),
         }
     }
+}
+
+/// Writes that an activation energy \[J/mol] at a key is not that of a polymer.
+fn write_unusual_energy(out: &mut fmt::Formatter<'_>, key: &str, energy: f64) -> fmt::Result {
+    let [lowest, highest] = USUAL_ACTIVATION_ENERGIES;
+    write!(
+        out,
+        "{key} is {} J/mol, and polymers have activation energies from {lowest:.0} J/mol to {highest:.0} J/mol: check its unit",
+        Rounded(energy)
+    )
 }
 
 /// Writes which fractions of the friction come from frequencies below and above the measured ones \[rad/s], and from all of these.

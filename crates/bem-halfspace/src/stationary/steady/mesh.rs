@@ -159,8 +159,8 @@ impl Mesh {
             for column in 0..self.shape[1] {
                 // Evaluate the heights at the rear edge, the collocation point and the front edge of the element.
                 let [x, y] = [self.centre(0, row), self.centre(1, column)];
-                let positions = [-0.5, self.loading.creep.collocation_shift, 0.5];
-                let positions = positions.map(|shift| [x + shift * dx, y]);
+                let shifts = [-0.5, self.loading.creep.collocation_shift, 0.5];
+                let positions = shifts.map(|shift| [x + shift * dx, y]);
                 let heights = positions.map(|position| surface.height(position));
                 let [rear, height, front] = heights;
                 // A body may end, with infinite height, but not be undefined.
