@@ -24,7 +24,7 @@ const REPETITIONS: usize = 3;
 const WALL_TIME: f64 = 5.0;
 /// Distance of the apex from the middle, in elements.
 const ASIDE: f64 = 0.3;
-/// Numbers of threads of which the time on the wall is measured.
+/// Numbers of threads for which the wall time is measured.
 const THREADS: &[usize] = if cfg!(feature = "rayon") {
     &[1, 2]
 } else {

@@ -9,8 +9,8 @@ use pyo3::types::{PyDict, PyList};
 use viscofriction::numerics::SilentProgress;
 use viscofriction::scene::{Indenter, Layer, LoadPoint, Method, SceneError, Source};
 use viscofriction::solve::{
-    Budget, Parts, Sensitivity, body, body_of_heights, half_space, spectral_sensitivity,
-    with_fields, with_sensitivity,
+    Budget, Parts, Sensitivity, body, body_of_heights, check_sensitivity,
+    check_spectral_sensitivity, half_space, spectral_sensitivity, with_fields, with_sensitivity,
 };
 use viscofriction::sweep::{Plan, SweepRow, Varied, Vary, each_once, header};
 use viscofriction::{
@@ -135,6 +135,25 @@ impl Loads<'_> {
     }
 }
 
+impl Loads<'_> {
+    /// Rejects requested derivatives that the method of a problem does not have.
+    fn check_derivatives(&self, problem: &Problem) -> Result<(), SolveError> {
+        if !(self.sensitivity || self.spectral_sensitivity) {
+            return Ok(());
+        }
+        let method = plan(problem)?.method();
+        if self.sensitivity {
+            let checked = check_sensitivity(problem, method);
+            checked.map_err(|error| error.or_without("sensitivity"))?;
+        }
+        if self.spectral_sensitivity {
+            let checked = check_spectral_sensitivity(problem, method);
+            checked.map_err(|error| error.or_without("spectral_sensitivity"))?;
+        }
+        Ok(())
+    }
+}
+
 /// Solves one scene for each row of the columns.
 ///
 /// Returns a dictionary: `columns`, arrays of all numbers by name, NaN if not known; `answers`, other results as dictionaries
@@ -152,6 +171,9 @@ pub(crate) fn solve_loads<'py>(
     let threads = scenes.scene.solve.threads;
     let problems = (0..count).map(|index| scenes.problem(index, 1));
     let problems: Vec<Problem> = problems.collect::<PyResult<_>>()?;
+    for problem in &problems {
+        loads.check_derivatives(problem).map_err(wrong)?;
+    }
     // A history in closed form may take seconds, so it runs in the background.
     let is_quick = |problem: &Problem| {
         let is_closed = plan(problem).is_ok_and(|plan| plan.method() == Method::Analytic);

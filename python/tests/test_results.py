@@ -377,8 +377,18 @@ def test_derivatives_by_frequencies_add_up_to_the_unit_of_stress() -> None:
     assert abs(by_both + by_force) < 0.02 * abs(by_force)
     with pytest.raises(AttributeError, match="spectral_sensitivity=True"):
         vf.slide(vf.Sphere(5e-3), SOLID, normal_force=1.0, velocity=0.1).spectral_sensitivity  # noqa: B018
-    with pytest.raises(vf.NotReached, match="derivatives"):
-        vf.slide(vf.Cone(0.1), SOLID, normal_force=1.0, velocity=0.1, model="line", spectral_sensitivity=True)
+
+
+def test_derivatives_that_are_not_known_are_refused_before_anything_is_computed() -> None:
+    heat = vf.Heat(conductivity=0.25, diffusivity=1e-7)
+    strain = vf.KrausStrain(critical_strain=0.02, exponent=0.6, storage_ratio=0.3, loss_peak_ratio=1.5)
+    # An answer within 1e-12 would not be reached.
+    asked = {"normal_force": 1.0, "velocity": [0.1, 0.2], "relative_error": 1e-12}
+    for asked_for in ("sensitivity", "spectral_sensitivity"):
+        for key, effect in (("heat", {"heat": heat}), ("strain", {"strain": strain}), ("solve.method", {"model": "line", "method": "mdr-transient"})):
+            with pytest.raises(ValueError, match=f"^{key}: .*, or leave {asked_for} out$"):
+                vf.slide(vf.Sphere(5e-3), SOLID, **asked, **effect, **{asked_for: True})  # type: ignore[arg-type]
+
 
 def test_an_answer_has_the_error_of_its_material() -> None:
     rubber = vf.Prony(1e6, [(1e7, 1e-3), (3e6, 1e-1)], relative_covariance=np.diag([0.0, 0.01, 0.01]))

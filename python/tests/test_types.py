@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import inspect
 import subprocess
 import sys
+import typing
+from collections.abc import Iterator
 from pathlib import Path
 
+import pytest
+import viscofriction as vf
 from viscofriction._results import QUANTITIES
 
 RIGHT = """
@@ -20,6 +25,9 @@ if friction.contact_area is not None:
     print(friction.contact_area.max())
 moved = vf.move(vf.Cone(0.1), rubber, normal_force=1.0, stroke=1e-3, frequency=1.0, shape="triangular")
 print(moved.peak_friction.max(), moved.warnings)
+kept: list[vf.SlidingAnswer] = [friction, moved]
+cycles: dict[str, vf.MovingAnswer] = {"first": moved}
+tables: list[vf.Interface | vf.Heated | vf.StrainDependence] = [vf.ConstantShear(1e5)]
 table = vf.sweep("scene.toml", {"load.velocity": [1.0, 2.0], "solve.model": ["line", "half-space"]}, sensitivity=True, samples=3)
 print(table["friction_coefficient"].max())
 fit = vf.fit_material("table.csv", wlf=(8.86, 101.6), temperature=20.0, vertical="entropic", deformation="shear")
@@ -59,3 +67,30 @@ def test_a_strict_checker_accepts_right_calls_and_refuses_wrong_words(tmp_path: 
     script = tmp_path / "script.py"
     script.write_text("\n".join([*lines, *WRONG, ""]))
     assert errors(script) == [len(lines) + 1 + index for index in range(len(WRONG))]
+
+
+def classes(annotation: object) -> Iterator[type]:
+    """The classes of the package in an annotation."""
+    if isinstance(annotation, type) and annotation.__module__.startswith("viscofriction"):
+        yield annotation
+    for part in typing.get_args(annotation):
+        yield from classes(part)
+
+
+@pytest.mark.parametrize("name", sorted(vf.__all__))
+def test_every_class_of_a_signature_can_be_imported(name: str) -> None:
+    public = getattr(vf, name)
+    members = vars(public).items() if isinstance(public, type) else []
+    described = [member for key, member in members if not key.startswith("_")] + [public]
+    functions = [getattr(member, "fget", getattr(member, "__func__", member)) for member in described]
+    for function in filter(inspect.isroutine, functions):
+        found = {one for hint in typing.get_type_hints(function).values() for one in classes(hint)}
+        assert {one.__name__ for one in found} <= set(vf.__all__)
+
+
+def test_answers_are_of_the_class_that_the_signature_says() -> None:
+    rubber = vf.StandardSolid(1e6, 1e7, 1e4)
+    assert type(vf.slide(vf.Cone(0.1), rubber, normal_force=1.0, velocity=0.1, model="line")) is vf.SlidingAnswer
+    assert type(vf.press(vf.Cone(0.1), vf.Elastic(1e6), normal_force=1.0)) is vf.Answer
+    moved = vf.move(vf.Cone(0.1), rubber, normal_force=1.0, stroke=1e-3, frequency=1.0, model="line", relative_error=0.1)
+    assert type(moved) is vf.MovingAnswer

@@ -12,7 +12,7 @@ NotReached, which holds what was.
 
 from importlib.metadata import version as _version
 
-from . import _bodies, _fitting, _friction, _indentation, _kinds, _materials, _results, _solving, _sweeping
+from . import _bodies, _fitting, _friction, _indentation, _kinds, _materials, _results, _solving, _sweeping, _tables
 from ._bodies import *  # noqa: F403
 from ._fitting import *  # noqa: F403
 from ._friction import *  # noqa: F403
@@ -22,6 +22,7 @@ from ._materials import *  # noqa: F403
 from ._results import *  # noqa: F403
 from ._solving import *  # noqa: F403
 from ._sweeping import *  # noqa: F403
+from ._tables import *  # noqa: F403
 
 __version__ = _version("viscofriction")
 __all__ = [
@@ -34,4 +35,5 @@ __all__ = [
     *_results.__all__,
     *_solving.__all__,
     *_sweeping.__all__,
+    *_tables.__all__,
 ]

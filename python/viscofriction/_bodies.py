@@ -15,7 +15,7 @@ from ._arrays import Compared, numbers
 from ._kinds import Cone, Edges, HeightsAre, LengthUnit
 from ._tables import Body
 
-__all__ = ["Body", "HeightMap", "Pyramid", "Roughness"]
+__all__ = ["HeightMap", "Pyramid", "Roughness"]
 
 
 @dataclass(frozen=True, eq=False)

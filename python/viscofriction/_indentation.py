@@ -16,8 +16,9 @@ from ._arrays import Compared, columns, count, text_of
 from ._bodies import HeightMap, Pyramid
 from ._kinds import Cylinder, HeightMapFile, SelfAffine, Spectrum
 from ._materials import Prony
-from ._tables import Body, Material
+from ._results import Answer
 from ._solving import ask, given
+from ._tables import Body, Material
 
 Numbers = NDArray[np.float64]
 
@@ -183,7 +184,7 @@ def indent(
         "layer": None if thickness is None else {"thickness": thickness},
         "solve": {"relative_error": relative_error},
     }
-    answer = ask(scene, {}, (), None, history=(name, times, path), fields=work)
+    answer = ask(Answer, scene, {}, (), None, history=(name, times, path), fields=work)
     known: dict[str, Any] = answer._single()
     history, warnings = known["history"] | known["history_errors"], list(answer.warnings)
     if isinstance(body, Pyramid):

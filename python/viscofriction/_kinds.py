@@ -204,7 +204,7 @@ class Cylinder(Body):
 class ProfileFile(Body):
     """A body of revolution from a table of radii and heights, linear between its rows.
 
-    ``file``: CSV file with the columns radius_m and height_m, beside the scene file; both begin with 0, radii increase.
+    ``file``: CSV file with the columns radius_m and height_m, in the folder of the scene; both begin with 0, radii increase.
     """
 
     file: str | os.PathLike[str]
@@ -215,7 +215,7 @@ class ProfileFile(Body):
 class HeightMapFile(Body):
     """A surface from a grid of heights: bilinear between them, or periodic, the sum of waves through them.
 
-    ``file``: File beside the scene file: a text of one line of heights for each y, without names; with the extension npy an array of
+    ``file``: File in the folder of the scene: a text of one line of heights for each y, without names; with the extension npy an array of
     NumPy of the shape (n_y, n_x), float64 or float32; with the extensions asc, gsf, sdf, sur, x3p and xyz a measured surface.
     ``direction``: Direction in which the body moves, degrees from x towards y, 0, 90, 180 or 270. Results have x along the motion.
     ``edges``: What is beyond the grid.
@@ -290,7 +290,7 @@ class SelfAffine(Body):
 class Spectrum(Body):
     """A random surface of a power spectrum, which is periodic along x and y; it takes load.mean_pressure.
 
-    ``file``: CSV file with the columns wave_number q = 2π/λ, [1/m], and density C, [m⁴], beside the scene file; wave numbers increase,
+    ``file``: CSV file with the columns wave_number q = 2π/λ, [1/m], and density C, [m⁴], in the folder of the scene; wave numbers increase,
     and ln C is linear in ln q between the rows. The spectrum.csv of `viscofriction surface` is one.
     ``period``: Periods along x and y, > 0, [m].
     ``seed``: Another seed draws another surface.
@@ -454,7 +454,7 @@ class FractionalMaxwell(Material):
 class MaterialFile(Material):
     """The material of another file.
 
-    ``path``: A file beside the scene file with a table `[material.…]`, such as the material.toml of `fit-material`.
+    ``path``: A file in the folder of the scene, with a table `[material.…]`, such as the material.toml of `fit-material`.
     ``poisson_ratio``: Poisson ratio, −1 < ν ≤ 1/2; without it that of the file.
     ``temperature``: Temperature to which the shift law takes the material, [°C]; without it that of the file.
     ``valid_frequencies``: Lowest and highest frequency > 0 at which it was measured, [rad/s]; without it those of the file.
@@ -509,7 +509,7 @@ class BellShear(Interface):
 class ShearFile(Interface):
     """Measured shear strengths, interpolated on logarithmic scales and never extrapolated.
 
-    ``file``: A table beside the scene file with columns of speed and shear strength, and optionally of temperature and standard error.
+    ``file``: A table in the folder of the scene, with columns of speed and shear strength, and optionally of temperature and standard error.
     """
 
     file: str | os.PathLike[str]
@@ -566,7 +566,7 @@ class KrausStrain(StrainDependence):
 class StrainFile(StrainDependence):
     """A measured strain sweep, interpolated on logarithmic scales; beyond its last strain the factors stay as they are, with a warning.
 
-    ``file``: A CSV file beside the scene file: strain with storage_factor and loss_factor, or a strain sweep as instruments export it.
+    ``file``: A CSV file in the folder of the scene: strain with storage_factor and loss_factor, or a strain sweep as instruments export it.
     ``amplitude``: Whether strains are half the distance from peak to peak, or the whole.
     ``"single"``: Half of the distance from peak to peak.
     ``"double"``: The distance from peak to peak.

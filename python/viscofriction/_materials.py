@@ -14,7 +14,7 @@ from . import _native
 from ._arrays import columns, number, text_of
 from ._tables import Material
 
-__all__ = ["Material", "Prony"]
+__all__ = ["Prony"]
 
 
 Branches = Sequence[tuple[float, float]] | Sequence[Mapping[str, float]]

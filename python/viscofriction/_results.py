@@ -15,7 +15,7 @@ from . import _native
 from ._arrays import Compared
 from ._kinds import Method, Model
 
-__all__ = ["Answer", "NotReached"]
+__all__ = ["Answer", "MovingAnswer", "NotReached", "SlidingAnswer"]
 
 Values = np.float64 | NDArray[np.float64]
 
@@ -359,11 +359,10 @@ class Answer(Compared):
         return _plotting.plot(self, ax)
 
 
-if TYPE_CHECKING:
+class SlidingAnswer(Answer):
+    """Answers of ``slide``, whose friction is always known."""
 
-    class SlidingAnswer(Answer):
-        """Answers whose friction is always known."""
-
+    if TYPE_CHECKING:
         mu: Values
         mu_error: Values
         friction_coefficient: Values
@@ -371,9 +370,11 @@ if TYPE_CHECKING:
         tangential_force: Values
         tangential_force_error: Values
 
-    class MovingAnswer(SlidingAnswer):
-        """Answers along a motion, whose largest friction is known too."""
 
+class MovingAnswer(SlidingAnswer):
+    """Answers of ``move``, whose largest friction is known too."""
+
+    if TYPE_CHECKING:
         peak_friction: Values
         peak_friction_error: Values
 

@@ -7,7 +7,7 @@ import tomllib
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, TypeVar
 
 from numpy.typing import ArrayLike
 
@@ -16,11 +16,8 @@ from ._arrays import columns as checked_columns
 from ._arrays import numbers, text_of, together
 from ._bodies import HeightMap
 from ._kinds import Elastic, Method, Model, StrokeShape
-from ._results import Answer, not_reached
+from ._results import Answer, MovingAnswer, SlidingAnswer, not_reached
 from ._tables import Body, Heated, Interface, Material, StrainDependence, Table
-
-if TYPE_CHECKING:
-    from ._results import MovingAnswer, SlidingAnswer
 
 __all__ = ["move", "press", "slide", "solve"]
 
@@ -29,6 +26,7 @@ Progress = Callable[[int, int], object] | bool | None
 # As the program has it: a scene is written by a person, and names the files that are large.
 LARGEST_SCENE = 1 << 24
 Scene = str | os.PathLike[str] | Mapping[str, Any]
+Kind = TypeVar("Kind", bound=Answer)
 
 
 def slide(
@@ -84,7 +82,9 @@ def slide(
         model=model, method=method, relative_error=relative_error, elements=elements, threads=threads
     )
     derivatives = {"sensitivity": sensitivity, "spectral_sensitivity": spectral_sensitivity}
-    return cast("SlidingAnswer", _solved(body, material, loads, options, progress, derivatives, {"interface": interface, "heat": heat, "strain": strain}))
+    scene = {"indenter": body, "material": material, "load": {"velocity": 0.0}, "solve": options}
+    scene |= given(interface=interface, heat=heat, strain=strain)
+    return ask(SlidingAnswer, scene, *together(loads), progress, derivatives=derivatives)
 
 
 def move(
@@ -123,7 +123,7 @@ def move(
         load["motion"] = [{"time": t, "position": x} for t, x in zip(times.tolist(), places.tolist(), strict=True)]
     options = given(model=model, method=method, relative_error=relative_error, elements=elements, threads=threads)
     scene = {"indenter": body, "material": material, "load": load, "solve": options, "interface": interface}
-    return cast("MovingAnswer", ask(scene, *together(loads), progress))
+    return ask(MovingAnswer, scene, *together(loads), progress)
 
 
 def press(
@@ -161,7 +161,8 @@ def press(
     options = given(
         model=model, method=method, relative_error=relative_error, elements=elements, threads=threads
     )
-    return _solved(body, material, loads, options, progress)
+    scene = {"indenter": body, "material": material, "load": {"velocity": 0.0}, "solve": options}
+    return ask(Answer, scene, *together(loads), progress)
 
 
 def solve(
@@ -175,10 +176,11 @@ def solve(
     by the storage and the loss modulus at each frequency.
     """
     derivatives = {"sensitivity": sensitivity, "spectral_sensitivity": spectral_sensitivity}
-    return ask(scene, {}, (), progress, derivatives=derivatives)
+    return ask(Answer, scene, {}, (), progress, derivatives=derivatives)
 
 
 def ask(
+    kind: type[Kind],
     scene: Scene,
     columns: dict[str, Any],
     shape: tuple[int, ...],
@@ -187,8 +189,8 @@ def ask(
     history: Any = None,
     fields: bool = False,
     derivatives: dict[str, bool] | None = None,
-) -> Answer:
-    """The answers to a scene with other loads, or another history, and with what takes longer than the answer itself."""
+) -> Kind:
+    """The answers of a ``kind`` to a scene with other loads, or another history, and with what takes longer than the answer itself."""
     table, folder, heights = read(scene)
     derivatives = derivatives or {"sensitivity": False, "spectral_sensitivity": False}
     if derivatives["sensitivity"] and heights is not None:
@@ -196,27 +198,13 @@ def ask(
     request = {"scene": table, "folder": folder, "heights": heights, "columns": list(columns.items())}
     with shown(progress) as show:
         found = _native.solve_loads(request | {"history": history, "fields": fields} | derivatives, show)
-    answer = Answer(found, columns, shape)
+    answer = kind(found, columns, shape)
     not_reached(answer)
     return answer
 
 
 def given(**values: Any) -> dict[str, Any]:
     return {name: value for name, value in values.items() if value is not None}
-
-
-def _solved(
-    body: Body,
-    material: Material,
-    loads: dict[str, ArrayLike],
-    options: dict[str, Any],
-    progress: Progress,
-    derivatives: dict[str, bool] | None = None,
-    tables: Mapping[str, Table | None] | None = None,
-) -> Answer:
-    scene = {"indenter": body, "material": material, "load": {"velocity": 0.0}, "solve": options}
-    scene |= given(**(tables or {}))
-    return ask(scene, *together(loads), progress, derivatives=derivatives)
 
 
 def read(scene: Scene) -> tuple[dict[str, Any], str, Any]:

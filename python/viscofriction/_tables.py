@@ -13,6 +13,8 @@ from numpy.typing import ArrayLike, NDArray
 from . import _native
 from ._arrays import as_value, numbers
 
+__all__ = ["Body", "Heated", "Interface", "Material", "StrainDependence"]
+
 
 class Table:
     """One table of a scene, whose keys are the fields. Numbers are checked when it is made."""

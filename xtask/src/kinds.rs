@@ -272,8 +272,7 @@ fn choices(key: &Key) -> impl Iterator<Item = (String, String)> {
 
 /// Name of the class in Python: of [`CLASS_NAMES`], or the kind in camel case.
 fn class_name(definition: &str, kind: &Kind) -> String {
-    let mut known = CLASS_NAMES.iter();
-    let known = known.find(|(of, name, _)| [*of, *name] == [definition, kind.name]);
+    let known = (CLASS_NAMES.iter()).find(|(of, name, _)| [*of, *name] == [definition, kind.name]);
     let words = kind.name.split('-');
     let capitalized = words.map(|word| word[..1].to_uppercase() + &word[1..]);
     known.map_or_else(

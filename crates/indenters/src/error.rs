@@ -119,6 +119,25 @@ pub enum IndenterError {
         /// Length of the track, \[m].
         track: f64,
     },
+    /// A height of a surface is NaN or −∞ (`+∞` means that there is no body).
+    #[error(
+        "the height of the surface at x = {} m, y = {} m must be a number, or +inf where there is no body, but is {height}",
+        Rounded(position[0]), Rounded(position[1])
+    )]
+    InvalidHeight {
+        /// Position [x, y], \[m].
+        position: [f64; 2],
+        /// The refused height, \[m].
+        height: f64,
+    },
+    /// The height of a surface at the origin is not 0, from which all heights and depths count.
+    #[error(
+        "the height of the surface at its lowest point, the origin, must be 0, but is {height} m: subtract it from all heights"
+    )]
+    LowestPointNotZero {
+        /// Height at the origin, \[m].
+        height: f64,
+    },
     /// An integral did not reach the accuracy asked for.
     #[error(
         "the integral {} is known to {reached:.1e} of itself, and {relative_tolerance:.1e} was asked for",

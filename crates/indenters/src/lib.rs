@@ -96,4 +96,4 @@ pub use sphere::Sphere;
 pub use spheroid::Spheroid;
 pub use stretch::stretch;
 pub use superposition::{PowerTerm, Superposition};
-pub use surface::{Surface, Unmirrored};
+pub use surface::{Surface, Unmirrored, check_lowest_point, checked_height};

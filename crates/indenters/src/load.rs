@@ -52,7 +52,7 @@ pub struct HistoryPoint {
 }
 
 impl HistoryPoint {
-    /// The same force or depth at each of the `times` \[s].
+    /// A history that holds one force or depth at all of the `times` \[s].
     pub fn held(control: Control, times: &[f64]) -> Vec<Self> {
         let point = |&time: &f64| Self { time, control };
         times.iter().map(point).collect()

@@ -2,8 +2,12 @@
 
 use auto_impl::auto_impl;
 
-use crate::Axisymmetric;
 use crate::extent::search;
+use crate::{Axisymmetric, IndenterError};
+
+/// Largest height at the origin, in units of the depth of a contact, that is taken for 0. Chosen: it changes a depth by less than any
+/// relative error that the half space can be asked for, and allows for rounding in a body 10⁹ times as large as the depth.
+const MAX_HEIGHT_AT_ORIGIN: f64 = 1e-6;
 
 /// The surface of a rigid body: height and gradient over the (x, y) plane.
 ///
@@ -12,7 +16,8 @@ use crate::extent::search;
 /// [`Axisymmetric`] body.
 #[auto_impl(&, Box, Arc)]
 pub trait Surface: Send + Sync {
-    /// Height h(x, y) above the lowest point, \[m], at a `[x, y]` position \[m]; `+∞` where there is no body.
+    /// Height h(x, y) above the lowest point, which is the origin, \[m], at a `[x, y]` position \[m]; `+∞` where there is no body.
+    /// Solvers refuse a height that is NaN or −∞; those that choose their grid also one at the origin that is not 0.
     fn height(&self, position: [f64; 2]) -> f64;
 
     /// Gradient [∂h/∂x, ∂h/∂y]; zero where there is no body, and at the apex of a body of revolution for any exponent.
@@ -51,6 +56,30 @@ pub trait Surface: Send + Sync {
     fn as_axisymmetric(&self) -> Option<&dyn Axisymmetric> {
         None
     }
+}
+
+/// Checks the height \[m] of a surface at a position [x, y] \[m], and returns it.
+///
+/// # Errors
+/// [`IndenterError::InvalidHeight`] for NaN and −∞.
+pub fn checked_height(height: f64, position: [f64; 2]) -> Result<f64, IndenterError> {
+    if height.is_nan() || height == f64::NEG_INFINITY {
+        return Err(IndenterError::InvalidHeight { position, height });
+    }
+    Ok(height)
+}
+
+/// Checks that the height of a surface at the origin is 0, to 10⁻⁶ of the `depth` \[m] of a contact; with an infinite depth, that it
+/// is finite.
+///
+/// # Errors
+/// [`IndenterError::InvalidHeight`] for NaN and −∞; [`IndenterError::LowestPointNotZero`] for any other height.
+pub fn check_lowest_point(surface: &dyn Surface, depth: f64) -> Result<(), IndenterError> {
+    let height = checked_height(surface.height([0.0; 2]), [0.0; 2])?;
+    if height.is_finite() && height.abs() <= MAX_HEIGHT_AT_ORIGIN * depth {
+        return Ok(());
+    }
+    Err(IndenterError::LowestPointNotZero { height })
 }
 
 /// A surface that reports no mirror symmetry, so that solvers compute both sides of each mirror plane.

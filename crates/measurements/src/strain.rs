@@ -14,7 +14,7 @@ use crate::table::{Line, Meaning, Source, Table, Vocabulary, text_of};
 pub struct StrainSweepOptions {
     /// Deformation of strains and moduli whose names do not state it.
     pub deformation: Option<Deformation>,
-    /// Whether strains are distances from peak to peak, of which the amplitude is half.
+    /// True if strains are given from peak to peak, so that the amplitude is half of them.
     pub is_double: bool,
 }
 

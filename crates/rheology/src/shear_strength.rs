@@ -11,7 +11,7 @@ use crate::{ArrheniusShift, KELVIN_AT_ZERO_CELSIUS, RheologyError};
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum ShearStrength {
-    /// The same at every velocity and temperature.
+    /// Constant at every velocity and temperature.
     Constant(ConstantShearStrength),
     /// A bell over the logarithm of the velocity.
     Bell(BellShearStrength),
@@ -92,6 +92,14 @@ impl ShearStrength {
             Self::Constant(_) => false,
             Self::Bell(bell) => bell.shift.is_some(),
             Self::Table(table) => !table.temperatures.is_empty(),
+        }
+    }
+
+    /// Activation energy of its change with temperature, [J/mol]; `None` unless it is a bell that has one.
+    pub const fn activation_energy(&self) -> Option<f64> {
+        match self {
+            Self::Bell(bell) => bell.parameters.activation_energy,
+            Self::Constant(_) | Self::Table(_) => None,
         }
     }
 

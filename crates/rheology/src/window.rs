@@ -15,7 +15,7 @@ use crate::{CreepSpectrum, StationaryCreep};
 const WAVES_PER_DECADE: f64 = 40.0;
 /// Smallest wave number of the spectrum of the stress along a line, times the longer of two lengths: that of the contact,
 /// and the distance slid in the longest retardation time. Chosen: over longer waves neither stress nor compliance changes,
-/// and they dissipate hardly any power.
+/// and they dissipate a negligible power.
 const MIN_WAVE_NUMBER_FACTOR: f64 = 1e-2;
 /// Largest wave number of the spectrum of the stress along a line, times the shortest distance of two points. Chosen: beyond
 /// it a jump has a thousandth of its power.
@@ -99,8 +99,8 @@ impl StationaryCreep {
 
     /// Compliance and time of all elements; the loss of advanced ones has the opposite sign, and so have their compliances here.
     fn signed_elements(&self) -> impl Iterator<Item = [f64; 2]> {
-        let retarded = self.retarded().elements().iter();
-        let retarded = retarded.map(|element| [element.compliance, element.retardation_time]);
+        let retarded = (self.retarded().elements().iter())
+            .map(|element| [element.compliance, element.retardation_time]);
         let advanced = self.advanced().iter();
         retarded.chain(advanced.map(|element| [-element.compliance, element.retardation_time]))
     }

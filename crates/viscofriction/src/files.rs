@@ -20,7 +20,7 @@ pub struct Files<'a> {
 }
 
 /// Bound of the memory per table row while it is read, \[bytes]. Derived: a parsed row with its line number has at most 56 bytes.
-/// It counts three times, because a list that grows holds its old and its doubled storage at once.
+/// It counts three times, because a list that grows holds its old and its doubled storage at the same time.
 const BYTES_PER_ROW: u64 = 200;
 /// Size of a material file, \[bytes], above which it is refused. Chosen: the covariance that a fit of up to 200 branches writes
 /// has room in it.

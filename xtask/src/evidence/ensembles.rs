@@ -166,14 +166,14 @@ fn failure(quantity: &str, rows: &[Row]) -> Option<String> {
 /// two and three standard errors.
 fn table(rows: &[Row]) -> comfy_table::Table {
     let lines = scattered().flat_map(|quantity| {
-        let quantity = quantity.key;
-        let all = of(quantity, rows);
+        let key = quantity.key;
+        let all = of(key, rows);
         let coarse = all.iter().copied().filter(|row| row.on_coarse_grid > 0);
         let coarse: Vec<&Row> = coarse.collect();
         let line = |kind: &str, rows: &[&Row]| {
             let part = |errors| within(rows, errors).percentage();
             let [one, two, three] = [1.0, COVERAGE_FACTOR, 3.0].map(part);
-            let kind = format!("{}{kind}", quantity.replace('_', " "));
+            let kind = format!("{}{kind}", key.replace('_', " "));
             [kind, rows.len().to_string(), one, two, three]
         };
         [line("", &all), line(", with a coarse grid", &coarse)]

@@ -193,7 +193,8 @@ fn validate(problem: &ContactProblem, state: &ContactState) -> Result<(), BemErr
     in_range("largest_pressure", limit, limit > 0.0, "greater than 0")?;
     check_length("separation", heights.len(), grid.n_elements())?;
     check_length("pressure", state.pressure().len(), grid.n_elements())?;
-    check_heights("separation", heights, grid.shape()[1], [0; 2])?;
+    check_heights(heights, grid.shape()[1])?;
+    check_has_body("separation", heights)?;
     check_control(problem.control)?;
     // A force must be below that of all elements at the largest pressure.
     if let Control::NormalForce(normal_force) = problem.control {
@@ -233,24 +234,21 @@ pub(crate) fn check_length(
     })
 }
 
-/// Checks the heights of a body over a part of a grid, row-major with `columns` columns. They must be numbers above −∞, and finite in
-/// at least one element.
-///
-/// Errors name the element by its row and column in the whole grid, where the part begins at the element `first`.
-pub(crate) fn check_heights(
-    field: &'static str,
-    heights: &[f64],
-    columns: usize,
-    first: [usize; 2],
-) -> Result<(), BemError> {
+/// Checks that the heights of a body over a grid, row-major with `columns` columns, are numbers above −∞.
+fn check_heights(heights: &[f64], columns: usize) -> Result<(), BemError> {
     let invalid = |height: &f64| height.is_nan() || *height == f64::NEG_INFINITY;
     if let Some(index) = heights.iter().position(invalid) {
         return Err(BemError::InvalidHeight {
-            row: first[0] + index / columns,
-            column: first[1] + index % columns,
+            row: index / columns,
+            column: index % columns,
             value: heights[index],
         });
     }
+    Ok(())
+}
+
+/// Checks that the heights of a field are finite in at least one element.
+pub(crate) fn check_has_body(field: &'static str, heights: &[f64]) -> Result<(), BemError> {
     let has_body = heights.iter().any(|height| height.is_finite());
     let allowed = "below infinity in at least one element";
     in_range(field, f64::INFINITY, has_body, allowed)?;

@@ -66,7 +66,7 @@ impl PolygonArea {
 }
 
 /// Load–gap ratios κ along both axes, at a straight boundary where the pressure vanishes like a root. The kernel is that of an elastic
-/// half space, with `edges` of the elements; a boundary passes a line of elements at once.
+/// half space, with `edges` of the elements; the boundary passes all elements of a line at the same time.
 pub(crate) fn root_load_gap_ratios(edges: [f64; 2]) -> [f64; 2] {
     edges.map(|edge| LOAD_GAP_RATIO / (LINE_SECOND_DIFFERENCE * edge))
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::LN_2;
 
-use indenters::{Control, SlidingLoad, Surface};
+use indenters::{Control, SlidingLoad, Surface, check_lowest_point};
 use numerics::{InvalidParameter, positive};
 
 use crate::elements::grid::elements_along;
@@ -109,9 +109,11 @@ impl Footprint {
     /// lower, such as a flat punch, it is bounded by the end of the body.
     ///
     /// # Errors
-    /// [`BemError::InvalidParameter`] for a height that is not positive, and for a surface that is below it everywhere.
+    /// [`BemError::InvalidParameter`] for a height that is not positive, and for a surface that is below it everywhere;
+    /// [`BemError::Indenter`] for a surface whose height at the origin is not 0.
     pub fn below(surface: &dyn Surface, height: f64) -> Result<Self, BemError> {
         positive("indentation depth", height)?;
+        check_lowest_point(surface, height)?;
         let [x, y] = surface.extent_below(height);
         if [x, y].into_iter().flatten().all(f64::is_finite) && x[0] < x[1] && y[0] < y[1] {
             return Ok(Self { x, y });

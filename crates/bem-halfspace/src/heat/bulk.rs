@@ -35,10 +35,10 @@ pub(super) struct DepthRule {
     log_step: f64,
     /// Smallest product of the depth and the largest wave number.
     smallest: f64,
-    /// Whether the strain is computed beside the power.
+    /// True if the strain is computed in addition to the power.
     with_strain: bool,
-    /// Fraction of the power that filters with little dissipation may have together, to be left out: the others are scaled to the whole
-    /// power, so that only the difference of the distributions is lost.
+    /// Fraction of the power that filters with little dissipation may have together, to be left out. The others are scaled to the whole
+    /// power, so that only the difference of the distributions is neglected.
     negligible_share: f64,
 }
 
@@ -326,8 +326,8 @@ impl Filters {
             (contact.factors.loss() * spectrum.zero_shear_viscosity()).recip()
         };
         // A dashpot in parallel is a branch whose relaxation time vanishes.
-        let branches = spectrum.branches().iter();
-        let branches = branches.map(|branch| [branch.viscosity(), branch.relaxation_time]);
+        let branches =
+            (spectrum.branches().iter()).map(|branch| [branch.viscosity(), branch.relaxation_time]);
         let dashpot = [spectrum.viscosity(), 0.0];
         let filter = |[viscosity, time]: [f64; 2]| -> Filter {
             let of_wave = |(wave, modulus): (&FilteredWave, &Complex<f64>)| {

@@ -208,7 +208,7 @@ impl SlidingContact<'_> {
         let equilibrium = self.material.relaxation().equilibrium_modulus();
         positive("equilibrium modulus", equilibrium)?;
         let strain_on = |grid: BulkGrid, multiple: usize| -> Result<[f64; 2], BemError> {
-            // Scale the pressure, of which the weighted strain is the fourth power.
+            // Scale the pressure by its maximum, because the weighted strain is proportional to its fourth power.
             let mut around = surroundings(self.pressure, kind, grid, multiple)?;
             let largest = around.pressure.iter().copied().fold(0.0, f64::max);
             positive("largest pressure", largest)?;
@@ -218,8 +218,8 @@ impl SlidingContact<'_> {
             let n_elements = around.grid.n_elements() as f64;
             let area = n_elements * kind.area_of_element(&around.grid);
             let [power, weighted] = bulk.power_and_weighted_strain().map(|mean| area * mean);
-            // A period dissipates as much as its waves. Around a body the power includes that far behind it, where there is hardly any
-            // strain.
+            // A period dissipates as much as its waves. Around a body the power includes that far behind it, where strains are
+            // negligible.
             let amplitude = if is_periodic {
                 (weighted / power).sqrt() * largest
             } else {

@@ -24,6 +24,18 @@ pub struct Layer<'a, M: ?Sized> {
     wave_shift: Option<WaveShift>,
 }
 
+/// The clone is of the same material, which need not be `Clone` itself.
+impl<M: ?Sized> Clone for Layer<'_, M> {
+    fn clone(&self) -> Self {
+        Self {
+            material: self.material,
+            base: self.base.clone(),
+            factors: self.factors,
+            wave_shift: self.wave_shift.clone(),
+        }
+    }
+}
+
 impl<'a, M: Material + ?Sized> Layer<'a, M> {
     /// A layer of a thickness greater than 0 \[m], bonded to a rigid base. An infinite thickness gives a half space.
     ///

@@ -148,11 +148,46 @@ fn bodies_without_numbers_or_without_friction_are_refused() {
         let height = |x: f64, y: f64| if x > 0.1 { bad } else { x * x + y * y };
         let broken = Formula::new([false; 2], |[x, y]| (height(x, y), [2.0 * x, 2.0 * y]));
         let moved = slide_on_grid(&broken, &scene.material, &load, &options);
-        assert_refused(bad, moved, "InvalidHeight");
+        assert_refused(bad, moved, "Indenter(InvalidHeight");
         let pressed = indent_history_on_grid(&broken, &scene.material, &steps, &options);
-        assert_refused(bad, pressed, "InvalidHeight");
-        assert_refused(bad, steady_with(&broken, |_| ()), "InvalidHeight");
+        assert_refused(bad, pressed, "Indenter(InvalidHeight");
+        assert_refused(bad, steady_with(&broken, |_| ()), "Indenter(InvalidHeight");
     }
+    // Solvers that choose their grid say so too, before they choose it.
+    let whole = solid();
+    let at_depth = Control::IndentationDepth(0.1);
+    for bad in [0.01, -0.01, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let shifted = Formula::new([false; 2], |[x, y]| {
+            (bad + x * x + y * y, [2.0 * x, 2.0 * y])
+        });
+        let name = if bad.is_nan() || bad == f64::NEG_INFINITY {
+            "Indenter(InvalidHeight"
+        } else {
+            "Indenter(LowestPointNotZero"
+        };
+        for control in [FORCE, at_depth] {
+            assert_refused(bad, press(&shifted, &whole, control, 1e-2), name);
+        }
+        assert_refused(bad, steady(&shifted, &whole, &scene.load, 1e-2), name);
+        assert_refused(bad, steady_line(&shifted, &whole, &scene.load, 1e-2), name);
+        assert_refused(bad, slide(&shifted, &whole, &load, 1e-2), name);
+    }
+    let nowhere = Formula::new([false; 2], |[x, y]| {
+        (
+            if x > 0.1 { f64::NAN } else { x * x + y * y },
+            [2.0 * x, 2.0 * y],
+        )
+    });
+    assert_refused(
+        "NaN",
+        press(&nowhere, &whole, FORCE, 1e-2),
+        "Indenter(InvalidHeight",
+    );
+    assert_refused(
+        "NaN",
+        steady(&nowhere, &whole, &scene.load, 1e-2),
+        "Indenter(InvalidHeight",
+    );
     let endless = HistoryPoint::held(FORCE, &[1e300]);
     let overflow = indent_history_on_grid(&scene.body, &scene.material, &endless, &options);
     assert_refused("an endless time", overflow, "ContactReachesBoundary");

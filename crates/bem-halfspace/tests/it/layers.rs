@@ -35,7 +35,8 @@ fn trait_objects_have_the_answer_of_their_types() {
     let layer = Layer::new(&solid, 0.1).unwrap();
     let material: &dyn Material = &solid;
     let of_object = Layer::new(material, 0.1).unwrap();
-    let elastomers: [&dyn Elastomer; 4] = [&solid, &material, &layer, &of_object];
+    let copy = of_object.clone();
+    let elastomers: [&dyn Elastomer; 4] = [&solid, &material, &layer, &copy];
     let surface: &dyn Surface = &ball;
     let control = Control::NormalForce(0.02);
     let found = elastomers.map(|elastomer| press(surface, elastomer, control, 0.02).unwrap());

@@ -93,8 +93,8 @@ const UNSUPPORTED_SIGNATURES: [(&[u8], &str); 36] = [
 /// Number of bytes at the beginning of a file that are examined to tell binary files from texts. Chosen: they hold some rows
 /// of every table and the header of every binary format.
 const SAMPLED_BYTES: usize = 4096;
-/// Number of bytes per control character below which a file counts as binary. Chosen: a text has hardly any, random bytes
-/// one in eight.
+/// Number of bytes per control character below which a file counts as binary. Chosen: texts have almost none, and one in eight
+/// random bytes is one.
 const BYTES_PER_CONTROL: usize = 50;
 /// Largest number of control characters with which a damaged short text still counts as text. Chosen: in a text below 300
 /// bytes fewer would already exceed one in [`BYTES_PER_CONTROL`].

@@ -29,6 +29,17 @@ pub(crate) fn sampled(positions: &[f64], heights: &[f64]) -> SampledLine {
     SampledLine::new(positions.to_vec(), heights.to_vec()).unwrap()
 }
 
+/// The shapes of [`all_shapes`] that implement `closed_radius`, the inverse of their line.
+pub(crate) const CLOSED_RADII: [&str; 7] = [
+    "root",
+    "needle",
+    "cone",
+    "paraboloid",
+    "power 7.3",
+    "sphere",
+    "spheroid",
+];
+
 /// Every shape of the crate with a line that is not flat, of about the size 1.
 pub(crate) fn all_shapes() -> Vec<(&'static str, Box<dyn Axisymmetric>)> {
     let power = |c: f64, p: f64| boxed(PowerProfile::new(c, p));

@@ -59,7 +59,8 @@ const MAX_WORK: f64 = 5e8;
 /// Chosen to limit the time: with half of it, a friction that the next halving would resolve may be given up; with twice as many,
 /// one that is never resolved takes four times as long.
 const MIN_ELEMENTS_TO_GIVE_UP: usize = 128;
-/// Order of convergence that is lost against the exponent p of an apex x^p, because its position between two elements is arbitrary.
+/// Difference between the exponent p of an apex x^p and the order of convergence, because the position of the apex between two elements is
+/// arbitrary.
 /// Chosen (case of `evidence tuning`).
 const TIP_ORDER_LOSS: f64 = 0.5;
 /// Order of convergence behind a steep kink. Derived: the line rises like the root of the distance there, so that its rise over

@@ -215,10 +215,10 @@ impl Secular<'_> {
             let difference = self.above_pole(place, index);
             let term = (pole.weight / difference).abs();
             // Compute the slope with a ratio of lengths, because the square of a difference may underflow.
-            let slope = term * (place.offset / difference).abs();
+            let steepness = term * (place.offset / difference).abs();
             let weight = sign * pole.weight;
             // Every term with a positive weight falls along x, and every other one rises.
-            let slope = slope.copysign(weight);
+            let slope = steepness.copysign(weight);
             if (difference > 0.0) == (weight > 0.0) {
                 balance.up += term;
                 balance.slopes[0] += slope;

@@ -65,11 +65,11 @@ impl OutputFolder {
             _ => {}
         }
         let names: Vec<&str> = names.split(' ').collect();
-        let real = link_target(path);
-        restore(&real);
+        let target = link_target(path);
+        restore(&target);
         check_names(path, &names, overwrite)?;
-        fs::create_dir_all(&real).map_err(failed)?;
-        let real = real.canonicalize().map_err(failed)?;
+        fs::create_dir_all(&target).map_err(failed)?;
+        let real = target.canonicalize().map_err(failed)?;
         // Lock the folder against other runs. Some systems cannot open folders; then there is no lock.
         let folder = File::open(&real).ok();
         if let Some(folder) = &folder {

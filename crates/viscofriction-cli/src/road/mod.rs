@@ -31,10 +31,10 @@ pub(crate) struct Road {
     /// are left; from 1 to 64.
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=64))]
     cut_offs: u32,
-    /// Draw so many surfaces of a self-affine one or of a spectrum instead of the number in the scene.
+    /// Number of random surfaces, self-affine or of a spectrum, instead of the number in the scene.
     #[arg(long, value_name = "N")]
     realisations: Option<u64>,
-    /// The CSV file, beside which a picture is drawn as SVG and PNG [default: a table on the standard output].
+    /// The CSV file; a picture is written into the same folder as SVG and PNG [default: a table on the standard output].
     #[arg(long, value_name = "FILE.csv")]
     out: Option<PathBuf>,
     /// Replace files that are there already.

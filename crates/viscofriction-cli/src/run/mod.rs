@@ -62,23 +62,13 @@ impl Run {
     fn check_derivatives(&self, problem: &Problem, method: Method) -> Result<(), SceneError> {
         if self.sensitivity {
             let checked = check_sensitivity(problem, method);
-            checked.map_err(|error| or_without("--sensitivity", error))?;
+            checked.map_err(|error| error.or_without("--sensitivity"))?;
         }
         if self.spectral_sensitivity {
             let checked = check_spectral_sensitivity(problem, method);
-            checked.map_err(|error| or_without("--spectral-sensitivity", error))?;
+            checked.map_err(|error| error.or_without("--spectral-sensitivity"))?;
         }
         Ok(())
-    }
-}
-
-/// Appends to the problem of a key that `option` may also be left out.
-fn or_without(option: &str, error: SceneError) -> SceneError {
-    match error {
-        SceneError::At { key, problem } => {
-            SceneError::at(key, format!("{problem}, or leave {option} out"))
-        }
-        other => other,
     }
 }
 

@@ -72,7 +72,7 @@ pub(super) struct Residuals {
 
 /// A measured point and the computed friction at its speed.
 struct Compared<'a> {
-    /// Cells of the varied keys beside the speed.
+    /// Cells of the varied keys other than the speed.
     cells: Vec<&'a str>,
     point: &'a FrictionPoint,
     /// `None` outside of the computed speeds.
@@ -270,7 +270,7 @@ impl Measured {
 struct Curve<'a> {
     /// The first of the rows.
     row: usize,
-    /// Cells of the varied keys beside the speed.
+    /// Cells of the varied keys other than the speed.
     cells: Vec<&'a str>,
     nodes: Vec<Node>,
 }

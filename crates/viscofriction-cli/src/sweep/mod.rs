@@ -49,8 +49,8 @@ pub(crate) struct Sweep {
         conflicts_with = "merge"
     )]
     vary: Vec<Vary>,
-    /// Draw what is uncertain in the scene so many times, as the column `sample`, of which 0 is the scene itself with what its
-    /// uncertainties make of it to first order; says and draws how the answers are distributed. From 1 to 999999.
+    /// Number of random samples of the uncertain numbers of the scene, from 1 to 999999. The column `sample` counts them; sample 0 is the scene
+    /// itself, with its uncertainty to first order. The distribution of the answers is printed and drawn.
     #[arg(long, value_name = "N", conflicts_with = "merge", value_parser = Vary::samples)]
     samples: Option<Vary>,
     /// Also say what the covariance of the material and the uncertainties of the scene make of every point, and draw the band of
@@ -73,7 +73,7 @@ pub(crate) struct Sweep {
     /// Join the files of shards.
     #[arg(long, value_name = "FILE", num_args = 1..)]
     merge: Vec<PathBuf>,
-    /// The CSV file, beside which a picture is drawn [default: the standard output].
+    /// The CSV file; a picture is written into the same folder [default: the standard output].
     #[arg(long, value_name = "FILE.csv")]
     out: Option<PathBuf>,
     /// Measured friction over speed, drawn with its error bars over the computed friction; residuals are in FILE.measured.csv

@@ -113,8 +113,8 @@ fn rows(table: &RowTable, keys: std::ops::Range<usize>, is_per_length: bool) -> 
     for row in &table.rows {
         let number = |column: usize| row.fields[column].parse::<f64>().ok();
         let known = columns.iter().map(|(column, error, _)| {
-            let error = error.and_then(number).unwrap_or(0.0);
-            let known = number(*column).map(|value| Estimate::new(value, error));
+            let bar = error.and_then(number).unwrap_or(0.0);
+            let known = number(*column).map(|value| Estimate::new(value, bar));
             known.map_or_else(String::new, |known| known.to_string())
         });
         let cells = keys.clone().map(|key| row.fields[key].clone()).chain(known);

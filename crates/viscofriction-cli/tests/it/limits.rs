@@ -11,7 +11,7 @@ use std::process::Command;
 use clap::Arg;
 use serde_json::Value as Schema;
 use toml::{Table, Value};
-use viscofriction::scene::json_schema;
+use viscofriction::scene::{json_schema, kinds};
 use viscofriction_cli::{InputKind, check_input, command_line};
 
 use crate::support::{Folder, Said, argument, example, said, scene, table};
@@ -160,8 +160,27 @@ fn takes_number(option: &Arg) -> bool {
         && !WITHOUT_NUMBER.contains(&option.get_id().as_str())
 }
 
-/// Scenes that have all numeric keys between them; `body; material; load; solution`.
+/// Scenes with numeric keys of everything but the bodies of [`plain_bodies`]; `body; material; load; solution`.
 const SCENES: &str = "scenes of all keys";
+
+/// A number that is within the range of every number of a body.
+const NUMBER_OF_BODY: f64 = 0.05;
+
+/// A scene of each kind of body that has only numbers, which are all [`NUMBER_OF_BODY`].
+fn plain_bodies() -> Vec<String> {
+    let mut scenes = Vec::new();
+    for kind in kinds("Indenter") {
+        if kind.keys.iter().all(|key| key.words["type"] == "number") {
+            let numbers: Vec<String> = (kind.keys.iter())
+                .map(|key| format!("{} = {NUMBER_OF_BODY}", key.name))
+                .collect();
+            let body = format!("indenter.{} = {{ {} }}", kind.name, numbers.join(", "));
+            let load = "normal_force = 1.0, velocity = 0.01";
+            scenes.push(format!("{body}; viscous; {load}; relative_error = 0.1"));
+        }
+    }
+    scenes
+}
 
 /// A place of a number in a scene, and its path in the schema, in which all entries of a list are one.
 #[derive(Debug, Clone)]
@@ -270,7 +289,8 @@ fn every_number_of_a_scene_is_checked_before_memory_is_taken() {
     folder.write("material.toml", "[material.prony]\nequilibrium_modulus = 1e6\nbranches = [{ modulus = 1e6, relaxation_time = 1e-3 }]\nshift = { temperature = 20.0, temperature_range = [0.0, 40.0], law = { wlf = [17.4, 51.6] }, vertical = { table = [[0.0, 0.95], [40.0, 1.05]] } }\n");
     let mut tried = BTreeSet::new();
     let mut wrong = Vec::new();
-    for [parts] in table::<1>(SCENES) {
+    let written = table::<1>(SCENES).into_iter().map(|[parts]| parts);
+    for parts in written.chain(plain_bodies()) {
         let scene: Table = with_memory(&parts).parse().expect("TOML");
         let root = Place {
             steps: Vec::new(),

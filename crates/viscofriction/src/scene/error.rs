@@ -1,5 +1,6 @@
 //! Errors of a scene, each with its key.
 
+use indenters::IndenterError;
 use numerics::{InvalidParameter, MessageNumber};
 use thiserror::Error;
 
@@ -54,6 +55,23 @@ impl SceneError {
     /// Error for a number out of range whose name is the last part of its path; `table` is the path of its table.
     pub(crate) fn within(table: &str, refused: InvalidParameter) -> Self {
         Self::value(format!("{table}.{}", refused.parameter), refused)
+    }
+
+    /// The same error, which also says that `option` may be left out.
+    #[must_use]
+    pub fn or_without(self, option: &str) -> Self {
+        match self {
+            Self::At { key, problem } => Self::at(key, format!("{problem}, or leave {option} out")),
+            other => other,
+        }
+    }
+
+    /// Error for a body that cannot be built from the table at the path `table`, at the number that the error names.
+    pub(crate) fn of_body(table: &str, error: IndenterError) -> Self {
+        match error {
+            IndenterError::InvalidParameter(refused) => Self::within(table, refused),
+            other => Self::at(table, other.to_string()),
+        }
     }
 
     /// Error for a number out of range at the path `key`.

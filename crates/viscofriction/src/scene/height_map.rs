@@ -19,7 +19,7 @@ use super::source::problem_of;
 #[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub struct HeightMapTable {
-    /// File beside the scene file: a text of one line of heights for each y, without names; with the extension npy an array of
+    /// File in the folder of the scene: a text of one line of heights for each y, without names; with the extension npy an array of
     /// NumPy of the shape (n_y, n_x), float64 or float32; with the extensions asc, gsf, sdf, sur, x3p and xyz a measured surface.
     pub file: PathBuf,
     /// Distances of neighbouring heights along x and y, > 0, \[m]; not of a measured surface, which has its own, nor of a text

@@ -3,6 +3,10 @@
 use std::f64::consts::TAU;
 use std::path::PathBuf;
 
+use indenters::{
+    FlatCone, FlatPunch, Hyperboloid, PowerProfile, PowerTerm, RoundTippedCone, Sphere, Spheroid,
+    Superposition, TruncatedParaboloid,
+};
 use numerics::{MessageNumber, in_range};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -10,6 +14,7 @@ use strum::{EnumDiscriminants, EnumIter, IntoStaticStr};
 
 use super::SceneError;
 use super::height_map::HeightMapTable;
+use super::revolution::Revolution;
 use super::schema::check_ranges;
 use super::source::checked;
 
@@ -100,7 +105,7 @@ pub enum Indenter {
     },
     /// A body of revolution from a table of radii and heights, linear between its rows.
     Table {
-        /// CSV file with the columns radius_m and height_m, beside the scene file; both begin with 0, radii increase.
+        /// CSV file with the columns radius_m and height_m, in the folder of the scene; both begin with 0, radii increase.
         file: PathBuf,
     },
     /// A surface from a grid of heights: bilinear between them, or periodic, the sum of waves through them.
@@ -156,7 +161,7 @@ pub struct SelfAffineSurface {
 #[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SpectrumSurface {
-    /// CSV file with the columns wave_number q = 2π/λ, \[1/m], and density C, \[m⁴], beside the scene file; wave numbers increase,
+    /// CSV file with the columns wave_number q = 2π/λ, \[1/m], and density C, \[m⁴], in the folder of the scene; wave numbers increase,
     /// and ln C is linear in ln q between the rows. The spectrum.csv of `viscofriction surface` is one.
     pub file: PathBuf,
     /// What the densities are.
@@ -217,6 +222,50 @@ pub struct Term {
 }
 
 impl Indenter {
+    /// Builds the body of revolution whose numbers the scene gives.
+    ///
+    /// # Errors
+    /// [`SceneError`] for the first number that is out of range, and for a kind that is read from a file or is no body of revolution.
+    pub fn revolution(&self) -> Result<Revolution, SceneError> {
+        let built = match self {
+            &Self::Power {
+                coefficient,
+                exponent,
+            } => PowerProfile::new(coefficient, exponent).map(Revolution::Power),
+            &Self::Cone { slope } => PowerProfile::cone(slope).map(Revolution::Power),
+            &Self::Paraboloid { curvature } => {
+                PowerProfile::paraboloid(curvature).map(Revolution::Power)
+            }
+            &Self::Sphere { radius } => Sphere::new(radius).map(Revolution::Sphere),
+            &Self::Spheroid { radius, height } => {
+                Spheroid::new(radius, height).map(Revolution::other)
+            }
+            Self::Superposition { terms } => Ok(Revolution::Sum(superposition(terms)?)),
+            &Self::FlatPunch { radius } => FlatPunch::new(radius).map(Revolution::other),
+            &Self::FlatCone { radius, slope } => {
+                FlatCone::new(radius, slope).map(Revolution::other)
+            }
+            &Self::RoundTippedCone { radius, slope } => {
+                RoundTippedCone::new(radius, slope).map(Revolution::other)
+            }
+            &Self::Hyperboloid { radius, slope } => {
+                Hyperboloid::new(radius, slope).map(Revolution::other)
+            }
+            &Self::TruncatedParaboloid { radius, curvature } => {
+                TruncatedParaboloid::new(radius, curvature).map(Revolution::other)
+            }
+            Self::Cylinder { .. }
+            | Self::Table { .. }
+            | Self::HeightMap(_)
+            | Self::SelfAffine(_)
+            | Self::Spectrum(_) => {
+                let problem = "it is not a body of revolution that is given by numbers";
+                return Err(SceneError::at(self.key(), problem));
+            }
+        };
+        built.map_err(|error| SceneError::of_body(&self.key(), error))
+    }
+
     /// True if the surface of the body repeats itself, so that it has no end.
     pub fn is_periodic(&self) -> bool {
         match self {
@@ -295,6 +344,16 @@ impl Indenter {
         let seed = *seed;
         Some((one, seed))
     }
+}
+
+/// The body of revolution h = Σ cᵢ r^pᵢ.
+fn superposition(terms: &[Term]) -> Result<Superposition, SceneError> {
+    let term = |term: &Term| PowerTerm {
+        coefficient: term.coefficient,
+        exponent: term.exponent,
+    };
+    Superposition::new(terms.iter().map(term).collect())
+        .map_err(|error| SceneError::at("indenter.superposition.terms", error.to_string()))
 }
 
 /// Rejects a shortest wavelength above the longest.

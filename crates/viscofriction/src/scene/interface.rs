@@ -50,7 +50,7 @@ pub enum Interface {
     },
     /// Measured shear strengths, interpolated on logarithmic scales and never extrapolated.
     Table {
-        /// A table beside the scene file with columns of speed and shear strength, and optionally of temperature and standard error.
+        /// A table in the folder of the scene, with columns of speed and shear strength, and optionally of temperature and standard error.
         file: PathBuf,
     },
 }
@@ -102,12 +102,12 @@ impl EnergyUnit {
 /// One electronvolt per particle, [J/mol]: the product of elementary charge and Avogadro constant, exact in the SI of 2019.
 const ELECTRONVOLT: f64 = 96_485.332_123_310_02;
 
-/// Width of a bell of which the scene gives none, \[decades].
+/// Width of a bell without one in the scene, \[decades].
 const fn default_width() -> f64 {
     DEFAULT_BELL_WIDTH
 }
 
-/// Reference temperature of a bell of which the scene gives none, \[°C].
+/// Reference temperature of a bell without one in the scene, \[°C].
 const fn default_reference() -> f64 {
     20.0
 }

@@ -24,7 +24,7 @@ pub struct Load {
     /// Instead of force or depth and speed: depth or force over time, straight from point to point; two points of the same
     /// time are a jump.
     pub history: Option<Vec<LoadPoint>>,
-    /// The same as a CSV file beside the scene file, with the columns time_s and indentation_depth_m or normal_force_n.
+    /// `history` as a CSV file in the folder of the scene, with the columns time_s and indentation_depth_m or normal_force_n.
     pub history_file: Option<PathBuf>,
     /// Length > 0 of the track after which the body returns to the same place, as a ball on a disc does, \[m]; without it the body
     /// never returns.
@@ -37,7 +37,7 @@ pub struct Load {
     pub shape: Option<StrokeShape>,
     /// Instead of a speed: positions over time, straight from point to point.
     pub motion: Option<Vec<MotionPoint>>,
-    /// The same as a CSV file beside the scene file, with the columns time_s and position_m.
+    /// `motion` as a CSV file in the folder of the scene, with the columns time_s and position_m.
     pub motion_file: Option<PathBuf>,
 }
 

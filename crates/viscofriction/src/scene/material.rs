@@ -41,7 +41,7 @@ macro_rules! materials {
             )+
             /// The material of another file.
             File {
-                /// A file beside the scene file with a table `[material.…]`, such as the material.toml of `fit-material`.
+                /// A file in the folder of the scene, with a table `[material.…]`, such as the material.toml of `fit-material`.
                 path: PathBuf,
                 /// Temperature to which the shift law takes the material, \[°C]; without it that of the file.
                 temperature: Option<f64>,

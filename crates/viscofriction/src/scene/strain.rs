@@ -36,7 +36,7 @@ pub enum Strain {
     },
     /// A measured strain sweep, interpolated on logarithmic scales; beyond its last strain the factors stay as they are, with a warning.
     Table {
-        /// A CSV file beside the scene file: strain with storage_factor and loss_factor, or a strain sweep as instruments export it.
+        /// A CSV file in the folder of the scene: strain with storage_factor and loss_factor, or a strain sweep as instruments export it.
         file: PathBuf,
         /// What the strains of the file are; without it what the names of its moduli say.
         #[serde(default, skip_serializing_if = "Option::is_none")]

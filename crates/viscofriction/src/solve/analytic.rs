@@ -13,9 +13,9 @@ use numerics::{Estimate, bracketed_root};
 use rheology::{Compressible, Elastic, Material, Viscous};
 
 use super::answer::{Answer, ContactBox, within};
-use super::body::Revolution;
 use super::error::{Result, SolveError};
 use super::half_space::{Simple, simple};
+use crate::scene::Revolution;
 use crate::scene::{Method, Model};
 
 /// Number of intervals at whose ends the line load along the contact is sampled for the output. Chosen; it changes no other

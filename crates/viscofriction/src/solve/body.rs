@@ -1,20 +1,15 @@
 //! Construction of the rigid body of a scene.
 
-use std::ops::Deref;
 use std::path::Path;
 
 use indenters::rough::{PeriodicSurface, SelfAffine};
-use indenters::{
-    Axisymmetric, Cylinder, FlatCone, FlatPunch, HeightMap, Hyperboloid, IndenterError,
-    PowerProfile, PowerTerm, RoundTippedCone, Sphere, Spheroid, Superposition, Surface,
-    TruncatedParaboloid,
-};
+use indenters::{Cylinder, HeightMap, Surface};
 
 use super::heights::{MAX_RMS_SLOPE, body_of_heights};
 use super::memory::check_waves_to_draw;
 use crate::files::Files;
 use crate::scene::{
-    Indenter, SceneError, SelfAffineSurface, SpectrumSurface, Term, profile, spectrum,
+    Indenter, Revolution, SceneError, SelfAffineSurface, SpectrumSurface, profile, spectrum,
 };
 use crate::text::WrongInput;
 
@@ -73,51 +68,6 @@ pub struct BodyOfScene {
     pub warnings: Vec<String>,
 }
 
-/// A body of revolution.
-pub enum Revolution {
-    /// h = c r^p.
-    Power(PowerProfile),
-    /// A sum of powers.
-    Sum(Superposition),
-    /// The exact sphere.
-    Sphere(Sphere),
-    /// Any other body of revolution.
-    Other(Box<dyn Axisymmetric>),
-}
-
-impl std::fmt::Debug for Revolution {
-    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let exponent = self.profile_exponent();
-        write!(formatter, "Revolution of the exponent {exponent}")
-    }
-}
-
-/// Gives access to the methods of the shape.
-impl Deref for Revolution {
-    type Target = dyn Axisymmetric;
-
-    fn deref(&self) -> &Self::Target {
-        match self {
-            Self::Power(profile) => profile,
-            Self::Sum(profile) => profile,
-            Self::Sphere(sphere) => sphere,
-            Self::Other(shape) => &**shape,
-        }
-    }
-}
-
-impl Revolution {
-    /// The body as a surface h(x, y), for the half-space methods.
-    pub(crate) fn surface(&self) -> &dyn Surface {
-        match self {
-            Self::Power(profile) => profile,
-            Self::Sum(profile) => profile,
-            Self::Sphere(sphere) => sphere,
-            Self::Other(shape) => shape,
-        }
-    }
-}
-
 /// Builds the rigid body of an `indenter` table of the scene file.
 ///
 /// # Errors
@@ -125,29 +75,7 @@ impl Revolution {
 pub fn body(indenter: &Indenter, files: &Files<'_>) -> Result<BodyOfScene, SceneError> {
     indenter.check()?;
     indenter.realisations()?;
-    let power = |profile| Body::Revolution(Revolution::Power(profile));
-    let sphere = |sphere| Body::Revolution(Revolution::Sphere(sphere));
     let body = match indenter {
-        &Indenter::Power {
-            coefficient,
-            exponent,
-        } => PowerProfile::new(coefficient, exponent).map(power),
-        &Indenter::Cone { slope } => PowerProfile::cone(slope).map(power),
-        &Indenter::Paraboloid { curvature } => PowerProfile::paraboloid(curvature).map(power),
-        &Indenter::Sphere { radius } => Sphere::new(radius).map(sphere),
-        &Indenter::Spheroid { radius, height } => Spheroid::new(radius, height).map(other),
-        &Indenter::FlatPunch { radius } => FlatPunch::new(radius).map(other),
-        &Indenter::FlatCone { radius, slope } => FlatCone::new(radius, slope).map(other),
-        &Indenter::RoundTippedCone { radius, slope } => {
-            RoundTippedCone::new(radius, slope).map(other)
-        }
-        &Indenter::Hyperboloid { radius, slope } => Hyperboloid::new(radius, slope).map(other),
-        &Indenter::TruncatedParaboloid { radius, curvature } => {
-            TruncatedParaboloid::new(radius, curvature).map(other)
-        }
-        Indenter::Superposition { terms } => {
-            Ok(Body::Revolution(Revolution::Sum(superposition(terms)?)))
-        }
         Indenter::Table { file } => Ok(table_profile(file, files)?),
         &Indenter::Cylinder { radius } => Cylinder::new(radius).map(Body::Cylinder),
         Indenter::HeightMap(table) => {
@@ -163,8 +91,9 @@ pub fn body(indenter: &Indenter, files: &Files<'_>) -> Result<BodyOfScene, Scene
             self_affine(surface).surface().map(Body::Periodic)
         }
         Indenter::Spectrum(surface) => return drawn_from_spectrum(surface, files),
+        _ => Ok(Body::Revolution(indenter.revolution()?)),
     };
-    let body = body.map_err(|error| refused(&indenter.key(), error))?;
+    let body = body.map_err(|error| SceneError::of_body(&indenter.key(), error))?;
     Ok(BodyOfScene {
         body,
         warnings: Vec::new(),
@@ -201,7 +130,7 @@ fn drawn_from_spectrum(
     check_waves_to_draw(surface.period, kept, files.memory)?;
     let drawn = spectrum
         .surface(surface.period, kept, surface.seed)
-        .map_err(|error| refused("indenter.spectrum", error))?;
+        .map_err(|error| SceneError::of_body("indenter.spectrum", error))?;
     // Warn of an rms slope that linear theory does not allow, which suggests another unit. Warn of one that differs from that of
     // the spectrum, which suggests a period that is too short.
     let slope = drawn.rms_slope();
@@ -232,33 +161,12 @@ fn drawn_from_spectrum(
     })
 }
 
-/// A body of revolution of any other shape.
-fn other(shape: impl Axisymmetric + 'static) -> Body {
-    Body::Revolution(Revolution::Other(Box::new(shape)))
-}
-
-/// The body of revolution h = Σ cᵢ r^pᵢ.
-fn superposition(terms: &[Term]) -> Result<Superposition, SceneError> {
-    let term = |term: &Term| PowerTerm {
-        coefficient: term.coefficient,
-        exponent: term.exponent,
-    };
-    Superposition::new(terms.iter().map(term).collect())
-        .map_err(|error| SceneError::at("indenter.superposition.terms", error.to_string()))
-}
-
 /// A body of revolution from a CSV file of radii and heights \[m], straight between its rows.
 fn table_profile(file: &Path, files: &Files<'_>) -> Result<Body, SceneError> {
     let wrong = |problem: String| SceneError::at("indenter.table.file", problem);
     let table = files.table(file);
     let (file, contents) = table.map_err(|WrongInput(problem)| wrong(problem))?;
-    profile(&file, &contents).map(other).map_err(wrong)
-}
-
-/// The error of `indenters` for a number of the table at the path `table`, with the path of that number if the error names it.
-fn refused(table: &str, error: IndenterError) -> SceneError {
-    match error {
-        IndenterError::InvalidParameter(refused) => SceneError::within(table, refused),
-        other => SceneError::at(table, other.to_string()),
-    }
+    profile(&file, &contents)
+        .map(|shape| Body::Revolution(Revolution::other(shape)))
+        .map_err(wrong)
 }

@@ -81,8 +81,8 @@ impl WithoutShortestOctave {
         let changes = [
             answer.friction_coefficient.zip(self.friction_coefficient),
             answer.area_fraction.map(|area| (area, self.area_fraction)),
-        ];
-        let changes = changes.map(|change| change.filter(|(with, _)| with.value > 0.0));
+        ]
+        .map(|change| change.filter(|(with, _)| with.value > 0.0));
         let matters = |(with, without): (Estimate, Estimate)| {
             let change = (with.value - without.value).abs();
             change > MAX_CHANGE * with.value && change > with.error + without.error

@@ -332,6 +332,8 @@ const fn is_wrong_body(error: &IndenterError) -> bool {
     matches!(
         error,
         IndenterError::InvalidParameter(_)
+            | IndenterError::InvalidHeight { .. }
+            | IndenterError::LowestPointNotZero { .. }
             | IndenterError::LengthMismatch { .. }
             | IndenterError::NotIncreasing { .. }
             | IndenterError::TooFew { .. }

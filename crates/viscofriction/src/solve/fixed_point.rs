@@ -52,11 +52,11 @@ const MAX_SOLUTIONS: usize = 8;
 /// for shear.
 const AIMED_SHARE: f64 = 0.7;
 /// Smallest ratio of successive requests. Chosen: errors of the value need not fall with the request, and a solution with a far smaller
-/// one may be in vain.
+/// one may not improve the value.
 const MIN_REQUEST_RATIO: f64 = 0.2;
-/// Ratio of the error of a solution to the least one before, above which its smaller request was in vain. Chosen.
+/// Ratio of the error of a solution to the smallest one before, above which its smaller request made no progress. Chosen.
 const MIN_PROGRESS: f64 = 0.9;
-/// Number of requests in vain after which smaller ones are given up. Chosen: one may have led to the grid of the request before, and
+/// Number of requests without progress after which smaller ones are given up. Chosen: one may have led to the grid of the request before, and
 /// others to a value that was not yet known well.
 const MAX_STALLED: usize = 3;
 

@@ -226,8 +226,9 @@ impl Problem {
         };
         let mut answer = answer;
         if self.strain_dependence().is_some() {
-            let found = contact.strain_amplitude(kind);
-            let found = found.map_err(|error| SceneError::at("strain", error.to_string()))?;
+            let found = contact
+                .strain_amplitude(kind)
+                .map_err(|error| SceneError::at("strain", error.to_string()))?;
             // The square of the strain is relative to the power.
             let relative_error = 0.5 * bulk.error / bulk.value;
             answer.strain = Some(found.widened(relative_error * found.value));
@@ -235,8 +236,9 @@ impl Problem {
         let Some(heating) = self.heating() else {
             return Ok(answer);
         };
-        let found = contact.temperature(&heating.conductor, heating.counterface, kind);
-        let found = found.map_err(|error| heating.at_key(&error))?;
+        let found = contact
+            .temperature(&heating.conductor, heating.counterface, kind)
+            .map_err(|error| heating.at_key(&error))?;
         // The temperature is proportional to the dissipated power.
         let power = shear + bulk;
         let relative_error = if power.value > 0.0 {
@@ -263,7 +265,7 @@ impl Problem {
 /// Range of the exponents n with which the temperature by a given power of the shear falls with the contact area, T ∝ A^(−n): of slow
 /// and of fast contacts of bodies. Derived: T ∝ P/(ka) for the contact radius a and Pe ≪ 1, T ∝ P √(Da/v)/(ka²) for Pe ≫ 1.
 const AREA_EXPONENTS: [f64; 2] = [0.5, 0.75];
-/// The same for the width of line contacts. Derived: the logarithm of the width at Pe ≪ 1, T ∝ 1/√a at Pe ≫ 1.
+/// Range of the exponents n with which this temperature falls with the width a of line contacts, T ∝ a^(−n). Derived: the logarithm of the width at Pe ≪ 1, T ∝ 1/√a at Pe ≫ 1.
 const WIDTH_EXPONENTS: [f64; 2] = [0.0, 0.5];
 
 /// Correction of a temperature by shear for the difference between the area of the elements in contact and the contact area.

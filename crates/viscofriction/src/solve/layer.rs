@@ -6,11 +6,11 @@ use mdr_core::indent_along;
 use rheology::Viscous;
 
 use super::answer::Answer;
-use super::body::Revolution;
 use super::error::Result;
 use super::mdr::{answer_from_curve, history_options};
 use super::problem::Problem;
 use crate::scene::Method;
+use crate::scene::Revolution;
 
 /// The answer along a history to the relative error `asked`, by the one-dimensional model of the layer; `None` without points.
 /// An error means that the contact grows again, is too wide, or reaches the edge of the body.

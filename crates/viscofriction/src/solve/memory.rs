@@ -85,14 +85,14 @@ pub(super) fn check_waves_to_draw(
         // Numbers out of range need no estimate, because the constructor of the surface rejects them by parameter name.
         return Ok(());
     }
-    let numbers = numbers.map(whole_part);
+    let n_waves = numbers.map(whole_part);
     let most = periodic::largest_grid(memory.map(|bytes| bytes as f64));
-    let elements = periodic::fewest_elements(numbers);
+    let elements = periodic::fewest_elements(n_waves);
     if elements <= most {
         return Ok(());
     }
     let kept = (1..usize::BITS)
-        .map(|power| numbers.map(|number| number >> power))
+        .map(|power| n_waves.map(|number| number >> power))
         .take_while(|kept| *kept != [0; 2])
         .find(|kept| periodic::fewest_elements(*kept) <= most);
     Err(too_large([elements, most], period, kept))

@@ -35,9 +35,10 @@ mod warning;
 mod with_fields;
 pub(crate) mod work;
 
+pub use crate::scene::Revolution;
 pub(crate) use answer::LINEAR_FRICTION;
 pub use answer::{Answer, ContactBox, Fields, HistoryRow, Persson};
-pub use body::{Body, BodyOfScene, Revolution, body};
+pub use body::{Body, BodyOfScene, body};
 pub use curve::{Curve, CurveColumn};
 pub use cut_off::WithoutShortestOctave;
 pub use dissipation::Dissipation;

@@ -19,7 +19,7 @@ use super::parts::Parts;
 use super::sensitivity::check_uncertainties;
 use super::shear::Shear;
 use crate::files::{Files, ReadFile};
-use crate::scene::{Accuracy, Method, Model, Scene, SceneError};
+use crate::scene::{Accuracy, Method, Model, Scene, SceneError, Shift};
 use crate::text::WrongInput;
 
 /// A validated scene, as the methods receive it.
@@ -365,7 +365,7 @@ impl Problem {
 
     /// True if the answer depends on the temperature: the material has a shift law, or the shear strength depends on it.
     pub(super) fn depends_on_temperature(&self) -> bool {
-        self.has_shift_law() || self.shear_depends_on_temperature()
+        self.shift().is_some() || self.shear_depends_on_temperature()
     }
 
     /// True if the shear strength depends on the temperature.
@@ -374,9 +374,9 @@ impl Problem {
         self.shear.as_ref().is_some_and(depends)
     }
 
-    /// True if the material is known at other temperatures.
-    pub(super) fn has_shift_law(&self) -> bool {
-        self.parts.half_space.shift().is_some()
+    /// Temperature dependence of the material; `None` if it is not known.
+    pub(super) fn shift(&self) -> Option<&Shift> {
+        self.parts.half_space.shift()
     }
 
     /// Highest temperature at which material and shear strength are known, \[°C]; infinite if there is none.
@@ -385,8 +385,7 @@ impl Problem {
             .shear
             .as_ref()
             .map(|shear| shear.law.strength.highest_temperature());
-        let of_material = self.parts.half_space.shift();
-        let of_material = of_material.map(|shift| shift.temperature_range[1]);
+        let of_material = self.shift().map(|shift| shift.temperature_range[1]);
         [of_shear, of_material]
             .into_iter()
             .flatten()

@@ -5,11 +5,12 @@ use std::f64::consts::PI;
 use indenters::Surface as _;
 
 use super::answer::Answer;
-use super::body::{Body, Revolution};
+use super::body::Body;
 use super::curve::{AREA, DEPTH, RADIUS};
 use super::half_space::Simple;
 use super::problem::{Motion, Problem};
 use super::warning::Warning;
+use crate::scene::{Revolution, ShiftLaw};
 
 /// Mean slope of the body in contact above which a warning is given. Chosen: linear theory neglects the square of the slope
 /// against 1, here a quarter.
@@ -19,6 +20,12 @@ pub(super) const MAX_MEAN_SLOPE: f64 = 0.5;
 const MAX_RELATIVE_DEPTH: f64 = 1.0 / 3.0;
 /// Friction coefficient above which a warning is given. Chosen: dry rubber has up to 5, soft gels under small loads up to about 10.
 pub(super) const MAX_USUAL_FRICTION: f64 = 10.0;
+
+/// Smallest and largest activation energy without a warning, [J/mol]. Chosen: the law of Williams, Landel and Ferry, with the constants
+/// C₁ = 17.44 and C₂ = 51.6 K that they found for most polymers (1955, J. Am. Chem. Soc. 77, 3701), has the apparent energy
+/// R ln(10) C₁ T²/C₂ at the glass transition T: 0.3e6 of a rubber of 220 K, 0.9e6 of polystyrene. Far above it polymers have 2e4 to 1e5,
+/// silicones about 1.5e4. Energies of this range in kJ/mol or eV are below it as numbers.
+pub(super) const USUAL_ACTIVATION_ENERGIES: [f64; 2] = [1e4, 1e6];
 
 /// Warnings about the validity of an answer, after those of its files; without any the linear theory holds.
 pub(super) fn warnings(problem: &Problem, answer: &Answer) -> Vec<Warning> {
@@ -52,13 +59,37 @@ pub(super) fn warnings(problem: &Problem, answer: &Answer) -> Vec<Warning> {
             friction_coefficient,
         });
     }
+    warnings.extend(energy_warnings(problem));
     warnings.extend(coupling_warning(problem));
-    if problem.heating().is_some() && dissipates(problem) && !problem.has_shift_law() {
+    if problem.heating().is_some() && dissipates(problem) && problem.shift().is_none() {
         warnings.push(Warning::ModuliWithoutTemperature);
     }
     warnings.extend(extrapolation_warning(problem, answer).or_else(|| duration_warning(problem)));
     warnings.extend(shortest_octave_warning(body, answer));
     warnings
+}
+
+/// Warnings about the activation energies of the material and of the interface that are outside [`USUAL_ACTIVATION_ENERGIES`].
+fn energy_warnings(problem: &Problem) -> impl Iterator<Item = Warning> {
+    let of_material = problem.shift().and_then(|shift| match shift.law {
+        ShiftLaw::Arrhenius(energy) => Some(("shift.law.arrhenius", energy)),
+        ShiftLaw::Wlf(_) => None,
+    });
+    let of_shear = problem
+        .shear()
+        .and_then(|shear| shear.law.strength.activation_energy())
+        .map(|energy| ("interface.bell.activation_energy", energy));
+    let [lowest, highest] = USUAL_ACTIVATION_ENERGIES;
+    of_material
+        .into_iter()
+        .chain(of_shear)
+        .filter(move |(_, energy)| !(lowest..=highest).contains(energy))
+        .map(
+            |(key, activation_energy)| Warning::UnusualActivationEnergy {
+                key,
+                activation_energy,
+            },
+        )
 }
 
 /// Warning if the shear of the contact moves the surface vertically, which is neglected: on a layer, and for a Poisson ratio below 1/2.

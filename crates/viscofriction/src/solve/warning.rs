@@ -5,7 +5,7 @@ use std::fmt;
 use numerics::Rounded;
 use serde::{Serialize, Serializer};
 
-use super::validity::{MAX_MEAN_SLOPE, MAX_USUAL_FRICTION};
+use super::validity::{MAX_MEAN_SLOPE, MAX_USUAL_FRICTION, USUAL_ACTIVATION_ENERGIES};
 
 /// A limit of the validity of an answer, with the numbers that exceed it.
 ///
@@ -37,6 +37,13 @@ pub enum Warning {
     LargeFriction {
         /// Friction coefficient, or its peak.
         friction_coefficient: f64,
+    },
+    /// An activation energy is not that of a polymer, so that it probably has another unit.
+    UnusualActivationEnergy {
+        /// Its key: `shift.law.arrhenius` of the material, or `interface.bell.activation_energy`.
+        key: &'static str,
+        /// The energy, [J/mol].
+        activation_energy: f64,
     },
     /// The shear of the contact moves the surface vertically, and the contact without shear is computed.
     NeglectedCoupling {
@@ -160,6 +167,10 @@ impl fmt::Display for Warning {
                  and shear strength",
                 Rounded(*friction_coefficient)
             ),
+            Self::UnusualActivationEnergy {
+                key,
+                activation_energy,
+            } => write_unusual_energy(out, key, *activation_energy),
             Self::NeglectedCoupling { is_layer: true, .. } => out.write_str(
                 "on a layer the shear of the contact also moves the surface vertically, and its effect on pressure and area is neglected",
             ),
@@ -227,6 +238,16 @@ impl fmt::Display for Warning {
             } => write!(out, "{warning} (of {surfaces} of {of} surfaces)"),
         }
     }
+}
+
+/// Writes that an activation energy \[J/mol] at a key is not that of a polymer.
+fn write_unusual_energy(out: &mut fmt::Formatter<'_>, key: &str, energy: f64) -> fmt::Result {
+    let [lowest, highest] = USUAL_ACTIVATION_ENERGIES;
+    write!(
+        out,
+        "{key} is {} J/mol, and polymers have activation energies from {lowest:.0} J/mol to {highest:.0} J/mol: check its unit",
+        Rounded(energy)
+    )
 }
 
 /// Writes which fractions of the friction come from frequencies below and above the measured ones \[rad/s], and from all of these.

@@ -9,11 +9,12 @@ use numerics::Estimate;
 
 use super::analytic::{pressed, stiffness};
 use super::answer::Answer;
-use super::body::{Body, Revolution};
+use super::body::Body;
 use super::curve::{self, CurveColumn};
 use super::half_space::Simple;
 use super::problem::{Motion, Problem};
 use super::{layer, mdr};
+use crate::scene::Revolution;
 use crate::scene::{Control, Method};
 
 /// Number of sampled pressures on each side of the middle of the contact. Chosen; it changes only the resolution of the output.

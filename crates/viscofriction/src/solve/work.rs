@@ -12,7 +12,7 @@ use numerics::{Progress, Request};
 
 use super::analytic::{cylinder_pressed, without_friction};
 use super::answer::Answer;
-use super::body::{Body, Revolution};
+use super::body::Body;
 use super::elements::Rough;
 use super::error::{Refusal, Result};
 use super::half_space::Simple;
@@ -20,6 +20,7 @@ use super::problem::Motion::{History, Moving, Pressing, Sliding};
 use super::problem::Problem;
 use super::{analytic, elements, layer, mdr};
 use crate::scene::Method::{self, Analytic, BemSteady, BemTransient, MdrSteady, MdrTransient};
+use crate::scene::Revolution;
 use crate::scene::{Accuracy, Control, Model};
 
 /// The computation of one method for a problem, ready to run: a function from a progress to the answer.

@@ -85,6 +85,36 @@ fn a_friction_that_no_elastomer_has_is_a_sign_of_a_wrong_unit() {
 }
 
 #[test]
+fn an_activation_energy_that_no_polymer_has_is_a_sign_of_a_wrong_unit() {
+    let ball = |energy: f64, of_interface: f64| {
+        answer(&format!(
+            "indenter.sphere = {{ radius = 5e-3 }}\nload = {{ normal_force = 1.0, velocity = 0.01 }}\nsolve.relative_error = 0.01\n\
+             interface.bell = {{ shear_strength = 1e5, velocity = 0.01, activation_energy = {of_interface:?} }}\n\
+             [material.prony]\nequilibrium_modulus = 1e6\nbranches = [{{ modulus = 1e6, relaxation_time = 1e-3 }}]\n\
+             shift = {{ temperature = 20.0, temperature_range = [0.0, 40.0], law = {{ arrhenius = {energy:?} }} }}"
+        ))
+    };
+    for usual in [1e4, 1e5, 1e6] {
+        assert_eq!(ball(usual, usual).warnings, [], "{usual} J/mol");
+    }
+    for unusual in [1.0, 100.0, 9.9e3, 1.01e6] {
+        let answer = ball(unusual, 1e5);
+        let expected = Warning::UnusualActivationEnergy {
+            key: "shift.law.arrhenius",
+            activation_energy: unusual,
+        };
+        assert_eq!(only_warning(&answer), &expected);
+    }
+    let answer = ball(1e5, 2e3);
+    let warning = only_warning(&answer).to_string();
+    assert_eq!(
+        warning,
+        "interface.bell.activation_energy is 2000 J/mol, and polymers have activation energies from 10000 J/mol to 1000000 J/mol: \
+         check its unit"
+    );
+}
+
+#[test]
 fn friction_from_frequencies_that_were_not_measured_has_its_fractions() {
     let answer = answer(
         "indenter.sphere = { radius = 5e-3 }\nload = { normal_force = 2.0, velocity = 0.1 }\nsolve.model = \"line\"\n\

@@ -1,4 +1,4 @@
-//! The same rough surface in another form.
+//! Other forms of rough surfaces with the same answer: mirrored and turned height maps, and a tabulated spectrum.
 
 use std::f64::consts::TAU;
 

@@ -34,7 +34,7 @@ pub(super) struct Label {
     solve: String,
 }
 
-/// Number of scenes of which one slides from first touch; the others are stationary or pressed. Chosen.
+/// One of this number of scenes slides from first touch; the others are stationary or pressed. Chosen.
 const SCENES_PER_FIRST_TOUCH: usize = 6;
 /// Kinds of bodies that end in a flat, at whose edge the pressure has no bound.
 pub(super) const FLAT: &str = "flat-cone truncated-paraboloid";

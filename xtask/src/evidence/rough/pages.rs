@@ -116,14 +116,14 @@ fn spread(mut values: Vec<f64>) -> String {
 /// of the relative deviation), and how well it suits the others; `None` without points. P is the fraction of area in contact.
 /// Persson's theory of 2001 has S = 1, that of 2006 γ = 1/2.
 fn weight(solid: &str, points: &[Point]) -> Option<String> {
-    let points = points.iter().filter(|point| {
+    let counted = points.iter().filter(|point| {
         point.solid == solid
             && point.area_fraction >= MIN_AREA
             && point.longest_waves_in_period >= MIN_WAVES
     });
     // For each half of the surfaces, add up the friction, the difference between Persson's theories with S = 1 and with S = P²,
     // and the theory with S = P².
-    let halves = points.map(|point| {
+    let halves = counted.map(|point| {
         [0, 1].map(|first| {
             let half = point.frictions.iter().skip(first).step_by(2);
             half.fold([0.0; 3], |sums, [friction, of_2001, of_2006]| {

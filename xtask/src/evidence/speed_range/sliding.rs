@@ -42,7 +42,7 @@ pub(super) struct Sliding {
 }
 
 impl Sliding {
-    /// The same profile and solid at another speed vτ/a.
+    /// This profile and solid at another speed vτ/a.
     pub(super) fn at_speed(self, speed: f64) -> Self {
         Self { speed, ..self }
     }

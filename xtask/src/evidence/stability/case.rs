@@ -64,7 +64,7 @@ pub(super) struct Row {
     expected: String,
     /// The number that was computed, or the error.
     got: String,
-    /// Relative, or in the unit that the case chooses; none of errors.
+    /// Relative deviation, or in the unit that the case chooses; `None` if an error was returned.
     deviation: Option<f64>,
     /// Largest deviation of an accurate result, in the same unit.
     tolerance: Option<f64>,

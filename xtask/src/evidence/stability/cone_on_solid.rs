@@ -31,7 +31,7 @@ pub(super) fn cone_on_solid(material: &RelaxationSpectrum, velocity: f64) -> Res
     let branches: Vec<Branch> = material.branches().iter().map(branch).collect();
     let spring = material.equilibrium_modulus();
     let dashpot = material.viscosity() * velocity;
-    // Find the rear of the contact, where the load at a distance y behind the apex vanishes. A dashpot pulls there, so that the
+    // Find the rear of the contact, where the load at a distance y behind the apex vanishes. A dashpot would need tension there, so that the
     // contact may end at the apex itself; a material that is nearly elastic is symmetric up to y = x_r.
     let behind = |y: f64| {
         let stresses: f64 = branches.iter().map(|branch| branch.behind(y)).sum();

@@ -67,7 +67,7 @@ impl Program {
     }
 
     /// Solves the scene in `file` with the arguments of `scene` on one thread. A run that takes more processor time than the
-    /// limit \[s] is ended. What it prints is kept beside the program.
+    /// limit \[s] is ended. Its output is kept in the folder of the program.
     pub(super) fn solve(
         &self,
         scene: &BenchmarkScene,

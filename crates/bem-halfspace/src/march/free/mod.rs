@@ -16,11 +16,11 @@ use std::f64::consts::PI;
 use std::fmt;
 use std::ops::Range;
 
-use indenters::{Control, SlidingLoad, Surface};
+use indenters::{Control, SlidingLoad, Surface, checked_height};
 use numerics::{Estimate, positive};
 use rheology::{CreepSpectrum, ExponentialStep, Material as _};
 
-use crate::contact::{ContactBox, check_heights};
+use crate::contact::{ContactBox, check_has_body};
 use crate::elements::bounds::Bounds;
 use crate::elements::pressure_field::PressureField;
 use crate::elements::resolution::Layout;
@@ -86,7 +86,8 @@ impl<'a> March<'a> {
     ///
     /// # Errors
     /// [`BemError::InvalidParameter`] for no motions, times that do not increase from above zero, and numbers out of
-    /// range; [`BemError::GridTooLarge`]; [`BemError::InvalidHeight`]; [`BemError::Material`].
+    /// range; [`BemError::GridTooLarge`]; [`BemError::Indenter`] for heights that are NaN or −∞;
+    /// [`BemError::Material`].
     pub fn new(
         surface: &'a dyn Surface,
         elastomer: &dyn Elastomer,
@@ -281,7 +282,7 @@ impl<'a> March<'a> {
     ///
     /// # Errors
     /// [`BemError::ContactReachesBoundary`]; [`BemError::VerticalWall`]; [`BemError::ContactNotConverged`];
-    /// [`BemError::InvalidHeight`]; [`BemError::InvalidParameter`] for a slope that is not a number;
+    /// [`BemError::Indenter`] for a height that is NaN or −∞; [`BemError::InvalidParameter`] for a slope that is not a number;
     /// [`BemError::Material`].
     pub fn step(&mut self) -> Result<Option<MotionRow>, BemError> {
         let Some(row) = self.advance()? else {
@@ -419,7 +420,7 @@ impl<'a> March<'a> {
     /// already.
     ///
     /// # Errors
-    /// [`BemError::InvalidHeight`]; [`BemError::InvalidParameter`] if the body covers no element.
+    /// [`BemError::Indenter`] for a height that is NaN or −∞; [`BemError::InvalidParameter`] if the body covers no element.
     fn sample_heights(&mut self, offset: f64) -> Result<(), BemError> {
         if offset.total_cmp(&self.sampled_offset).is_eq() {
             return Ok(());
@@ -430,18 +431,12 @@ impl<'a> March<'a> {
         for row in first_row..rows {
             let x = self.x_in_elements(row, offset) * self.options.spacing[0];
             for column in first_column..columns {
-                heights
-                    .push(self.surface.height([x, self.y_of_column(column)]) / self.height_scale);
+                let position = [x, self.y_of_column(column)];
+                let height = checked_height(self.surface.height(position), position)?;
+                heights.push(height / self.height_scale);
             }
         }
-        // Refuse heights that are NaN or −∞, and keep the sampled ones with their offset.
-        let first = [first_row, first_column];
-        check_heights(
-            "height of the surface",
-            &heights,
-            columns - first_column,
-            first,
-        )?;
+        check_has_body("height of the surface", &heights)?;
         self.heights = heights;
         self.sampled_offset = offset;
         Ok(())

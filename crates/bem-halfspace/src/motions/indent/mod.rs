@@ -27,8 +27,8 @@ pub use press::{PressEstimate, PressSolution, indent, indent_memory, press};
 /// # Errors
 /// [`BemError::InvalidParameter`] for no steps, times that do not increase from above zero, or numbers out of range;
 /// [`BemError::GridTooLarge`]; [`BemError::GridTooCoarse`] when no contact covers three elements along x and y;
-/// [`BemError::ContactReachesBoundary`]; [`BemError::ContactNotConverged`]; [`BemError::InvalidHeight`];
-/// [`BemError::Material`].
+/// [`BemError::ContactReachesBoundary`]; [`BemError::ContactNotConverged`]; [`BemError::Material`];
+/// [`BemError::Indenter`] for heights that are NaN or −∞.
 pub fn indent_history_on_grid(
     surface: &dyn Surface,
     elastomer: &dyn Elastomer,

@@ -97,9 +97,9 @@ pub type PressEstimate = ContactEstimate<PressSolution, GridOptions>;
 ///
 /// # Errors
 /// [`BemError::NoEquilibrium`] for a material that flows; [`BemError::InvalidParameter`] for numbers out of range;
-/// [`BemError::Indenter`] for a contact beyond the end of the body; [`BemError::NotReached`] with what was reached on the finest grid
+/// [`BemError::Indenter`] for a contact beyond the end of the body, and for heights that are NaN or −∞, or not 0 at the origin; [`BemError::NotReached`] with what was reached on the finest grid
 /// allowed; [`BemError::GridTooLarge`]; [`BemError::GridTooCoarse`] when the contact covers fewer than three elements along x or y;
-/// [`BemError::ContactReachesBoundary`]; [`BemError::ContactNotConverged`]; [`BemError::InvalidHeight`]; [`BemError::Material`].
+/// [`BemError::ContactReachesBoundary`]; [`BemError::ContactNotConverged`]; [`BemError::Material`].
 pub fn press<'w>(
     surface: &dyn Surface,
     elastomer: &dyn Elastomer,

@@ -39,7 +39,7 @@ pub use transient::{SlideRow, Transient};
 /// [`BemError::GridTooLarge`]; [`BemError::TooManySteps`]; [`BemError::GridTooCoarse`] when
 /// the contact at the end covers fewer than three elements along x or y;
 /// [`BemError::ContactReachesBoundary`]; [`BemError::VerticalWall`]; [`BemError::SlopeNotResolved`] at the end; [`BemError::ContactNotConverged`];
-/// [`BemError::InvalidHeight`]; [`BemError::Material`].
+/// [`BemError::Indenter`] for heights that are NaN or −∞; [`BemError::Material`].
 pub fn slide_on_grid(
     surface: &dyn Surface,
     elastomer: &dyn Elastomer,

@@ -21,7 +21,7 @@
 
 use std::f64::consts::{FRAC_PI_4, TAU};
 
-use indenters::{SlidingLoad, Surface};
+use indenters::{IndenterError, SlidingLoad, Surface, check_lowest_point, checked_height};
 use numerics::{in_range, positive};
 
 use crate::stationary::steady::sliding_creep::SlidingCreep;
@@ -42,14 +42,14 @@ const HEIGHT_DIRECTIONS: u8 = 8;
 pub(super) fn depth_scale(
     creep: &SlidingCreep,
     normal_force: f64,
-    height: impl Fn(f64) -> f64,
+    height: impl Fn(f64) -> Result<f64, BemError>,
     max_length: f64,
     sliding_distance: f64,
 ) -> Result<f64, BemError> {
     // On a dashpot the depth scale D does not depend on the body, unless the sliding distance is shorter than the contact.
     if creep.only_flows() {
         let depth = 0.25 * normal_force * creep.flow_per_length();
-        if sliding_distance >= max_length || height(sliding_distance) >= depth {
+        if sliding_distance >= max_length || height(sliding_distance)? >= depth {
             return Ok(positive("F_N / (4 η v)", depth)?);
         }
     }
@@ -83,16 +83,19 @@ pub(super) fn profile_scale(
         "0 under a line load: a surface that flows sinks the faster the longer the line is";
     in_range("fluidity", fluidity, fluidity <= 0.0, allowed)?;
     // Find the half length at which the mean height of rear and front equals the depth of a contact of that length.
-    let height = |distance: f64| {
-        let [rear, front] = [-distance, distance].map(|x| profile.height([x, 0.0]));
-        0.5 * (rear + front)
+    check_lowest_point(profile, f64::INFINITY)?;
+    let height = |distance: f64| -> Result<f64, BemError> {
+        let at = |x: f64| checked_height(profile.height([x, 0.0]), [x, 0.0]);
+        Ok(0.5 * (at(-distance)? + at(distance)?))
     };
     let depth = |length: f64| -> Result<f64, BemError> {
         Ok(force_per_length / TAU * creep.compliance_of_contact(length, f64::INFINITY)?)
     };
     let half_length = contact_length(height, depth, f64::INFINITY)?;
+    let depth_scale = positive("2 (1 - ν) F' J(a/v) / (2π)", depth(half_length)?)?;
+    check_lowest_point(profile, depth_scale)?;
     Ok(ProfileScale {
-        depth_scale: positive("2 (1 - ν) F' J(a/v) / (2π)", depth(half_length)?)?,
+        depth_scale,
         half_length,
     })
 }
@@ -100,12 +103,12 @@ pub(super) fn profile_scale(
 /// The length a \[m] with `height(a)` = `depth(a)`, the depth of a contact of that length, or `max_length` if that is shorter; by
 /// bisection.
 fn contact_length(
-    height: impl Fn(f64) -> f64,
+    height: impl Fn(f64) -> Result<f64, BemError>,
     depth: impl Fn(f64) -> Result<f64, BemError>,
     max_length: f64,
 ) -> Result<f64, BemError> {
     let is_too_long =
-        |length: f64| -> Result<bool, BemError> { Ok(height(length) >= depth(length)?) };
+        |length: f64| -> Result<bool, BemError> { Ok(height(length)? >= depth(length)?) };
     // Without a largest length double the upper bound until a contact of that length is too long. Then halve the lower bound
     // until it is not.
     let mut upper = if max_length.is_finite() {
@@ -140,28 +143,41 @@ fn contact_length(
 }
 
 /// Depth scale D of a surface under a force, \[m].
+///
+/// # Errors
+/// [`BemError::Indenter`] for a surface whose height at the origin is not 0, and for a height that is NaN or −∞.
 pub(crate) fn depth_scale_of_surface(
     surface: &dyn Surface,
     elastomer: &dyn Elastomer,
     load: &SlidingLoad,
 ) -> Result<f64, BemError> {
+    check_lowest_point(surface, f64::INFINITY)?;
     let creep = SlidingCreep::for_load(elastomer, load)?;
     let force = load.require_normal_force()?;
     let body = surface.as_axisymmetric();
     let height = |distance| match body {
-        Some(body) => body.profile_height(distance),
+        Some(body) => Ok(checked_height(
+            body.profile_height(distance),
+            [distance, 0.0],
+        )?),
         None => mean_height(surface, distance),
     };
     let max_length = body.map_or(f64::INFINITY, |body| body.max_radius());
     let sliding_distance = load.sliding_distance().unwrap_or(f64::INFINITY);
-    depth_scale(&creep, force, height, max_length, sliding_distance)
+    let depth = depth_scale(&creep, force, height, max_length, sliding_distance)?;
+    check_lowest_point(surface, depth)?;
+    Ok(depth)
 }
 
 /// Mean height of a surface at a `distance` \[m] from its lowest point, over [`HEIGHT_DIRECTIONS`], \[m].
-pub(super) fn mean_height(surface: &dyn Surface, distance: f64) -> f64 {
+pub(super) fn mean_height(surface: &dyn Surface, distance: f64) -> Result<f64, BemError> {
     let height_along = |direction: u8| {
         let (sine, cosine) = (FRAC_PI_4 * f64::from(direction)).sin_cos();
-        surface.height([distance * cosine, distance * sine])
+        let position = [distance * cosine, distance * sine];
+        checked_height(surface.height(position), position)
     };
-    (0..HEIGHT_DIRECTIONS).map(height_along).sum::<f64>() / f64::from(HEIGHT_DIRECTIONS)
+    let sum: f64 = (0..HEIGHT_DIRECTIONS)
+        .map(height_along)
+        .sum::<Result<f64, IndenterError>>()?;
+    Ok(sum / f64::from(HEIGHT_DIRECTIONS))
 }

@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 use std::ops::{Range, RangeInclusive};
 use std::sync::Arc;
 
-use indenters::Surface;
+use indenters::{Surface, checked_height};
 use numerics::{in_range, positive, whole_part};
 
 use crate::elements::bounds::Bounds;
@@ -67,7 +67,7 @@ impl Mesh {
     ///
     /// # Errors
     /// [`BemError::InvalidParameter`] for options out of range and a body that can touch nowhere; [`BemError::GridTooLarge`];
-    /// [`BemError::InvalidHeight`]; [`BemError::TrackTooShort`].
+    /// [`BemError::Indenter`] for heights that are NaN or −∞; [`BemError::TrackTooShort`].
     pub(super) fn new(
         surface: &dyn Surface,
         loading: &Loading,
@@ -159,13 +159,13 @@ impl Mesh {
             for column in 0..self.shape[1] {
                 // Evaluate the heights at the rear edge, the collocation point and the front edge of the element.
                 let [x, y] = [self.centre(0, row), self.centre(1, column)];
-                let positions = [-0.5, self.loading.creep.collocation_shift, 0.5];
-                let heights = positions.map(|shift| surface.height([x + shift * dx, y]));
+                let shifts = [-0.5, self.loading.creep.collocation_shift, 0.5];
+                let positions = shifts.map(|shift| [x + shift * dx, y]);
+                let heights = positions.map(|position| surface.height(position));
                 let [rear, height, front] = heights;
                 // A body may end, with infinite height, but not be undefined.
-                let invalid = |height: &f64| height.is_nan() || *height == f64::NEG_INFINITY;
-                if let Some(value) = heights.into_iter().find(invalid) {
-                    return Err(BemError::InvalidHeight { row, column, value });
+                for (height, position) in heights.into_iter().zip(positions) {
+                    checked_height(height, position)?;
                 }
                 self.walls
                     .push(front.is_infinite() || !self.only_rising && rear.is_infinite());

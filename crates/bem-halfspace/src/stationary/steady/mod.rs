@@ -111,7 +111,8 @@ impl SteadyOptions {
 /// [`BemError::InvalidParameter`] for options out of range, or a body that can touch nowhere in the footprint;
 /// [`BemError::SlidingDistanceMissing`]; [`BemError::GridTooLarge`]; [`BemError::GridTooCoarse`]; [`BemError::VerticalWall`];
 /// [`BemError::SlopeNotResolved`]; [`BemError::ContactReachesBoundary`]; [`BemError::ContactNotConverged`];
-/// [`BemError::SingularContact`]; [`BemError::InvalidHeight`]; [`BemError::Material`].
+/// [`BemError::SingularContact`]; [`BemError::Material`];
+/// [`BemError::Indenter`] for heights that are NaN or −∞.
 pub fn steady_on_grid(
     surface: &dyn Surface,
     elastomer: &dyn Elastomer,

@@ -144,7 +144,7 @@ impl SlidingCreep {
         })
     }
 
-    /// The same creep law on another base, and on a track of a length \[m] or, with `None`, on fresh ground.
+    /// This creep law on another base, and on a track of a length \[m] or, with `None`, on fresh ground.
     pub(super) fn on_base(self, base: Base, track: Option<f64>) -> Self {
         Self {
             base,
@@ -205,9 +205,10 @@ impl SlidingCreep {
     /// Memory length v λ_max of the slowest retarded or advanced element, at most the track; for a flowing layer at least its influence
     /// radius, \[m].
     pub(super) fn memory_length(&self) -> f64 {
-        let elements = self.creep.retarded().elements().iter();
-        let elements = elements.chain(self.creep.advanced());
-        let times = elements.map(|element| element.retardation_time);
+        let retarded = self.creep.retarded().elements().iter();
+        let times = retarded
+            .chain(self.creep.advanced())
+            .map(|element| element.retardation_time);
         let retarded =
             (self.velocity * times.fold(0.0, f64::max)).min(self.track.unwrap_or(f64::INFINITY));
         if self.creep.retarded().fluidity() > 0.0 && self.base.is_rigid() {

@@ -143,10 +143,10 @@ impl InverseCreep {
             denominator.finv() * element.share
         };
         let filter = |difference: &Complex<f64>| {
-            let retarded = creep.retardations.iter();
-            let retarded = retarded.map(|element| response(element, *difference));
-            let advanced = creep.advanced.iter();
-            let advanced = advanced.map(|element| response(element, difference.conj()));
+            let retarded =
+                (creep.retardations.iter()).map(|element| response(element, *difference));
+            let advanced =
+                (creep.advanced.iter()).map(|element| response(element, difference.conj()));
             retarded.chain(advanced).sum::<Complex<f64>>() + creep.instantaneous
         };
         if creep.advanced.is_empty() {

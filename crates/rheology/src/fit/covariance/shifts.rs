@@ -150,12 +150,12 @@ impl ShiftEffects {
             self.by_temperature = all;
         }
         // Remove the part of the deviations that the constants of the fitted law absorb.
-        let constants = constants.select_rows(&others);
+        let by_constants = constants.select_rows(&others);
         let n_others = others.len();
-        let Some(inverse) = constants
-            .tr_mul(&constants)
+        let Some(inverse) = by_constants
+            .tr_mul(&by_constants)
             .try_inverse()
-            .filter(|_| n_others > constants.ncols())
+            .filter(|_| n_others > by_constants.ncols())
         else {
             return;
         };
@@ -167,7 +167,7 @@ impl ShiftEffects {
         self.law = Some(LawDeviations {
             deviations: deviations.select_rows(&others).column(0).into_owned(),
             left: DMatrix::identity(n_others, n_others)
-                - &constants * inverse * constants.transpose(),
+                - &by_constants * inverse * by_constants.transpose(),
             by_temperature,
             shift_gain: self.shift_gain.select_rows(&others),
         });

@@ -273,8 +273,8 @@ impl AnswerChange {
     /// Change of the logarithm of the friction from shear, ln(τ_f A/F_N); `None` if that of the contact area is not known.
     pub(crate) fn of_log_shear(&self, answer: &Answer) -> Option<Estimate> {
         let area = self.contact.contact_area?;
-        let force = relative_change(self.contact.normal_force, Some(answer.normal_force));
-        let force = force.unwrap_or(Estimate::exact(0.0));
+        let force = relative_change(self.contact.normal_force, Some(answer.normal_force))
+            .unwrap_or(Estimate::exact(0.0));
         Some(area + force * -1.0 + Estimate::exact(self.log_shear_over_load))
     }
 }
