@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -12,10 +13,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._arrays import Compared, numbers
-from ._kinds import Cone, Edges, HeightsAre, LengthUnit
+from ._kinds import Cone, Edges, HeightMapFile, HeightsAre, LengthUnit
 from ._tables import Body
 
-__all__ = ["Body", "HeightMap", "Pyramid", "Roughness"]
+__all__ = ["Body", "HeightMap", "Pyramid", "Roughness", "read_height_map"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,6 +120,8 @@ class HeightMap(Compared, Body):
         self.edges: Edges = edges
         #: Of a periodic surface the length [m] of the shortest waves; None for all that the grid knows.
         self.shortest_wavelength = shortest_wavelength
+        #: Of heights that were read from a file what is to be known of its units and holes, and what the reader assumed.
+        self.notes: tuple[str, ...] = ()
         _native.check_height_map(self.heights, self._table()[self._kind])
 
     @classmethod
@@ -159,3 +162,16 @@ class HeightMap(Compared, Body):
         keys = {name: getattr(self, name) for name in names.split()}
         # The heights take the place of the file.
         return {self._kind: keys | {"file": "heights"}}
+
+
+def read_height_map(file: HeightMapFile | str | os.PathLike[str]) -> HeightMap:
+    """The surface in a file of heights, ``read_height_map(HeightMapFile("scan.xyz", unit="um"))``, as a scene with these keys has it.
+
+    Its heights are in metres and out of the body, with x along the motion, filled and levelled where that was asked for; ``notes`` say
+    what the reader assumed, such as units. Raises ValueError with the line of the file, or the key that does not fit it.
+    """
+    keys = file if isinstance(file, HeightMapFile) else HeightMapFile(file)
+    heights, spacing, notes = _native.read_heights(keys._table()[keys._kind])
+    surface = HeightMap(heights, spacing, edges=keys.edges, shortest_wavelength=keys.shortest_wavelength)
+    surface.notes = tuple(notes)
+    return surface
