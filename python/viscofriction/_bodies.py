@@ -157,6 +157,12 @@ class HeightMap(Compared, Body):
         """
         return Roughness(**_native.surface_numbers(self.heights, self._table()[self._kind]))
 
+    def plot(self, ax: Any = None) -> Any:
+        """Draws the heights about their mean; returns the axes of matplotlib."""
+        from . import _plotting
+
+        return _plotting.heights(self, _plotting.axes(ax))
+
     def _table(self) -> dict[str, Any]:
         names = "spacing unit heights_are direction fill_missing level edges shortest_wavelength"
         keys = {name: getattr(self, name) for name in names.split()}

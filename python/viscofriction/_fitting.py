@@ -90,6 +90,12 @@ class Fit:
         fitted = self.material.storage_modulus(omega), self.material.loss_modulus(omega)
         return fitted[0] / points.storage - 1, fitted[1] / points.loss - 1
 
+    def plot(self, ax: Any = None) -> Any:
+        """Draws the moduli of a table and of the fit over the frequency, on the master curve; returns the axes of matplotlib."""
+        from . import _plotting
+
+        return _plotting.master_curve(self, _plotting.axes(ax))
+
     @property
     def material_with_error(self) -> Prony:
         """The material with its largest relative error, which is then in all bars, for times 1/ω within the measured frequencies."""

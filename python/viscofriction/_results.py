@@ -5,8 +5,8 @@ from __future__ import annotations
 import html
 import json
 import math
-from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -352,11 +352,12 @@ class Answer(Compared):
         columns += map(self._printed, known)
         return html_table(f"{len(self.failures)} answers", head, list(zip(*columns, strict=True)), notes)
 
-    def plot(self, ax: Any = None) -> Any:
-        """Draws friction with its bars over what varies, or the pressure of a single scene; returns the axes of matplotlib."""
+    def plot(self, ax: Any = None, field: Literal["pressure", "temperature"] = "pressure") -> Any:
+        """Draws friction with its bars over what varies, or the pressure or the temperature rise of a single scene; returns the axes of
+        matplotlib."""
         from . import _plotting
 
-        return _plotting.plot(self, ax)
+        return _plotting.temperature(self, _plotting.axes(ax)) if field == "temperature" else _plotting.plot(self, ax)
 
 
 if TYPE_CHECKING:
@@ -411,9 +412,11 @@ for _attribute_name, _name in ATTRIBUTES.items():
         setattr(Answer, _attribute_name + _end, _attribute(_name, _end))
 
 
-def html_table(caption: str, head: Sequence[str], rows: Sequence[Sequence[str]], notes: Sequence[str]) -> str:
-    """A table for a notebook, of many rows the first and the last, with sentences below it."""
-    if len(rows) > 2 * SHOWN:
+def html_table(
+    caption: str, head: Sequence[str], rows: Sequence[Sequence[str]], notes: Sequence[str], *, all_rows: bool = False
+) -> str:
+    """A table for a notebook, of many rows the first and the last unless ``all_rows`` are wanted, with sentences below it."""
+    if len(rows) > 2 * SHOWN and not all_rows:
         rows = [*rows[:SHOWN], ["…"] * len(head), *rows[-SHOWN:]]
 
     def line(cells: Sequence[str], tag: str) -> str:
@@ -422,6 +425,18 @@ def html_table(caption: str, head: Sequence[str], rows: Sequence[Sequence[str]],
     body = line(head, "th") + "".join(line(row, "td") for row in rows)
     paragraphs = "".join(f"<p>{html.escape(note)}</p>" for note in notes)
     return f"<table><caption>{html.escape(caption)}</caption>{body}</table>{paragraphs}"
+
+
+#: How pages of their own look.
+_STYLE = """body { font: 1em/1.4 sans-serif; max-width: 70em; margin: auto; padding: 1em } table { border-collapse: collapse; font-size: 0.8em;
+display: block; overflow: auto } td, th { padding: 0.2em 0.6em; text-align: right } pre { overflow: auto } svg { max-width: 100%; height: auto }"""
+
+
+def html_page(title: str, body: str, texts: Mapping[str, str]) -> str:
+    """A page of its own, without anything from elsewhere, whose end are texts that unfold."""
+    named = (f"<details><summary>{html.escape(name)}</summary><pre>{html.escape(text)}</pre></details>" for name, text in texts.items())
+    head = f'<meta charset="utf-8"><title>{html.escape(title)}</title><style>{_STYLE}</style>'
+    return f'<!doctype html><html lang="en"><head>{head}</head><body><h1>{html.escape(title)}</h1>{body}{"".join(named)}</body></html>\n'
 
 
 def not_reached(answer: Answer) -> None:

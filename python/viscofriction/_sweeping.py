@@ -17,7 +17,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._arrays import Compared, count, numbers, text_of
-from ._results import QUANTITIES, html_table, noted, with_bars, with_unit
+from ._friction import MeasuredFriction
+from ._results import QUANTITIES, html_page, html_table, noted, with_bars, with_unit
 from ._solving import LARGEST_SCENE, Progress, Scene, read, shown
 
 __all__ = ["Sweep", "read_sweep", "sweep"]
@@ -94,22 +95,58 @@ class Sweep(Compared):
         return f"<{len(self)} points over {', '.join(self.keys)}{failures}{warnings}>"
 
     def _repr_html_(self) -> str:
+        return self._html()
+
+    def _html(self, *, all_rows: bool = False) -> str:
         known = [name for name in QUANTITIES if any(self._cells(name))]
         head = [*self.keys, *(with_unit(name, QUANTITIES[name][1][0]) for name in known)]
         columns = [self._cells(key) for key in self.keys]
         columns += [with_bars(self[name], self[f"{name}_error"]) for name in known]
         rows = list(zip(*columns, strict=True))
         failed = [f"not reached: {failure}" for failure in dict.fromkeys(self.failures) if failure]
-        return html_table(f"{len(self)} points", head, rows, [*self.warnings, *failed])
+        return html_table(f"{len(self)} points", head, rows, [*self.warnings, *failed], all_rows=all_rows)
 
-    def plot(self, ax: Any = None, quantity: str = "friction_coefficient") -> Any:
+    def plot(
+        self,
+        ax: Any = None,
+        quantity: str = "friction_coefficient",
+        *,
+        measured: MeasuredFriction | None = None,
+        name: str = "",
+        style: str = "-",
+    ) -> Any:
         """Draws a quantity with its bars over the key that has the most values, a line for each combination of the others where they
-        are few, or as colours over two; returns the axes of matplotlib."""
+        are few, or as colours over two; returns the axes of matplotlib.
+
+        Beside friction are its part from hysteresis, that of Persson's theory, and the band of an uncertain material, where they are
+        known, and ``measured`` friction. ``name`` is what the legend says of all lines, and ``style`` their line.
+        """
         from . import _plotting
 
         keys = {key: self[key] for key in self.keys}
         drawn = (quantity, self[quantity], self[quantity + "_error"])
-        return _plotting.table(_plotting.axes(ax), keys, drawn)
+        curves = _plotting.BESIDE if quantity == "friction_coefficient" else ()
+        known = tuple((what, line, values) for key, what, line in curves if (values := self._known(key)) is not None)
+        beside = _plotting.Beside(self._known(f"{quantity}_material_error"), known, name, style)
+        axes = _plotting.table(_plotting.axes(ax), keys, drawn, beside)
+        if measured is not None:
+            _plotting.measured(axes, measured.velocity, measured.mu, measured.standard_error, measured.temperature)
+        return axes
+
+    def to_html(self, file: str | os.PathLike[str], *, picture: Any = None, texts: Mapping[str, str] | None = None) -> None:
+        """Writes a page of its own with the picture, all points with their errors, the warnings, and ``texts`` by their names, such as the
+        scene; a file that is there is not replaced. ``picture`` are axes of matplotlib, those of ``plot`` unless others are given."""
+        drawn = io.StringIO()
+        (self.plot() if picture is None else picture).figure.savefig(drawn, format="svg")
+        svg = drawn.getvalue()
+        title = f"A sweep over {' and '.join(self.keys)}"
+        with Path(file).open("x", encoding="utf-8") as out:
+            out.write(html_page(title, svg[svg.index("<svg") :] + self._html(all_rows=True), texts or {}))
+
+    def _known(self, column: str) -> NDArray[np.float64] | None:
+        """The numbers of a column of which something is known."""
+        values = self[column] if column in self._header else np.array([np.nan])
+        return None if np.isnan(values).all() else values
 
 
 def sweep(
