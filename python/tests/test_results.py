@@ -187,6 +187,11 @@ def test_the_picture_of_a_sweep_has_what_the_program_draws(tmp_path: Path) -> No
 
 def test_a_master_curve_a_map_and_a_temperature_are_drawn() -> None:
     fit = vf.fit_material(ROOT / "examples/data/tread-rubber.csv", reference_temperature=20.0)
+    assert fit.decisions[1:3] == ("relative error of G′: 1 % rms, 2.4 % at most", "relative error of G″: 1.6 % rms, 4.3 % at most")
+    assert fit.decisions[3:] == (
+        "material at 20 °C; its shift law holds from -40.24 °C to 39.94 °C",
+        "moduli do not change with temperature, b_T = 1",
+    )
     axes = fit.plot()
     assert (axes.get_xlabel(), axes.get_xscale(), axes.get_yscale()) == ("angular frequency a_T ω [rad/s]", "log", "log")
     assert fit.measured is not None and (axes.lines[0].get_ydata() == fit.measured.storage).all()

@@ -387,3 +387,12 @@ def test_a_file_that_holds_no_heights_is_refused_with_its_name(tmp_path: Path) -
     np.save(tmp_path / "map.npy", HEIGHTS)
     with pytest.raises(ValueError, match="^spacing: "):
         vf.read_height_map(tmp_path / "map.npy")
+
+
+def test_a_unit_is_guessed_where_the_file_states_none(tmp_path: Path) -> None:
+    for name, factor in (("um", 1e6), ("nm", 1e9), ("mm", 1e3), (None, 1.0)):
+        file = tmp_path / f"{name}.csv"
+        np.savetxt(file, HEIGHTS * factor, delimiter=",")
+        guess = vf.plausible_unit(vf.HeightMapFile(file, spacing=SPACING))
+        # In mm slopes are within what surfaces have in µm, too, and µm are tried first.
+        assert guess == ("um" if name == "mm" else name), name

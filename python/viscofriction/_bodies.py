@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -16,7 +16,7 @@ from ._arrays import Compared, numbers
 from ._kinds import Cone, Edges, HeightMapFile, HeightsAre, LengthUnit
 from ._tables import Body
 
-__all__ = ["Body", "HeightMap", "Pyramid", "Roughness", "read_height_map"]
+__all__ = ["Body", "HeightMap", "Pyramid", "Roughness", "plausible_unit", "read_height_map"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,3 +181,11 @@ def read_height_map(file: HeightMapFile | str | os.PathLike[str]) -> HeightMap:
     surface = HeightMap(heights, spacing, edges=keys.edges, shortest_wavelength=keys.shortest_wavelength)
     surface.notes = tuple(notes)
     return surface
+
+
+def plausible_unit(file: HeightMapFile) -> LengthUnit | None:
+    """A guess at the unit of the heights in a file that does not state it: the first of m, µm, nm and mm with slopes as surfaces in contact
+    have them; None for metres, for a file that states its unit, and where no unit helps. Raises ValueError for another file."""
+    guesses: tuple[LengthUnit | None, ...] = (None, "um", "nm", "mm")
+    plain = (unit for unit in guesses if not any("unit" in note for note in read_height_map(replace(file, unit=unit)).notes))
+    return next(plain, None)

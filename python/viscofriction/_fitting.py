@@ -23,6 +23,12 @@ Deformation = Literal["tension", "shear"]
 #: How the moduli of isotherms change with temperature.
 Vertical = Literal["none", "entropic", "free"]
 
+_VERTICAL: dict[Vertical, str] = {
+    "none": "moduli do not change with temperature, b_T = 1",
+    "entropic": "moduli grow with the absolute temperature, b_T = T/T_r",
+    "free": "the moduli of each isotherm have a factor b_T",
+}
+
 __all__ = ["Fit", "IsothermShift", "Moduli", "fit_material", "fit_relaxation", "read_moduli", "scaling_factor"]
 
 
@@ -89,6 +95,24 @@ class Fit:
         omega = points.angular_frequency
         fitted = self.material.storage_modulus(omega), self.material.loss_modulus(omega)
         return fitted[0] / points.storage - 1, fitted[1] / points.loss - 1
+
+    @property
+    def decisions(self) -> tuple[str, ...]:
+        """What was found and decided, as sentences: the window, the residuals, the law of temperatures and the vertical shift."""
+        low, high = self.material.valid_frequencies or (0.0, 0.0)
+        lines = [f"{len(self.material.branches)} branches; measured from {low:.3g} rad/s to {high:.3g} rad/s, on the master curve of isotherms"]
+        for name, errors in (("G′", self.storage_error), ("G″", self.loss_error)):
+            if errors is not None:
+                lines.append(f"relative error of {name}: {100 * errors[0]:.2g} % rms, {100 * errors[1]:.2g} % at most")
+        if self.shift is not None:
+            first, last = self.shift["temperature_range"]
+            lines.append(f"material at {self.shift['temperature']:g} °C; its shift law holds from {first:g} °C to {last:g} °C")
+        if self.vertical is not None:
+            lines.append(_VERTICAL[self.vertical])
+        if not self.vertical_is_found:
+            lines.append("the isotherms do not show whether moduli change with temperature, and the errors of the moduli include both")
+        placed = ", ".join(f"{shift.temperature:g}" for shift in self.shifts if shift.placed_by_law)
+        return (*lines, f"placed by the shift law of the others: the isotherms of {placed}") if placed else tuple(lines)
 
     def plot(self, ax: Any = None) -> Any:
         """Draws the moduli of a table and of the fit over the frequency, on the master curve; returns the axes of matplotlib."""

@@ -345,12 +345,18 @@ class Answer(Compared):
         notes = [*self.warnings, *failed]
         if self.shape == ():
             head = ["quantity", "value", "unit"]
-            return html_table(f"{self.method}, {self.model}", head, self._rows(), notes)
+            return html_table(f"{self.method}, {self.model}", head, self._rows(), notes) + self._budget_html()
         known = self._known()
         head = [*self.loads, *(with_unit(name, self._unit(name)) for name in known)]
         columns = [[_native.printed(load, 0.0) for load in np.ravel(values)] for values in self.loads.values()]
         columns += map(self._printed, known)
         return html_table(f"{len(self.failures)} answers", head, list(zip(*columns, strict=True)), notes)
+
+    def _budget_html(self) -> str:
+        """Where the uncertainty of the friction coefficient is from, if it is known."""
+        of_friction = {source: known.get("friction_coefficient", np.array(np.nan)) for source, known in self._by_number("budget").items()}
+        rows = [[source, f"{float(value):.2g}"] for source, value in of_friction.items() if not np.isnan(value)]
+        return html_table("standard uncertainty of the friction coefficient", ["source", "value"], rows, []) if rows else ""
 
     def plot(self, ax: Any = None, field: Literal["pressure", "temperature"] = "pressure") -> Any:
         """Draws friction with its bars over what varies, or the pressure or the temperature rise of a single scene; returns the axes of
