@@ -229,3 +229,39 @@ def test_choices_of_other_versions_and_damaged_ones_do_no_harm(folder: Path) -> 
         (folder / "friction-1.json").write_text(text)
         project = _work.Project(folder)
         assert project.choices == Choices() and project.computation is None
+
+
+def test_the_page_is_at_this_machine_and_needs_the_token(folder: Path) -> None:
+    import http.client
+    import urllib.parse
+
+    command = [sys.executable, "-c", "from viscofriction.app import main; main()", folder, "--no-browser", "--threads", "1"]
+    # NiceGUI behaves otherwise where it sees that it is tested.
+    environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST")}
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=folder, env=environment) as server:
+        assert server.stdout is not None
+        address = urllib.parse.urlsplit(server.stdout.readline().strip())
+        assert address.hostname == "127.0.0.1" and address.port is not None
+
+        def answer(path: str, **headers: str) -> tuple[int, str]:
+            with closing(http.client.HTTPConnection("127.0.0.1", address.port, timeout=10)) as connection:
+                connection.request("GET", path, headers=headers)
+                found = connection.getresponse()
+                return found.status, found.getheader("Set-Cookie") or ""
+
+        deadline = time.monotonic() + 20
+        while time.monotonic() < deadline:
+            try:
+                answer("/")
+                break
+            except ConnectionRefusedError:
+                time.sleep(0.1)
+        assert answer("/")[0] == answer("/?token=guess")[0] == answer("/_nicegui/socket.io/")[0] == 403
+        status, cookie = answer(f"/?{address.query}")
+        assert status == 303 and "HttpOnly" in cookie and "SameSite=Strict" in cookie
+        cookie = cookie.split(";")[0]
+        assert answer("/", Cookie=cookie)[0] == 200
+        assert answer("/", Cookie=cookie + "x")[0] == answer("/", Cookie=cookie, Host="elsewhere.example")[0] == 403
+        server.terminate()
+    refused = subprocess.run([*command[:3], folder / "absent"], capture_output=True, text=True, cwd=folder, env=environment)
+    assert refused.returncode == 2 and "absent is no folder" in refused.stderr
