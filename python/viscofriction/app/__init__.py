@@ -90,7 +90,9 @@ def main() -> None:
     address = f"http://127.0.0.1:{port}/?token={token}"
 
     @ui.page("/", title="Friction of rubber")
-    def page() -> None:
+    async def page() -> None:
+        # What is chosen before there is a connection would be lost.
+        await ui.context.client.connected(timeout=60)
         Page(project)
 
     def begin() -> None:
@@ -101,7 +103,9 @@ def main() -> None:
     app.add_middleware(Guard, token=token, port=port)
     app.on_startup(begin)
     app.on_shutdown(project.stop)
-    ui.run(host="127.0.0.1", port=port, show=False, reload=False, show_welcome_message=False, favicon="μ", uvicorn_logging_level="warning")
+    quiet: dict[str, Any] = {"show": False, "reload": False, "show_welcome_message": False, "uvicorn_logging_level": "warning"}
+    # A browser that is busy, or a machine that sleeps, comes back to the page as it was.
+    ui.run(host="127.0.0.1", port=port, favicon="μ", reconnect_timeout=60.0, **quiet)
 
 
 def _free_port(ports: list[int] | range) -> int | None:

@@ -18,7 +18,7 @@ SPEED, TEMPERATURE, FRICTION = "load.velocity", "material.file.temperature", "fr
 BESIDE = (
     ("friction_from_hysteresis", "hysteresis", "dot", 1.5, 0.9),
     ("friction_from_shear", "shear", "dash", 1.5, 0.9),
-    ("persson_friction_coefficient_2006", "theory (Persson 2006)", "longdash", 1.0, 0.5),
+    ("persson_friction_coefficient_2006", "theory (Persson 2006)", "longdash", 1.0, 0.7),
 )
 FREE = {"paper_bgcolor": "rgba(0,0,0,0)", "plot_bgcolor": "rgba(0,0,0,0)", "margin": {"l": 50, "r": 10, "t": 10, "b": 40}}
 
@@ -114,10 +114,10 @@ def new_axes(size: tuple[float, float] = (6.0, 4.0)) -> Any:
 def drawn(sweeps: Mapping[str, Sweep], measured: MeasuredFriction | None) -> Any:
     """The picture for files, as axes of matplotlib."""
     ax = new_axes((8.0, 6.0))
-    for nth, (part, sweep) in enumerate(sweeps.items()):
+    for part, sweep in sweeps.items():
         ax.set_prop_cycle(color=COLOURS)
-        name, style = ("without heat", "-.") if _beside(part) else ("", "-")
-        sweep.plot(ax, measured=None if nth else measured, name=name, style=style)
+        if len(sweep):
+            sweep.plot(ax, measured=None if _beside(part) else measured, name=_beside(part)[2:], style="-." if _beside(part) else "-")
     return ax
 
 

@@ -96,8 +96,10 @@ class Page:
 
     def refuse(self, error: Exception, place: str = "") -> None:
         """Says an error beside the field that it names, or the one that it belongs to, and beside the button."""
-        # A sentence begins with what is wrong, and may end with other keys of its point.
-        named = sorted((str(error).index(path), -len(path), path) for path in self.fields if path in str(error))
+        # A sentence begins with the key that is wrong, perhaps without those above it, and may end with other keys of its point.
+        text = str(error)
+        places = {path: 0 if text.startswith(f"{path.rpartition('.')[2]}:") else text.find(path) for path in self.fields}
+        named = sorted((at, -len(path), path) for path, at in places.items() if at >= 0)
         field = self.fields.get(named[0][2] if named else place)
         if field is not None:
             field.error = str(error)
@@ -125,12 +127,14 @@ class Page:
 
     def select(self, path: str, label: str, options: Mapping[Any, str] | list[str], value: Any, change: Callable[[Any], None]) -> Any:
         field = ui.select(dict(options) if isinstance(options, Mapping) else options, label=label, value=value, on_change=lambda event: change(event.value))
-        self.fields[path] = field.classes("wide")
-        return field
+        return self.field(path, field)
 
     def number(self, path: str, label: str, value: float | None, change: Callable[[float | None], None]) -> Any:
-        field = ui.number(label, value=value, on_change=lambda event: change(event.value)).props("step=any debounce=300").classes("wide")
-        self.fields[path] = field
+        return self.field(path, ui.number(label, value=value, on_change=lambda event: change(event.value)).props("step=any"))
+
+    def field(self, path: str, field: Any) -> Any:
+        """Keeps a field by the key that it shows; its problem stays until something else is chosen."""
+        self.fields[path] = field.props("debounce=300").classes("wide").without_auto_validation()
         return field
 
     def file(self, path: str, label: str, ends: set[str], value: str, change: Callable[[str], None]) -> None:
@@ -225,6 +229,10 @@ class Page:
         label = key.name.replace("_", " ") + (f" [{key.unit}]" if key.unit else "")
 
         def change(value: Any) -> None:
+            if value == self.chosen.keys(family).get(key.name, key.default):
+                return
+            if path in self.fields:
+                self.fields[path].props(remove="hint")
             keys = {**self.chosen.keys(family), key.name: None if value == key.default else value}
             self.choose(self.chosen.with_table(family, kind, keys))
             try:
@@ -274,10 +282,12 @@ class Page:
             (rows, columns), (dx, dy) = body.heights.shape, body.spacing
             lines = [f"{columns} × {rows} heights along x and y, {dx:.4g} m × {dy:.4g} m apart"]
             lines += [f"Sq {rough.rms_height:.3g} m, Sa {rough.mean_deviation:.3g} m, Sdq {rough.rms_gradient:.3g}, Ssk {rough.skewness:.2g}, Sku {rough.kurtosis:.2g}"]
-            for name, value in guessed.keys("indenter").items():
-                if name not in chosen.keys("indenter"):
-                    lines.append(f"{name.replace('_', ' ')} {value} is a guess")
-                    self.fields[f"indenter.height-map.{name}"].set_value(value)
+            new = {name: value for name, value in guessed.keys("indenter").items() if name not in chosen.keys("indenter")}
+            self.project.choose(self.chosen.with_table("indenter", "height-map", guessed.keys("indenter")))
+            for name, value in new.items():
+                field = self.fields[f"indenter.height-map.{name}"]
+                field.set_value(value)
+                field.props('hint="this is a guess"')
             raw(paragraphs([*lines, *dict.fromkeys([*body.notes, *rough.warnings])]) + picture)
 
         background_tasks.create(self.later(self.of_surface, "indenter.height-map.file", look, tell))
@@ -291,8 +301,8 @@ class Page:
             self.number("load.velocity.fastest", "fastest speed [m/s]", chosen.fastest, lambda value: self.choose(fastest=value))
             self.number("load.velocity.count", "number of speeds", chosen.n_speeds, lambda value: self.choose(n_speeds=value))
             text = " ".join(f"{one:g}" for one in chosen.temperatures)
-            hot = ui.input("temperatures [°C], between blanks", value=text, on_change=lambda event: self.choose_temperatures(event.value)).classes("wide")
-            self.fields["material.file.temperature"] = hot.props("debounce=300 inputmode=text")
+            hot = ui.input("temperatures [°C], between blanks", value=text, on_change=lambda event: self.choose_temperatures(event.value))
+            self.field("material.file.temperature", hot)
             self.number("solve.relative_error", "relative error of the computation", chosen.relative_error, lambda value: self.choose(relative_error=value))
             ui.switch("band of the material", value=chosen.band, on_change=lambda event: self.choose(band=event.value))
             self.file("measured", "measured friction", TABLES, chosen.measured, self.choose_measured)
@@ -375,7 +385,6 @@ class Page:
         points = [point["customdata"] for point in event.args["points"] if point.get("customdata")]
         if points:
             self.point.set_value(f"{points[0][0]}:{points[0][1]}")
-            ui.run_javascript(f"getHtmlElement({self.point.id}).scrollIntoView({{behavior: 'smooth'}})")
 
     def look_at_point(self, chosen: str | None) -> None:
         computation = self.project.computation
@@ -390,7 +399,11 @@ class Page:
             pictures = [image(answer.plot(_curves.new_axes(), field), f"{field} of the contact") for field in fields]
             return f"<p>{html.escape(title)}</p>" + "".join(pictures) + answer._repr_html_()
 
-        background_tasks.create(self.later(self.of_point, "", look, raw))
+        def tell(found: str) -> None:
+            raw(found)
+            ui.run_javascript(f"setTimeout(() => getHtmlElement({self.point.id}).scrollIntoView({{behavior: 'smooth'}}), 200)")
+
+        background_tasks.create(self.later(self.of_point, "", look, tell))
 
     # What leads on.
 
