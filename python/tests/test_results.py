@@ -6,6 +6,7 @@ import copy
 import math
 import pickle
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -197,6 +198,8 @@ def test_a_master_curve_a_map_and_a_temperature_are_drawn() -> None:
     assert fit.measured is not None and (axes.lines[0].get_ydata() == fit.measured.storage).all()
     with pytest.raises(ValueError, match="the fit of a table"):
         vf.fit_relaxation(SPEEDS, fit.material.relaxation_modulus(SPEEDS)).plot()
+    narrow = replace(fit, measured=vf.Moduli(np.array([1.0, 2.0, 3.0]), np.array([1e6, 2e6, 3e6]), np.array([1e6, 1e6, 1e6])))
+    assert narrow.plot().get_xscale() == "linear"
     heights = np.array([[0.0, 1e-6, 0.0], [1e-6, 5e-6, 1e-6], [0.0, 1e-6, 0.0]])
     axes = vf.HeightMap(heights, 1e-5).plot()
     drawn = np.asarray(axes.collections[0].get_array()).reshape(3, 3)

@@ -221,7 +221,6 @@ def master_curve(fit: Any, ax: Any) -> Any:
     for name, curve, known, colour in zip(("G′", "G″"), fitted, (points.storage, points.loss), COLOURS):
         ax.plot(points.angular_frequency, known, "o", color=colour, markersize=3, fillstyle="none", label=f"{name} measured")
         ax.plot(omega, curve, color=colour, label=name)
-    ax.set(yscale="log")
     ax.legend()
     shifted = ("angular frequency a_T ω [rad/s]", "modulus G/b_T [Pa]") if fit.shifts else ("angular frequency ω [rad/s]", "modulus G [Pa]")
     return tidy(ax, *shifted, (omega, np.concatenate(fitted)))

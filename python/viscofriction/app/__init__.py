@@ -18,9 +18,6 @@ from urllib.parse import parse_qs
 Scope = MutableMapping[str, Any]
 Send = Callable[[Scope], Awaitable[None]]
 
-#: Ports that are tried one after the other.
-PORTS = range(8080, 8180)
-
 
 class Guard:
     """Lets in who has the token, from the address that is printed or from the cookie that this leaves, and nobody else."""
@@ -38,11 +35,12 @@ class Guard:
         is_here = headers.get(b"host") in self.hosts
         if is_here and self._is_token(self._from_cookie(headers.get(b"cookie", ""))):
             await self.app(scope, receive, send)
-        elif is_here and scope["type"] == "http" and self._is_token(parse_qs(scope["query_string"].decode("latin-1")).get("token", [""])[0]):
+        elif is_here and scope["type"] == "http" and self._is_token(_from_address(scope["query_string"])):
             cookie = f"{self.cookie}={self.token}; HttpOnly; SameSite=Strict; Path=/"
             await _answer(send, 303, [(b"location", b"/"), (b"set-cookie", cookie.encode())], b"")
         elif scope["type"] == "http":
-            await _answer(send, 403, [(b"content-type", b"text/plain")], b"Open the address that viscofriction-app has printed; it has the token.")
+            advice = b"Open the address that viscofriction-app has printed; it has the token."
+            await _answer(send, 403, [(b"content-type", b"text/plain")], advice)
         else:
             await send({"type": "websocket.close", "code": 1008})
 
@@ -56,6 +54,10 @@ class Guard:
             return ""
 
 
+def _from_address(query: bytes) -> str:
+    return parse_qs(query.decode("latin-1")).get("token", [""])[0]
+
+
 async def _answer(send: Send, status: int, headers: list[tuple[bytes, bytes]], body: bytes) -> None:
     await send({"type": "http.response.start", "status": status, "headers": headers})
     await send({"type": "http.response.body", "body": body})
@@ -64,8 +66,8 @@ async def _answer(send: Send, status: int, headers: list[tuple[bytes, bytes]], b
 def main() -> None:
     """Runs the program."""
     parser = argparse.ArgumentParser(prog="viscofriction-app", description="Friction over speed and temperature in the browser.")
-    parser.add_argument("folder", nargs="?", type=Path, default=Path(), help="folder of the files, and of all that is computed [default: this one]")
-    parser.add_argument("--port", type=int, help=f"port of this machine at which the page is [default: the first free one from {PORTS[0]}]")
+    parser.add_argument("folder", nargs="?", type=Path, default=Path(), help="folder of files and results [default: this one]")
+    parser.add_argument("--port", type=int, default=0, help="port of this machine at which the page is [default: a free one]")
     parser.add_argument("--threads", type=int, default=os.cpu_count(), help="threads that compute [default: one per core]")
     parser.add_argument("--no-browser", action="store_true", help="print the address only")
     options = parser.parse_args()
@@ -73,9 +75,13 @@ def main() -> None:
         parser.error(f"{options.folder} is no folder")
     if options.threads is None or options.threads < 1:
         parser.error(f"--threads must be at least 1, but is {options.threads}")
-    port = _free_port([options.port] if options.port is not None else PORTS)
-    if port is None:
-        parser.error("the port is taken or not allowed; --port N takes another one")
+    with socket.socket() as listener:
+        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            listener.bind(("127.0.0.1", options.port))
+        except (OSError, OverflowError) as error:
+            parser.error(f"--port {options.port}: {error}")
+        port = listener.getsockname()[1]
     # The threads of all computations of this process.
     os.environ["RAYON_NUM_THREADS"] = str(options.threads)
     try:
@@ -107,15 +113,3 @@ def main() -> None:
     # A browser that is busy, or a machine that sleeps, comes back to the page as it was.
     ui.run(host="127.0.0.1", port=port, favicon="μ", reconnect_timeout=60.0, **quiet)
 
-
-def _free_port(ports: list[int] | range) -> int | None:
-    """The first port at which nobody listens."""
-    for port in ports:
-        with socket.socket() as listener:
-            listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-            try:
-                listener.bind(("127.0.0.1", port))
-            except (OSError, OverflowError):
-                continue
-            return port
-    return None

@@ -8,6 +8,7 @@ import shlex
 import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, field, fields, replace
+from itertools import product
 from pathlib import Path
 from pprint import pformat
 from typing import Any
@@ -86,6 +87,12 @@ class Choices:
         return not self.material.endswith(".toml")
 
     @property
+    def of_fit(self) -> dict[str, Any]:
+        """The options of the fit that are chosen."""
+        options = {"deformation": self.deformation, "vertical": self.vertical, "reference_temperature": self.reference_temperature}
+        return {option: value for option, value in options.items() if value is not None}
+
+    @property
     def force_key(self) -> str:
         """The key of the load that is chosen."""
         return "mean_pressure" if self.is_periodic else "normal_force"
@@ -113,12 +120,7 @@ class Choices:
 
 def fit(choices: Choices, folder: Path) -> Fit:
     """The fit of the table of moduli. Raises ValueError with line and column."""
-    return vf.fit_material(
-        folder / choices.material,
-        deformation=choices.deformation,
-        vertical=choices.vertical,
-        reference_temperature=choices.reference_temperature,
-    )
+    return vf.fit_material(folder / choices.material, **choices.of_fit)
 
 
 def guessed_temperatures(found: Fit) -> tuple[float, ...]:
@@ -170,7 +172,8 @@ def _table(choices: Choices, family: str) -> dict[str, Any]:
 
 def speeds(choices: Choices) -> list[float]:
     """The speeds [m/s], in equal factors, with three digits. Raises ValueError for what is missing or out of its range."""
-    first, last = (_positive(f"load.velocity.{name}", value) for name, value in (("slowest", choices.slowest), ("fastest", choices.fastest)))
+    first = _positive("load.velocity.slowest", choices.slowest)
+    last = _positive("load.velocity.fastest", choices.fastest)
     count = choices.n_speeds
     if count is None or count != int(count) or not 1 <= count <= 1000:
         raise ValueError(f"load.velocity.count must be a whole number from 1 to 1000, but is {_shown(count)}")
@@ -183,7 +186,7 @@ def speeds(choices: Choices) -> list[float]:
 def vary(choices: Choices) -> dict[str, list[float]]:
     """The keys that vary, as ``vf.sweep`` takes them; the speed varies fastest."""
     if len(choices.temperatures) > LARGEST_COUNT:
-        raise ValueError(f"material.file.temperature: at most {LARGEST_COUNT} temperatures are curves of one picture, and these are {len(choices.temperatures)}")
+        raise ValueError(f"material.file.temperature: at most {LARGEST_COUNT} temperatures are drawn")
     if len(set(choices.temperatures)) < len(choices.temperatures):
         raise ValueError("material.file.temperature: a temperature is given twice")
     hot = {"material.file.temperature": list(choices.temperatures)} if choices.temperatures else {}
@@ -231,17 +234,14 @@ def scene_text(table: Mapping[str, Any]) -> str:
 def command(choices: Choices, name: str) -> str:
     """The commands of the program that compute the same in the folder, or go on with what is there."""
     # A list has two values and more.
-    lists = {key: ",".join(map(repr, values)) if len(values) > 1 else f"{values[0]!r}:{values[0]!r}:1" for key, values in vary(choices).items()}
-    varied = [f"--vary {key}={values}" for key, values in lists.items()]
+    several = {key: ",".join(map(repr, values)) for key, values in vary(choices).items()}
+    varied = [f"--vary {key}={values if ',' in values else f'{values}:{values}:1'}" for key, values in several.items()]
     sensitivity = ["--sensitivity"] * choices.band
     measured = ["--measured", shlex.quote(choices.measured)] if choices.measured else []
-    lines = []
-    for part in parts(choices, name):
-        words = ["viscofriction sweep", f"{part}.toml", *varied, *sensitivity, *measured, f"--resume --out {part}.csv"]
-        lines.append(" ".join(words))
+    options = " ".join([*varied, *sensitivity, *measured])
+    lines = [f"viscofriction sweep {part}.toml {options} --resume --out {part}.csv" for part in parts(choices, name)]
     if choices.is_fitted:
-        options = {"deformation": choices.deformation, "vertical": choices.vertical, "reference-temperature": choices.reference_temperature}
-        given = [f"--{option} {value}" for option, value in options.items() if value is not None]
+        given = [f"--{option.replace('_', '-')} {value}" for option, value in choices.of_fit.items()]
         words = ["viscofriction fit-material", shlex.quote(choices.material), *given, f"--out {name}-fit"]
         lines.insert(0, f"# {name}-material.toml is the material.toml of: {' '.join(words)}")
     return "\n".join(lines) + "\n"
@@ -251,8 +251,7 @@ def python(choices: Choices, name: str) -> str:
     """A program in Python that computes the same in the folder."""
     lines = ["from pathlib import Path", "", "import viscofriction as vf", ""]
     if choices.is_fitted:
-        options = {"deformation": choices.deformation, "vertical": choices.vertical, "reference_temperature": choices.reference_temperature}
-        given = "".join(f", {option}={value!r}" for option, value in options.items() if value is not None)
+        given = "".join(f", {option}={value!r}" for option, value in choices.of_fit.items())
         lines += [f"fit = vf.fit_material({choices.material!r}{given})"]
         lines += [f"Path({material_file(choices, name)!r}).write_text(fit.material.to_toml(), encoding='utf-8')", ""]
     else:
@@ -297,19 +296,13 @@ def stored(choices: Choices, folder: Path) -> str:
 def at_point(folder: Path, part: str, sweep: Sweep, row: int) -> dict[str, Any]:
     """The scene of one point of a sweep, with its files where they are."""
     table = tomllib.loads((folder / f"{part}.toml").read_text("utf-8"))
-    for key in sweep.keys:
-        _inner(table, key)[key.rsplit(".", 1)[1]] = float(sweep[key][row])
-    for key in ("indenter.file", "material.path", "interface.file", "strain.file"):
-        family, name = key.split(".")
-        for keys in table.get(family, {}).values():
-            if isinstance(keys, dict) and name in keys:
-                keys[name] = str(folder.absolute() / keys[name])
-    return table
-
-
-def _inner(table: dict[str, Any], key: str) -> dict[str, Any]:
-    for step in key.split(".")[:-1]:
-        table = table[step]
+    files = [keys for family in (*FAMILIES, "material") for keys in table.get(family, {}).values() if isinstance(keys, dict)]
+    for keys, name in product(files, ("file", "path")):
+        if name in keys:
+            keys[name] = str(folder.absolute() / keys[name])
+    points = {key: float(sweep[key][row]) for key in sweep.keys}
+    table["load"]["velocity"] = points.pop("load.velocity")
+    table["material"]["file"] |= {"temperature": temperature for temperature in points.values()}
     return table
 
 

@@ -28,17 +28,23 @@ SHOWN = {"file", "unit", "spacing", "edges", "level", "shortest_wavelength", "di
 TITLES = {"indenter": "2. Body", "interface": "Shear in the contact", "heat": "Heat of sliding", "strain": "Strain dependence"}
 #: What a kind begins with.
 GUESSED: dict[str, dict[str, Any]] = {"height-map": {"edges": "mirrored", "level": True}}
-VERTICAL = {None: "as the isotherms show", "none": "moduli do not change", "entropic": "with the absolute temperature", "free": "a factor of each"}
+VERTICAL = {None: "as the isotherms show", "none": "none", "entropic": "with the absolute temperature", "free": "a factor of each"}
 DEFORMATION = {None: "as the names of the columns say", "tension": "E: tension", "shear": "G: shear"}
+SPEEDS = (
+    ("slowest", "load.velocity.slowest", "slowest speed [m/s]"),
+    ("fastest", "load.velocity.fastest", "fastest speed [m/s]"),
+    ("n_speeds", "load.velocity.count", "number of speeds"),
+    ("relative_error", "solve.relative_error", "relative error of the computation"),
+)
 FIELDS: tuple[Literal["pressure", "temperature"], ...] = ("pressure", "temperature")
 STYLE = """
-body { font-family: system-ui, sans-serif } h1 { font-size: 1.3rem; line-height: 1.5 } h2 { font-size: 1.1rem; font-weight: 600; line-height: 1.3 }
+body { font-family: system-ui, sans-serif } h1 { font-size: 1.3rem; line-height: 1.5 } h2 { font-size: 1.1rem; font-weight: 600 }
 .both { display: grid; grid-template-columns: minmax(0, 1fr); gap: 1rem; width: 100%; align-items: start }
 @media (min-width: 1000px) { .both { grid-template-columns: 24rem minmax(0, 1fr) }
   .both > :last-child { position: sticky; top: 5rem; max-height: calc(100vh - 6rem); overflow: auto; flex-wrap: nowrap } }
 .q-card, .q-uploader, .wide { width: 100% } .q-uploader { min-height: 0 } .q-uploader__list, .q-uploader__subtitle { display: none }
 .body--dark .q-btn--outline { color: #9cd2ff !important }
-.body--dark .js-plotly-plot text { fill: #ddd !important } img { max-width: 100% } pre, code { white-space: pre-wrap !important; font-size: 0.8rem }
+.body--dark .js-plotly-plot text { fill: #ddd !important } img { max-width: 100% } pre, code { white-space: pre-wrap !important }
 table { font-size: 0.85rem; display: block; overflow: auto } td, th { padding: 0.1rem 0.5rem; text-align: right }
 """
 
@@ -105,6 +111,13 @@ class Page:
             field.error = str(error)
         self.problem.set_text(str(error))
 
+    def tried(self, work: Callable[[], Any], place: str = "") -> Any:
+        """What comes of it, or None where it is refused, which is said."""
+        try:
+            return work()
+        except (ValueError, OSError) as error:
+            self.refuse(error, place)
+
     async def later(self, place: Any, path: str, work: Callable[[], Any], tell: Callable[[Any], None]) -> None:
         """Does what takes a while in a thread, and tells what came of it unless something else is wanted since."""
         mark = self.marks[place] = object()
@@ -113,7 +126,7 @@ class Page:
             ui.spinner(size="lg").props('aria-label="working"')
         try:
             found = await run.io_bound(work)
-        except (ValueError, OSError, vf.NotReached) as error:
+        except Exception as error:  # Whatever it is, the page says it, and stays.
             if self.marks[place] is mark:
                 place.clear()
                 self.refuse(error, path)
@@ -125,8 +138,8 @@ class Page:
 
     # What is chosen.
 
-    def select(self, path: str, label: str, options: Mapping[Any, str] | list[str], value: Any, change: Callable[[Any], None]) -> Any:
-        field = ui.select(dict(options) if isinstance(options, Mapping) else options, label=label, value=value, on_change=lambda event: change(event.value))
+    def select(self, path: str, label: str, options: dict[Any, str] | list[str], value: Any, change: Callable[[Any], None]) -> Any:
+        field = ui.select(options, label=label, value=value, on_change=lambda event: change(event.value))
         return self.field(path, field)
 
     def number(self, path: str, label: str, value: float | None, change: Callable[[float | None], None]) -> Any:
@@ -158,15 +171,19 @@ class Page:
         chosen = self.chosen
         with ui.card():
             raw("<h2>1. Material</h2>")
-            self.file("material", "table of moduli", TABLES | {".toml"}, chosen.material, lambda name: self.choose_material(material=name))
+            self.file("material", "table of moduli", TABLES | {".toml"}, chosen.material, partial(self.choose_material, "material"))
             with ui.expansion("master curve").classes("wide"):
-                self.number("reference_temperature", "reference temperature", chosen.reference_temperature, lambda value: self.choose_material(reference_temperature=value))
-                self.select("vertical", "vertical shift", VERTICAL, chosen.vertical, lambda value: self.choose_material(vertical=value))
-                self.select("deformation", "moduli", DEFORMATION, chosen.deformation, lambda value: self.choose_material(deformation=value))
+                name = "reference_temperature"
+                self.number(name, "reference temperature", chosen.reference_temperature, partial(self.choose_material, name))
+                for name, label, words in (("vertical", "vertical shift", VERTICAL), ("deformation", "moduli", DEFORMATION)):
+                    self.select(name, label, words, getattr(chosen, name), partial(self.choose_material, name))
             self.of_material = ui.column().classes("wide")
 
-    def choose_material(self, **changed: Any) -> None:
-        self.choose(**changed)
+    def choose_one(self, name: str, value: Any) -> None:
+        self.choose(**{name: value})
+
+    def choose_material(self, name: str, value: Any) -> None:
+        self.choose_one(name, value)
         self.look_at_material()
 
     def look_at_material(self) -> None:
@@ -202,16 +219,17 @@ class Page:
             form.clear()
             with form:
                 keys = () if kind is None else listed[kind].keys
-                first = [key for key in keys if kind != "height-map" or key.name in SHOWN]
-                for key in first:
-                    self.key(family, kind or "", key)
-                if len(first) < len(keys):
+                rare = [key for key in keys if kind == "height-map" and key.name not in SHOWN]
+                for key in keys:
+                    if key not in rare:
+                        self.key(family, kind or "", key)
+                if rare:
                     with ui.expansion("more").classes("wide"):
-                        for key in keys:
-                            if key not in first:
-                                self.key(family, kind or "", key)
+                        for key in rare:
+                            self.key(family, kind or "", key)
                 if family == "heat" and kind is not None:
-                    ui.switch("also without heat", value=self.chosen.cold_too, on_change=lambda event: self.choose(cold_too=event.value))
+                    both = ui.switch("also without heat", value=self.chosen.cold_too)
+                    both.on_value_change(lambda event: self.choose_one("cold_too", event.value))
             if family == "indenter":
                 self.look_at_surface()
 
@@ -235,10 +253,7 @@ class Page:
                 self.fields[path].props(remove="hint")
             keys = {**self.chosen.keys(family), key.name: None if value == key.default else value}
             self.choose(self.chosen.with_table(family, kind, keys))
-            try:
-                _choices.check(self.chosen, family)
-            except ValueError as error:
-                self.refuse(error)
+            self.tried(lambda: _choices.check(self.chosen, family))
             if family == "indenter":
                 self.look_at_surface()
 
@@ -281,7 +296,8 @@ class Page:
             rough = body.roughness
             (rows, columns), (dx, dy) = body.heights.shape, body.spacing
             lines = [f"{columns} × {rows} heights along x and y, {dx:.4g} m × {dy:.4g} m apart"]
-            lines += [f"Sq {rough.rms_height:.3g} m, Sa {rough.mean_deviation:.3g} m, Sdq {rough.rms_gradient:.3g}, Ssk {rough.skewness:.2g}, Sku {rough.kurtosis:.2g}"]
+            lines += [f"Sq {rough.rms_height:.3g} m, Sa {rough.mean_deviation:.3g} m, Sdq {rough.rms_gradient:.3g}"]
+            lines += [f"Ssk {rough.skewness:.2g}, Sku {rough.kurtosis:.2g}"]
             new = {name: value for name, value in guessed.keys("indenter").items() if name not in chosen.keys("indenter")}
             self.project.choose(self.chosen.with_table("indenter", "height-map", guessed.keys("indenter")))
             for name, value in new.items():
@@ -296,22 +312,17 @@ class Page:
         chosen = self.chosen
         with ui.card():
             raw("<h2>3. Load and speeds</h2>")
-            self.force = self.number("load", chosen.force_label, chosen.force, lambda value: self.choose(force=value))
-            self.number("load.velocity.slowest", "slowest speed [m/s]", chosen.slowest, lambda value: self.choose(slowest=value))
-            self.number("load.velocity.fastest", "fastest speed [m/s]", chosen.fastest, lambda value: self.choose(fastest=value))
-            self.number("load.velocity.count", "number of speeds", chosen.n_speeds, lambda value: self.choose(n_speeds=value))
+            self.force = self.number("load", chosen.force_label, chosen.force, partial(self.choose_one, "force"))
+            for name, path, label in SPEEDS:
+                self.number(path, label, getattr(chosen, name), partial(self.choose_one, name))
             text = " ".join(f"{one:g}" for one in chosen.temperatures)
             hot = ui.input("temperatures [°C], between blanks", value=text, on_change=lambda event: self.choose_temperatures(event.value))
             self.field("material.file.temperature", hot)
-            self.number("solve.relative_error", "relative error of the computation", chosen.relative_error, lambda value: self.choose(relative_error=value))
-            ui.switch("band of the material", value=chosen.band, on_change=lambda event: self.choose(band=event.value))
+            ui.switch("band of the material", value=chosen.band, on_change=lambda event: self.choose_one("band", event.value))
             self.file("measured", "measured friction", TABLES, chosen.measured, self.choose_measured)
 
     def choose_temperatures(self, text: str) -> None:
-        try:
-            self.choose(temperatures=_choices.temperatures(text or ""))
-        except ValueError as error:
-            self.refuse(error)
+        self.tried(lambda: self.choose(temperatures=_choices.temperatures(text or "")))
 
     # What comes of it.
 
@@ -340,17 +351,11 @@ class Page:
 
     def compute(self) -> None:
         self.choose()
-        try:
-            self.project.compute()
-        except ValueError as error:
-            self.refuse(error)
+        self.tried(self.project.compute)
 
     def choose_measured(self, name: str) -> None:
         self.choose(measured=name)
-        try:
-            self.project.measured()
-        except (ValueError, OSError) as error:
-            self.refuse(error, "measured")
+        self.tried(self.project.measured, "measured")
 
     def refresh(self) -> None:
         """Shows the state, and the points where there are other ones."""
@@ -360,21 +365,16 @@ class Page:
         self.bar.set_value(computation.done / computation.total if computation else 0.0)
         self.told.set_text(computation.told if computation else "nothing is computed yet")
         state = computation and (computation, computation.done, computation.state, self.chosen.measured)
-        if state == self.seen:
+        if computation is None or state == self.seen:
             return
         self.seen = state
-        if computation is not None:
-            if computation.problem:
-                self.refuse(ValueError(computation.problem))
-            self.draw()
+        if computation.problem:
+            self.refuse(ValueError(computation.problem))
+        self.draw()
 
     def draw(self) -> None:
-        try:
-            sweeps, measured = self.project.sweeps(), self.project.measured()
-        except (ValueError, OSError) as error:
-            self.refuse(error)
-            return
-        self.plot.update_figure(_curves.plotly(sweeps, measured))
+        sweeps = self.tried(self.project.sweeps) or {}
+        self.plot.update_figure(_curves.plotly(sweeps, self.tried(self.project.measured, "measured")))
         self.point.set_options({f"{part}:{row}": text for (part, row), text in _curves.points(sweeps).items()})
         self.table.clear()
         with self.table:
@@ -409,21 +409,16 @@ class Page:
 
     def show(self, kind: str) -> None:
         """Texts by the names of their files, to be read, copied and saved."""
+        texts = self.tried(lambda: self.project.exported(kind)) or {}
         with ui.dialog() as dialog, ui.card():
-            for name, text in self.exported(kind).items():
+            for name, text in texts.items():
                 raw(f"<h2>{html.escape(name)}</h2>")
                 ui.code(text.decode()).classes("wide")
                 ui.button("Save", on_click=partial(ui.download.content, text, name)).props("no-caps outline")
             ui.button("Close", on_click=dialog.close).props("no-caps")
-        dialog.open()
+        dialog.set_value(bool(texts))
 
     def give(self, kind: str) -> None:
-        for name, content in self.exported(kind).items():
+        for name, content in (self.tried(lambda: self.project.exported(kind)) or {}).items():
             ui.download.content(content, name)
 
-    def exported(self, kind: str) -> dict[str, bytes]:
-        try:
-            return self.project.exported(kind)
-        except (ValueError, OSError) as error:
-            self.refuse(error)
-            return {}

@@ -34,7 +34,6 @@ class Computation:
 
     def __init__(self, folder: Path, choices: Choices, name: str) -> None:
         self.folder, self.choices, self.name = folder, choices, name
-        self.state: State = "ready"
         self.problem = ""
         counts = {part: len(vf.read_sweep(self.table(part))) for part in _choices.parts(choices, name) if self.table(part).exists()}
         self._done = dict.fromkeys(_choices.parts(choices, name), 0) | counts
@@ -45,10 +44,7 @@ class Computation:
         self._begun: tuple[float, int] = (0.0, 0)
         self._wanted = threading.Event()
         self._thread: threading.Thread | None = None
-        if self.done == self.total:
-            self.state = "finished"
-        elif self.done:
-            self.state = "stopped"
+        self.state: State = "finished" if self.done == self.total else "stopped" if self.done else "ready"
 
     @classmethod
     def newest(cls, folder: Path) -> Computation | None:
@@ -235,12 +231,11 @@ class Project:
         """Files by their names: "Scene file", "Command", "Python", "CSV", "SVG", "PNG" or "Report" of what is shown. Raises ValueError for
         what is missing in the choices, and without points."""
         choices, name = self.shown()
-        if kind == "Scene file":
-            return {f"{part}.toml": _choices.scene_text(table).encode() for part, table in _choices.parts(choices, name).items()}
-        if kind == "Command":
-            return {f"{name}.sh": _choices.command(choices, name).encode()}
-        if kind == "Python":
-            return {f"{name}.py": _choices.python(choices, name).encode()}
+        scenes = {f"{part}.toml": _choices.scene_text(table) for part, table in _choices.parts(choices, name).items()}
+        texts = {"Scene file": scenes, "Command": {f"{name}.sh": _choices.command(choices, name)}}
+        texts |= {"Python": {f"{name}.py": _choices.python(choices, name)}}
+        if kind in texts:
+            return {file: text.encode() for file, text in texts[kind].items()}
         sweeps = self.sweeps()
         if not any(map(len, sweeps.values())):
             raise ValueError("there are no points yet")
@@ -251,5 +246,5 @@ class Project:
             return {f"{name}.{kind.lower()}": _curves.picture(axes, kind.lower())}
         svg = _curves.picture(axes, "svg").decode()
         tables = "".join(f"<h2>{part}</h2>{sweep._html(all_rows=True)}" for part, sweep in sweeps.items())
-        texts = {file: text.decode() for of in ("Scene file", "Command", "Python") for file, text in self.exported(of).items()}
-        return {f"{name}.html": html_page(f"Friction over the speed: {name}", svg[svg.index("<svg") :] + tables, texts).encode()}
+        below = {file: text for of in texts.values() for file, text in of.items()}
+        return {f"{name}.html": html_page(f"Friction over the speed: {name}", svg[svg.index("<svg") :] + tables, below).encode()}
