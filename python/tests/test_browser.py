@@ -112,7 +112,8 @@ class Visitor:
 
     def shoot(self, name: str) -> None:
         if SHOTS is not None:
-            self.page.wait_for_timeout(600)
+            # Bars and lists move to where they belong.
+            self.page.wait_for_timeout(1500)
             self.page.screenshot(path=Path(SHOTS) / f"{name}.png")
 
     def leave(self) -> None:

@@ -38,12 +38,11 @@ SPEEDS = (
 )
 FIELDS: tuple[Literal["pressure", "temperature"], ...] = ("pressure", "temperature")
 STYLE = """
-body { font-family: system-ui, sans-serif } h1 { font-size: 1.3rem; line-height: 1.5 } h2 { font-size: 1.1rem; font-weight: 600 }
+body { font-family: system-ui, sans-serif } h1, h2 { font-size: 1.2rem; font-weight: 600; line-height: 1.4 }
 .both { display: grid; grid-template-columns: minmax(0, 1fr); gap: 1rem; width: 100%; align-items: start }
 @media (min-width: 1000px) { .both { grid-template-columns: 24rem minmax(0, 1fr) }
   .both > :last-child { position: sticky; top: 5rem; max-height: calc(100vh - 6rem); overflow: auto; flex-wrap: nowrap } }
 .q-card, .q-uploader, .wide { width: 100% } .q-uploader { min-height: 0 } .q-uploader__list, .q-uploader__subtitle { display: none }
-.body--dark .q-btn--outline { color: #9cd2ff !important }
 .body--dark .js-plotly-plot text { fill: #ddd !important } img { max-width: 100% } pre, code { white-space: pre-wrap !important }
 table { font-size: 0.85rem; display: block; overflow: auto } td, th { padding: 0.1rem 0.5rem; text-align: right }
 """
@@ -338,15 +337,15 @@ class Page:
             self.plot.on("plotly_click", self.clicked, ["points"])
             with ui.row().classes("wide"):
                 for kind in ("Scene file", "Command", "Python"):
-                    ui.button(kind, on_click=partial(self.show, kind)).props("outline no-caps")
+                    ui.button(kind, on_click=partial(self.show, kind), color=None).props("outline no-caps")
                 for kind in ("CSV", "SVG", "PNG", "Report"):
-                    ui.button(kind, on_click=partial(self.give, kind)).props("outline no-caps icon=download")
+                    ui.button(kind, on_click=partial(self.give, kind), color=None).props("outline no-caps icon=download")
             with ui.expansion("all points as a table").classes("wide"):
                 self.table = ui.column().classes("wide")
         with ui.card():
             raw("<h2>The contact of a point</h2>")
             chooser = ui.select({}, label="point, or click on one", on_change=lambda event: self.look_at_point(event.value))
-            self.point = chooser.classes("wide")
+            self.point = chooser.classes("wide").style("scroll-margin-top: 4rem")
             self.of_point = ui.column().classes("wide")
 
     def compute(self) -> None:
@@ -414,7 +413,7 @@ class Page:
             for name, text in texts.items():
                 raw(f"<h2>{html.escape(name)}</h2>")
                 ui.code(text.decode()).classes("wide")
-                ui.button("Save", on_click=partial(ui.download.content, text, name)).props("no-caps outline")
+                ui.button("Save", on_click=partial(ui.download.content, text, name), color=None).props("no-caps outline")
             ui.button("Close", on_click=dialog.close).props("no-caps")
         dialog.set_value(bool(texts))
 
