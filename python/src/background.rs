@@ -28,11 +28,12 @@ pub(crate) fn all<T: Send + 'static>(
 ) -> PyResult<Vec<T>> {
     let mut results = Vec::with_capacity(count);
     each(py, count, threads, work, |finished| {
+        let is_news = !finished.is_empty();
         results.extend(finished);
-        if let Some(progress) = progress {
-            progress.call1((results.len(), count))?;
+        match progress {
+            Some(progress) if is_news => progress.call1((results.len(), count)).map(drop),
+            _ => Ok(()),
         }
-        Ok(())
     })?;
     results.sort_unstable_by_key(|(index, _)| *index);
     Ok(results.into_iter().map(|(_, result)| result).collect())
@@ -40,7 +41,8 @@ pub(crate) fn all<T: Send + 'static>(
 
 /// Passes the results of `work` for 0 to `count` − 1 with their indices to `take`, soon after they are ready and in any order.
 ///
-/// After an interruption the finished results are passed on and no new work starts; running work is discarded.
+/// `take` is called at least every 50 ms, without results if none is ready, and stops the work by an exception. After that, or an
+/// interruption, no new work starts; running work is discarded.
 pub(crate) fn each<T: Send + 'static>(
     py: Python<'_>,
     count: usize,
@@ -74,9 +76,7 @@ pub(crate) fn each<T: Send + 'static>(
         // Check signals first, but pass on the results before raising.
         let looked = py.check_signals();
         taken += finished.len();
-        if !finished.is_empty() {
-            take(finished)?;
-        }
+        take(finished)?;
         looked?;
         if has_ended {
             return Err(failed("the work has panicked"));

@@ -97,6 +97,29 @@ impl Measured<'_> {
     }
 }
 
+/// The points of a table of measured friction, and notes on what the reader assumed, as JSON.
+#[pyfunction]
+pub(crate) fn read_friction(
+    py: Python<'_>,
+    file: PathBuf,
+    track_radius: Option<f64>,
+    run_in: Option<f64>,
+) -> PyResult<String> {
+    let read = || {
+        let options = FrictionTableOptions {
+            track_radius,
+            run_in,
+        };
+        let FrictionTable { points, notes } =
+            friction_points(&file, &read_table(&file).map_err(wrong)?, &options).map_err(wrong)?;
+        let in_file = |error| wrong(format!("{}: {error}", file.display()));
+        FrictionPoint::check_all(&points).map_err(in_file)?;
+        let found = serde_json::json!({ "points": points, "notes": notes });
+        Ok(found.to_string())
+    };
+    py.detach(read)
+}
+
 /// Fits a material to friction; returns JSON.
 #[pyfunction]
 pub(crate) fn fit_points(py: Python<'_>, measured: Measured<'_>) -> PyResult<String> {

@@ -18,7 +18,7 @@ mod tables;
 #[pyo3::pymodule(name = "_native")]
 mod native {
     #[pymodule_export]
-    use super::friction::fit_points;
+    use super::friction::{fit_points, read_friction};
     #[pymodule_export]
     use super::indentation::fit_curve;
     #[pymodule_export]
@@ -28,10 +28,11 @@ mod native {
     #[pymodule_export]
     use super::moduli::{fit_isotherms, read_moduli, shifted};
     #[pymodule_export]
-    use super::roughness::{check_height_map, surface_numbers};
+    use super::roughness::{check_height_map, read_heights, surface_numbers};
     #[pymodule_export]
     use super::solving::{
-        printed, quantities, shared_warnings, solve_loads, sweep_plan, sweep_points, sweep_problem,
+        changed_row, printed, quantities, shared_warnings, solve_loads, sweep_plan, sweep_points,
+        sweep_problem,
     };
     #[pymodule_export]
     use super::tables::{check_table, toml_text};

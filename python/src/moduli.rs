@@ -43,11 +43,14 @@ pub(crate) fn read_moduli<'py>(
         shear_per_tension: shear_per_tension(poisson_ratio).map_err(wrong)?,
         deformation,
     };
-    let contents = read_table(&file).map_err(wrong)?;
+    let read = || {
+        let contents = read_table(&file).map_err(wrong)?;
+        measured_moduli(&file, &contents, &options).map_err(wrong)
+    };
     let MeasuredModuli {
         measurements,
         celsius,
-    } = measured_moduli(&file, &contents, &options).map_err(wrong)?;
+    } = py.detach(read)?;
     let measured = match measurements {
         Measurements::Relaxation(points) => {
             let times = points.iter().map(|point| point.time).collect();
@@ -143,7 +146,9 @@ pub(crate) fn fit_isotherms<'py>(
     };
     let isotherms: Vec<Isotherm> = isotherms.iter().map(isotherm).collect();
     let shifting = superposition.shifting()?;
-    let found = moduli::master_curve(&isotherms, celsius, shifting).map_err(wrong)?;
+    let found = py
+        .detach(|| moduli::master_curve(&isotherms, celsius, shifting))
+        .map_err(wrong)?;
     let master = found.master;
     let shift = found.shift.map(|shift| serde_json::to_string(&shift));
     let dictionary = fitted(py, Ok(master.curve), &options)?;

@@ -495,8 +495,25 @@ pub(crate) fn sweep_problem(
     Ok(problems.next())
 }
 
+/// Index of the first row of a table with these names of columns that was changed, with the reason; None if all rows are as
+/// they were computed.
+#[pyfunction]
+pub(crate) fn changed_row(header: Vec<String>, rows: Vec<Vec<String>>) -> Option<(usize, String)> {
+    let rows = rows.into_iter().enumerate();
+    rows.map(|(place, fields)| {
+        (
+            place,
+            SweepRow {
+                point: place,
+                fields,
+            },
+        )
+    })
+    .find_map(|(place, row)| Some((place, row.check(&header).err()?.to_string())))
+}
+
 /// Computes points of a sweep. `take` receives lists of points and their rows, as the program writes them, soon after they are
-/// computed and in any order.
+/// computed and in any order, and at least every 50 ms an empty list.
 #[pyfunction]
 pub(crate) fn sweep_points<'py>(
     py: Python<'py>,

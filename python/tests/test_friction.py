@@ -112,3 +112,16 @@ def test_runs_over_time_are_read_as_their_means(tmp_path: Path) -> None:
     np.testing.assert_allclose(fit.mu, mu, rtol=1e-9)
     np.testing.assert_allclose(fit.velocity, SPEEDS, rtol=1e-9)
     assert fit.prior == "none" and "8 runs at constant speed" in fit.notes[0]
+
+
+def test_a_table_of_friction_is_read_in_si(tmp_path: Path) -> None:
+    table = tmp_path / "friction.csv"
+    table.write_text("v (mm/s),T (C),mu,standard error\n10,0,0.2,0.01\n20,5,0.3,0.02\n")
+    read = vf.read_friction(table)
+    assert read.velocity.tolist() == [0.01, 0.02] and read.mu.tolist() == [0.2, 0.3]
+    assert read.standard_error is not None and read.standard_error.tolist() == [0.01, 0.02]
+    assert read.temperature is not None and read.temperature.tolist() == [0.0, 5.0] and read.normal_force is None
+    assert read == vf.read_friction(str(table)) and read.notes == ()
+    table.write_text("v (mm/s),mu\n10,20\n20,30\n")
+    with pytest.raises(ValueError, match="friction.csv, line 2, column 2 .*expected a friction coefficient of at most 10"):
+        vf.read_friction(table)

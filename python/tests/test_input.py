@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import re
 from collections.abc import Callable
 from pathlib import Path
@@ -260,3 +261,19 @@ def test_strain_dependences_are_checked_when_they_are_made() -> None:
     softer = vf.slide(BALL, RUBBER, normal_force=1.0, velocity=0.1, relative_error=0.05, strain=vf.KrausStrain(0.01, 0.3))
     assert softer.strain is not None and softer.strain > 0
     assert softer.friction_coefficient != softer.linear_friction_coefficient
+
+
+@pytest.mark.parametrize("family", ["indenter", "interface", "heat", "strain"])
+def test_every_kind_is_listed_with_its_keys(family: Any) -> None:
+    listed = vf.kinds(family)
+    assert listed and all(kind.meaning for kind in listed.values())
+    for kind in listed.values():
+        made = next(one for name in vf._kinds.__all__ if (one := getattr(vf, name))._family == family and one._kind == kind.name)
+        assert {key.name for key in kind.keys} == {field.name for field in dataclasses.fields(made)}
+        # Required keys first, as in a call; those of a family without kinds have no name of a table.
+        assert [key.is_required for key in kind.keys] == sorted((key.is_required for key in kind.keys), reverse=True)
+        assert all(key.words for key in kind.keys if key.entry in ("word", "share"))
+    assert vf.kinds("indenter")["sphere"].keys[0].unit == "m"
+    assert vf.kinds("indenter")["spectrum"].keys[-4].name == "convention"
+    assert list(vf.kinds("indenter")["spectrum"].keys[-4].words) == ["persson", "surface-topography"]
+    assert vf.kinds("heat")[""].keys[0].unit == "W/m/K"

@@ -36,6 +36,23 @@ def test_a_sweep_has_the_rows_of_the_program(program: Callable[..., str], tmp_pa
     assert [row.split(",")[1:] for row in ours] == [row.split(",")[1:] for row in theirs]
 
 
+def test_what_one_of_them_began_the_other_goes_on_with(program: Callable[..., str], tmp_path: Path) -> None:
+    scene, speeds = SCENES / "ball-on-rubber.toml", [1e-3, 1e-2, 1e-1, 1.0]
+    vary = ["--vary", "load.velocity=1e-3:1:4:log"]
+    program("sweep", scene, *vary, "--out", tmp_path / "whole.csv")
+    whole = (tmp_path / "whole.csv").read_text()
+    begun = "".join(whole.splitlines(keepends=True)[:3])
+    for name, resume in {
+        "theirs.csv": lambda file: program("sweep", scene, *vary, "--resume", "--out", file),
+        "ours.csv": lambda file: vf.sweep(scene, {"load.velocity": speeds}, out=file, resume=True),
+    }.items():
+        vf.sweep(scene, {"load.velocity": speeds}, out=tmp_path / name, stop=lambda: True)
+        assert len(vf.read_sweep(tmp_path / name)) == 0
+        (tmp_path / name).write_text(begun)
+        resume(tmp_path / name)
+        assert (tmp_path / name).read_text() == whole
+
+
 @pytest.mark.parametrize(("option", "named"), [("--sensitivity", {"sensitivity": True}), ("--samples 3", {"samples": 3})])
 def test_a_sweep_of_uncertain_numbers_has_the_rows_of_the_program(
     option: str, named: dict[str, Any], program: Callable[..., str], tmp_path: Path
@@ -179,5 +196,9 @@ def test_a_table_of_an_instrument_has_the_fit_of_the_program(
             fit.at(24.0)
     assert fit.vertical == ("none" if len(temperatures) > 1 else None) and len(fit.shifts) == len(fit.log10_factors)
     moduli = vf.read_moduli(table)
+    assert fit.measured is not None and fit.measured.storage is not None and moduli.storage is not None
+    assert np.array_equal(np.sort(fit.measured.storage), np.sort(moduli.storage))
+    storage_residuals, loss_residuals = fit.residuals
+    assert max(abs(storage_residuals).max(), abs(loss_residuals).max()) < 0.02, "the points do not lie on the curve"
     assert moduli.time is None and moduli.storage is not None and moduli.storage.size == 17 * len(temperatures)
     assert (moduli.temperature is None) == (len(temperatures) == 1)

@@ -6,11 +6,14 @@ import copy
 import math
 import pickle
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from conftest import ROOT
+
 from conftest import ROOT
 
 import viscofriction as vf
@@ -149,6 +152,62 @@ def test_families_and_grids_are_drawn() -> None:
     assert texts[:2] == ["model: line, normal force F [N]: 1", "model: line, normal force F [N]: 2"] and len(texts) == 4
     with pytest.raises(ValueError, match="no key that varies has numbers"):
         vf.sweep(scene, {"solve.model": ["line", "half-space"]}).plot()
+
+
+def test_the_picture_of_a_sweep_has_what_the_program_draws(tmp_path: Path) -> None:
+    fit = vf.fit_material(ROOT / "examples/data/tread-rubber.csv", reference_temperature=20.0)
+    (tmp_path / "rubber.toml").write_text(fit.material.to_toml(), encoding="utf-8")
+    scene = {
+        "indenter": vf.Sphere(5e-3),
+        "material": vf.MaterialFile(tmp_path / "rubber.toml", temperature=20.0),
+        "interface": vf.ConstantShear(1e5),
+        "load": {"normal_force": 2.0, "velocity": 1.0},
+        "solve": {"relative_error": 0.05},
+    }
+    table = vf.sweep(scene, {"material.file.temperature": [0.0, 20.0], "load.velocity": [1e-3, 1e-2, 1e-1]}, sensitivity=True)
+    measured = vf.read_friction(ROOT / "examples/data/dry-friction.csv")
+    axes = table.plot(measured=measured, name="ball", style="-.")
+    texts = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert texts[:3] == [
+        "temperature T [°C]: 0, ball, hysteresis",
+        "temperature T [°C]: 20, ball, hysteresis",
+        "temperature T [°C]: 0, ball",
+    ]
+    assert "measured, 0 °C" in texts and len(texts) == 4 + np.unique(measured.temperature).size
+    upper = axes.collections[1].get_paths()[0].vertices[:, 1].max()
+    band = table["friction_coefficient"] + table["friction_coefficient_material_error"]
+    assert any(np.isclose(upper, band[points].max(), rtol=1e-12) for points in (slice(3), slice(3, None)))
+    file = tmp_path / "report.html"
+    table.to_html(file, picture=axes, texts={"the scene": "<scene> & more"})
+    page = file.read_text(encoding="utf-8")
+    assert "&lt;scene&gt; &amp; more" in page and "<svg" in page and page.count("<tr>") == 1 + len(table)
+    assert "http://" not in page.replace("http://www.w3.org", "").replace("http://purl.org", "").replace("http://creativecommons.org", "")
+    with pytest.raises(FileExistsError):
+        table.to_html(file)
+
+
+def test_a_master_curve_a_map_and_a_temperature_are_drawn() -> None:
+    fit = vf.fit_material(ROOT / "examples/data/tread-rubber.csv", reference_temperature=20.0)
+    assert fit.decisions[1:3] == ("relative error of G′: 1 % rms, 2.4 % at most", "relative error of G″: 1.6 % rms, 4.3 % at most")
+    assert fit.decisions[3:] == (
+        "material at 20 °C; its shift law holds from -40.24 °C to 39.94 °C",
+        "moduli do not change with temperature, b_T = 1",
+    )
+    axes = fit.plot()
+    assert (axes.get_xlabel(), axes.get_xscale(), axes.get_yscale()) == ("angular frequency a_T ω [rad/s]", "log", "log")
+    assert fit.measured is not None and (axes.lines[0].get_ydata() == fit.measured.storage).all()
+    with pytest.raises(ValueError, match="the fit of a table"):
+        vf.fit_relaxation(SPEEDS, fit.material.relaxation_modulus(SPEEDS)).plot()
+    narrow = replace(fit, measured=vf.Moduli(np.array([1.0, 2.0, 3.0]), np.array([1e6, 2e6, 3e6]), np.array([1e6, 1e6, 1e6])))
+    assert narrow.plot().get_xscale() == "linear"
+    heights = np.array([[0.0, 1e-6, 0.0], [1e-6, 5e-6, 1e-6], [0.0, 1e-6, 0.0]])
+    axes = vf.HeightMap(heights, 1e-5).plot()
+    drawn = np.asarray(axes.collections[0].get_array()).reshape(3, 3)
+    assert np.allclose(drawn, heights - heights.mean(), rtol=0, atol=1e-18)
+    heat = vf.Heat(0.25, density=1150.0, heat_capacity=1800.0)
+    answer = vf.slide(vf.Sphere(5e-3), fit.material, normal_force=0.2, velocity=0.01, heat=heat, interface=vf.ConstantShear(1e5), relative_error=0.1)
+    axes = answer.plot(field="temperature")
+    assert (np.ravel(axes.collections[0].get_array()) == np.ravel(answer.temperature)).all()
 
 
 def test_results_know_their_warnings_and_what_is_not_in_them() -> None:

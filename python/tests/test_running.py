@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import threading
+import time
 from pathlib import Path
 
 import numpy as np
@@ -145,6 +146,45 @@ def test_a_finished_table_that_is_resumed_says_so(tmp_path: Path) -> None:
     with pytest.warns(UserWarning, match=r"no point was computed: .*rows\.csv has all 2 already"):
         again = vf.sweep(SCENE, {"load.velocity": SPEEDS[:2]}, out=file, resume=True)
     assert again == whole
+
+
+def test_a_stopped_sweep_keeps_its_points_and_is_continued(tmp_path: Path) -> None:
+    file, speeds = tmp_path / "rows.csv", np.logspace(-4, 1, 40)
+    done: list[int] = []
+    part = vf.sweep(SCENE, {"load.velocity": speeds}, out=file, progress=lambda n, _: done.append(n), stop=lambda: len(done) >= 2)
+    assert 2 <= len(part) == done[-1] < 40 and (part["points"] == 40).all()
+    assert vf.read_sweep(file) == part
+    none = vf.sweep(SCENE, {"load.velocity": speeds}, out=file, resume=True, stop=lambda: True)
+    assert none == part
+    whole = vf.sweep(SCENE, {"load.velocity": speeds}, out=file, resume=True)
+    assert whole == vf.sweep(SCENE, {"load.velocity": speeds}) and len(whole) == 40
+
+
+def test_a_long_point_does_not_hold_up_a_stop() -> None:
+    scene = SCENE | {"solve": {"relative_error": 1e-6}}
+    until = time.monotonic() + 0.2
+    stopped = vf.sweep(scene, {"load.velocity": [1e-3, 1.0]}, stop=lambda: time.monotonic() > until)
+    assert time.monotonic() < until + 2.0 and len(stopped) <= 2
+
+
+def test_the_table_of_a_sweep_is_read_back(tmp_path: Path) -> None:
+    file = tmp_path / "rows.csv"
+    vary = {"load.velocity": SPEEDS, "solve.model": ["line", "half-space"]}
+    whole = vf.sweep(SCENE, vary, out=file)
+    assert vf.read_sweep(file) == whole
+    assert list(vf.read_sweep(file)["solve.model"][:2]) == ["line", "half-space"]
+    text = file.read_text()
+    file.write_text(text[:-20])
+    assert len(vf.read_sweep(file)) == len(whole) - 1
+    file.write_text(text.replace(f",{whole['friction_coefficient'][1]},", ",1.5,", 1))
+    with pytest.raises(ValueError, match='rows.csv, line 3: column .*friction_coefficient, is "1.5", and not what was computed'):
+        vf.read_sweep(file)
+    for other in (b"x,y\n1,2\n", b"\xff\xfe\x00", b""):
+        file.write_bytes(other)
+        with pytest.raises(ValueError, match="rows.csv is not the table of a sweep"):
+            vf.read_sweep(file)
+    with pytest.raises(ValueError, match="a regular file of at most"):
+        vf.read_sweep(tmp_path)
 
 
 SWEEPING = """

@@ -358,3 +358,41 @@ def test_many_surfaces_of_a_spectrum_have_their_mean_and_its_standard_error(tmp_
     assert known.standard_error["friction_coefficient"] <= 0.2 * known.mu
     with pytest.raises(ValueError, match=r"indenter\.spectrum\.realisations must be from 1 to 1000, but is 0"):
         vf.slide(vf.Spectrum(file, (1e-2, 1e-2), 3, realisations=0), rubber, **load)
+
+
+@pytest.mark.parametrize("name", ["scan.x3p", "scan.gsf"])
+def test_a_file_of_heights_is_read_as_a_scene_has_it(name: str, tmp_path: Path) -> None:
+    data = struct.pack("<525i", *COUNTS.ravel())
+    file = tmp_path / name
+    archive = io.BytesIO()
+    with zipfile.ZipFile(archive, "w") as parts:
+        parts.writestr("main.xml", X3P.format(dx=SPACING[0], dy=SPACING[1], step=STEP, kind="L", valid=""))
+        parts.writestr("bindata/data.bin", data)
+    file.write_bytes(archive.getvalue() if name.endswith("x3p") else gsf(HEIGHTS.astype(np.float32)))
+    read = vf.read_height_map(vf.HeightMapFile(file, level=True, direction=90, unit="mm"))
+    assert any("the file states the unit of its heights: unit has no effect" in note for note in read.notes)
+    given = vf.HeightMap(HEIGHTS, SPACING, level=True, direction=90)
+    one, other = (vf.press(body, vf.Elastic(1e6), indentation_depth=1e-6) for body in (read, given))
+    assert one.normal_force == other.normal_force and np.array_equal(one.pressure, other.pressure)
+    assert read.shortest_wavelength is None and read.edges == "wall"
+
+
+def test_a_file_that_holds_no_heights_is_refused_with_its_name(tmp_path: Path) -> None:
+    file = tmp_path / "notes.x3p"
+    file.write_text("no heights")
+    with pytest.raises(ValueError, match="^[^:]*notes.x3p: "):
+        vf.read_height_map(file)
+    with pytest.raises(ValueError, match="^[^:]*absent.csv: No such file"):
+        vf.read_height_map(vf.HeightMapFile(tmp_path / "absent.csv", spacing=(1e-6, 1e-6)))
+    np.save(tmp_path / "map.npy", HEIGHTS)
+    with pytest.raises(ValueError, match="^spacing: "):
+        vf.read_height_map(tmp_path / "map.npy")
+
+
+def test_a_unit_is_guessed_where_the_file_states_none(tmp_path: Path) -> None:
+    for name, factor in (("um", 1e6), ("nm", 1e9), ("mm", 1e3), (None, 1.0)):
+        file = tmp_path / f"{name}.csv"
+        np.savetxt(file, HEIGHTS * factor, delimiter=",")
+        guess = vf.plausible_unit(vf.HeightMapFile(file, spacing=SPACING))
+        # In mm slopes are within what surfaces have in µm, too, and µm are tried first.
+        assert guess == ("um" if name == "mm" else name), name

@@ -12,9 +12,22 @@ NotReached, which holds what was.
 
 from importlib.metadata import version as _version
 
-from . import _bodies, _fitting, _friction, _indentation, _kinds, _materials, _results, _solving, _sweeping, _tables
+from . import (
+    _bodies,
+    _fitting,
+    _forms,
+    _friction,
+    _indentation,
+    _kinds,
+    _materials,
+    _results,
+    _solving,
+    _sweeping,
+    _tables,
+)
 from ._bodies import *  # noqa: F403
 from ._fitting import *  # noqa: F403
+from ._forms import *  # noqa: F403
 from ._friction import *  # noqa: F403
 from ._indentation import *  # noqa: F403
 from ._kinds import *  # noqa: F403
@@ -28,6 +41,7 @@ __version__ = _version("viscofriction")
 __all__ = [
     *_bodies.__all__,
     *_fitting.__all__,
+    *_forms.__all__,
     *_friction.__all__,
     *_indentation.__all__,
     *_kinds.__all__,

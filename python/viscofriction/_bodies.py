@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -12,10 +13,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._arrays import Compared, numbers
-from ._kinds import Cone, Edges, HeightsAre, LengthUnit
+from ._kinds import Cone, Edges, HeightMapFile, HeightsAre, LengthUnit
 from ._tables import Body
 
-__all__ = ["HeightMap", "Pyramid", "Roughness"]
+__all__ = ["HeightMap", "Pyramid", "Roughness", "plausible_unit", "read_height_map"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,6 +120,8 @@ class HeightMap(Compared, Body):
         self.edges: Edges = edges
         #: Of a periodic surface the length [m] of the shortest waves; None for all that the grid knows.
         self.shortest_wavelength = shortest_wavelength
+        #: Of heights that were read from a file what is to be known of its units and holes, and what the reader assumed.
+        self.notes: tuple[str, ...] = ()
         _native.check_height_map(self.heights, self._table()[self._kind])
 
     @classmethod
@@ -154,8 +157,35 @@ class HeightMap(Compared, Body):
         """
         return Roughness(**_native.surface_numbers(self.heights, self._table()[self._kind]))
 
+    def plot(self, ax: Any = None) -> Any:
+        """Draws the heights about their mean; returns the axes of matplotlib."""
+        from . import _plotting
+
+        return _plotting.heights(self, _plotting.axes(ax))
+
     def _table(self) -> dict[str, Any]:
         names = "spacing unit heights_are direction fill_missing level edges shortest_wavelength"
         keys = {name: getattr(self, name) for name in names.split()}
         # The heights take the place of the file.
         return {self._kind: keys | {"file": "heights"}}
+
+
+def read_height_map(file: HeightMapFile | str | os.PathLike[str]) -> HeightMap:
+    """The surface in a file of heights, ``read_height_map(HeightMapFile("scan.xyz", unit="um"))``, as a scene with these keys has it.
+
+    Its heights are in metres and out of the body, with x along the motion, filled and levelled where that was asked for; ``notes`` say
+    what the reader assumed, such as units. Raises ValueError with the line of the file, or the key that does not fit it.
+    """
+    keys = file if isinstance(file, HeightMapFile) else HeightMapFile(file)
+    heights, spacing, notes = _native.read_heights(keys._table()[keys._kind])
+    surface = HeightMap(heights, spacing, edges=keys.edges, shortest_wavelength=keys.shortest_wavelength)
+    surface.notes = tuple(notes)
+    return surface
+
+
+def plausible_unit(file: HeightMapFile) -> LengthUnit | None:
+    """A guess at the unit of the heights in a file that does not state it: the first of m, µm, nm and mm with slopes as surfaces in contact
+    have them; None for metres, for a file that states its unit, and where no unit helps. Raises ValueError for another file."""
+    guesses: tuple[LengthUnit | None, ...] = (None, "um", "nm", "mm")
+    plain = (unit for unit in guesses if not any("unit" in note for note in read_height_map(replace(file, unit=unit)).notes))
+    return next(plain, None)

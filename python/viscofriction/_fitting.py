@@ -23,6 +23,12 @@ Deformation = Literal["tension", "shear"]
 #: How the moduli of isotherms change with temperature.
 Vertical = Literal["none", "entropic", "free"]
 
+_VERTICAL: dict[Vertical, str] = {
+    "none": "moduli do not change with temperature, b_T = 1",
+    "entropic": "moduli grow with the absolute temperature, b_T = T/T_r",
+    "free": "the moduli of each isotherm have a factor b_T",
+}
+
 __all__ = ["Fit", "IsothermShift", "Moduli", "fit_material", "fit_relaxation", "read_moduli", "scaling_factor"]
 
 
@@ -62,6 +68,8 @@ class Fit:
     ``temperature``: Of isotherms the temperature of the material, in the unit of the table.
     ``covariance``: Covariance [Pa²] of the moduli: the equilibrium modulus, and the branches in their order.
     ``covariance_method``: How it was found.
+    ``measured``: The moduli of a table that were fitted, of several isotherms shifted onto the master curve: at the frequencies a_T ω
+    the moduli over b_T, with the temperature at which each was measured.
     """
 
     material: Prony
@@ -76,6 +84,41 @@ class Fit:
     temperature: float | None = None
     covariance: Numbers | None = field(default=None, compare=False, repr=False)
     covariance_method: str | None = None
+    measured: Moduli | None = field(default=None, compare=False, repr=False)
+
+    @property
+    def residuals(self) -> tuple[Numbers, Numbers]:
+        """Relative errors of G' and G'' at the points of ``measured``: fitted over measured modulus, less 1."""
+        points = self.measured
+        if points is None or points.angular_frequency is None or points.storage is None or points.loss is None:
+            raise AttributeError("residuals belong to the fit of a table with storage and loss modulus")
+        omega = points.angular_frequency
+        fitted = self.material.storage_modulus(omega), self.material.loss_modulus(omega)
+        return fitted[0] / points.storage - 1, fitted[1] / points.loss - 1
+
+    @property
+    def decisions(self) -> tuple[str, ...]:
+        """What was found and decided, as sentences: the window, the residuals, the law of temperatures and the vertical shift."""
+        low, high = self.material.valid_frequencies or (0.0, 0.0)
+        lines = [f"{len(self.material.branches)} branches; measured from {low:.3g} rad/s to {high:.3g} rad/s, on the master curve of isotherms"]
+        for name, errors in (("G′", self.storage_error), ("G″", self.loss_error)):
+            if errors is not None:
+                lines.append(f"relative error of {name}: {100 * errors[0]:.2g} % rms, {100 * errors[1]:.2g} % at most")
+        if self.shift is not None:
+            first, last = self.shift["temperature_range"]
+            lines.append(f"material at {self.shift['temperature']:g} °C; its shift law holds from {first:g} °C to {last:g} °C")
+        if self.vertical is not None:
+            lines.append(_VERTICAL[self.vertical])
+        if not self.vertical_is_found:
+            lines.append("the isotherms do not show whether moduli change with temperature, and the errors of the moduli include both")
+        placed = ", ".join(f"{shift.temperature:g}" for shift in self.shifts if shift.placed_by_law)
+        return (*lines, f"placed by the shift law of the others: the isotherms of {placed}") if placed else tuple(lines)
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draws the moduli of a table and of the fit over the frequency, on the master curve; returns the axes of matplotlib."""
+        from . import _plotting
+
+        return _plotting.master_curve(self, _plotting.axes(ax))
 
     @property
     def material_with_error(self) -> Prony:
@@ -201,14 +244,16 @@ def _fit_table(
     isotherms = [(temperature, columns) for temperature, columns in parts if temperature is not None]
     if not isotherms:
         time, modulus = parts[0][1]
-        return _fit(_native.fit_relaxation(time, modulus, options), poisson_ratio)
+        relaxation = Moduli(time=time, modulus=modulus)
+        return replace(_fit(_native.fit_relaxation(time, modulus, options), poisson_ratio), measured=relaxation)
+    omega, storage, loss = isotherms[0][1]
     if celsius is None:
-        omega, storage, loss = isotherms[0][1]
-        return _fit(_native.fit_oscillation(omega, storage, loss, options), poisson_ratio)
+        found = _native.fit_oscillation(omega, storage, loss, options)
+        return replace(_fit(found, poisson_ratio), measured=Moduli(omega, storage, loss))
     found = _native.fit_isotherms(isotherms, celsius, superposition, options)
     fit = replace(_fit(found, poisson_ratio), temperature=found["temperature"])
     if len(isotherms) == 1:
-        return fit
+        return replace(fit, measured=Moduli(omega, storage, loss))
     errors = found.get("shift_errors") or [(None, None)] * len(isotherms)
     shifts = tuple(_isotherm_shift(*one, *error) for one, error in zip(found["shifts"], errors, strict=True))
     return replace(
@@ -217,7 +262,21 @@ def _fit_table(
         shifts=shifts,
         vertical=found["vertical"],
         vertical_is_found=found["vertical_is_found"],
+        measured=_master_curve(isotherms, shifts),
     )
+
+
+def _master_curve(isotherms: list[tuple[float, list[Numbers]]], shifts: tuple[IsothermShift, ...]) -> Moduli:
+    """The points of all isotherms where their shifts place them."""
+    of_temperature = {shift.temperature: shift for shift in shifts}
+    omega, storage, loss, temperatures = [], [], [], []
+    for temperature, (frequencies, elastic, viscous) in isotherms:
+        shift = of_temperature[temperature]
+        omega.append(frequencies * 10**shift.log10_factor)
+        storage.append(elastic / shift.modulus_factor)
+        loss.append(viscous / shift.modulus_factor)
+        temperatures.append(np.full(frequencies.size, temperature))
+    return Moduli(*map(np.concatenate, (omega, storage, loss, temperatures)))
 
 
 def _isotherm_shift(

@@ -19,7 +19,7 @@ from ._solving import Scene, given, read
 Numbers = NDArray[np.float64]
 Free = Literal["moduli", "shift", "interface"]
 
-__all__ = ["FrictionFit", "fit_friction"]
+__all__ = ["FrictionFit", "MeasuredFriction", "fit_friction", "read_friction"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -81,6 +81,42 @@ class FrictionFit(Compared):
         axes.plot(self.shifted_velocity[order], self.fitted_mu[order], label="fit")
         axes.legend()
         return _plotting.tidy(axes, "speed v a_T [m/s]", "friction coefficient μ", (self.shifted_velocity, None))
+
+
+@dataclass(frozen=True, eq=False)
+class MeasuredFriction(Compared):
+    """A table of measured friction in SI units, as arrays; columns that the table does not have are None.
+
+    ``velocity``, ``mu``: Speeds [m/s] and friction coefficients.
+    ``standard_error``: Standard errors of the friction coefficients.
+    ``temperature``, ``normal_force``: Temperature of the elastomer [°C], and normal force [N], of each point.
+    ``notes``: How the table was read where that is not plain: signs, means of runs.
+    """
+
+    velocity: Numbers
+    mu: Numbers
+    standard_error: Numbers | None
+    temperature: Numbers | None
+    normal_force: Numbers | None
+    notes: tuple[str, ...]
+
+
+def read_friction(
+    file: str | os.PathLike[str], *, track_radius: float | None = None, run_in: float | None = None
+) -> MeasuredFriction:
+    """The friction of a table as a tribometer exports it; names and units, separator, decimal mark and encoding are found.
+
+    Columns and options are those of ``fit_friction``. Raises ValueError with line and column.
+    """
+    found = json.loads(_native.read_friction(os.fspath(file), track_radius, run_in))
+
+    def column(name: str) -> Numbers | None:
+        values = [point[name] for point in found["points"]]
+        return None if None in values else np.array(values, dtype=float)
+
+    velocity, mu = (np.array([point[name] for point in found["points"]]) for name in ("velocity", "friction_coefficient"))
+    error, temperature, force = (column(name) for name in ("standard_error", "temperature", "normal_force"))
+    return MeasuredFriction(velocity, mu, error, temperature, force, tuple(found["notes"]))
 
 
 def fit_friction(

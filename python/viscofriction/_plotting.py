@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -36,6 +37,8 @@ PREFIXES = ["p", "n", "µ", "m", "", "k", "M", "G"]
 DARKEST = 0.01
 # With more lines than these a legend says nothing.
 LINES = 6
+# Beside friction, as the program draws them: the key in a table, what the legend says, and the line.
+BESIDE = (("friction_from_hysteresis", "hysteresis", ":"), ("persson_friction_coefficient_2006", "Persson (2006)", "--"))
 
 
 def axes(ax: Any) -> Any:
@@ -110,7 +113,23 @@ def plot(answer: Any, ax: Any) -> Any:
     return lines(axes(ax), (over, loads[over]), others, (quantity, np.ravel(values), np.ravel(errors)))
 
 
-def table(ax: Any, keys: dict[str, Values], drawn: tuple[str, Numbers, Numbers]) -> Any:
+@dataclass(frozen=True)
+class Beside:
+    """What stands beside the lines of a quantity.
+
+    ``band``: Half the width of a band around each line.
+    ``curves``: Curves in the colour of each line: what the legend says, the line of matplotlib, and the values.
+    ``name``: What the legend says of all lines.
+    ``style``: Of the lines, as matplotlib has it.
+    """
+
+    band: Numbers | None = None
+    curves: tuple[tuple[str, str, Numbers], ...] = ()
+    name: str = ""
+    style: str = "-"
+
+
+def table(ax: Any, keys: dict[str, Values], drawn: tuple[str, Numbers, Numbers], beside: Beside) -> Any:
     """A quantity over the key with the most numbers: a line for each combination of the others, or colours over two."""
     counts = {name: np.unique(values).size if values.dtype.kind == "f" else 0 for name, values in keys.items()}
     over = max(counts, key=lambda name: counts[name])
@@ -118,7 +137,7 @@ def table(ax: Any, keys: dict[str, Values], drawn: tuple[str, Numbers, Numbers])
         raise ValueError("no key that varies has numbers")
     others = {name: values for name, values in keys.items() if name != over}
     if len(set(families(others, keys[over].size))) <= LINES:
-        return lines(ax, (over, keys[over]), others, drawn)
+        return lines(ax, (over, keys[over]), others, drawn, beside)
     if len(others) == 1 and all(counts.values()):
         return grid(ax, list(keys.items()), drawn[:2])
     raise ValueError(f"the keys beside {over} have more than {LINES} combinations, and the picture would say nothing")
@@ -134,7 +153,11 @@ def families(others: dict[str, Values], count: int) -> list[str]:
 
 
 def lines(
-    ax: Any, over: tuple[str, Numbers], others: dict[str, Values], drawn: tuple[str, Numbers, Numbers]
+    ax: Any,
+    over: tuple[str, Numbers],
+    others: dict[str, Values],
+    drawn: tuple[str, Numbers, Numbers],
+    beside: Beside = Beside(),
 ) -> Any:
     """A quantity with its bars over another, one line for each combination of the others."""
     (name, where), (quantity, values, errors) = over, drawn
@@ -143,16 +166,24 @@ def lines(
     for family in distinct:
         of_family = np.flatnonzero(of == family)
         order = of_family[np.argsort(where[of_family], kind="stable")]
-        ax.errorbar(
+        named = ", ".join(filter(None, (family, beside.name)))
+        bars = ax.errorbar(
             where[order],
             values[order],
             yerr=errors[order],
             capsize=2,
             marker="o",
             markersize=3,
-            label=family or None,
+            linestyle=beside.style,
+            label=named or None,
         )
-    if 1 < len(distinct) <= LINES:
+        colour = bars.lines[0].get_color()
+        if beside.band is not None:
+            edges = values[order] - beside.band[order], values[order] + beside.band[order]
+            ax.fill_between(where[order], *edges, color=colour, alpha=0.2, linewidth=0)
+        for what, style, curve in beside.curves:
+            ax.plot(where[order], curve[order], style, color=colour, linewidth=1, label=", ".join(filter(None, (named, what))))
+    if 1 < len(distinct) <= LINES or beside.name or beside.curves:
         ax.legend()
     return tidy(ax, label(name), label(quantity), (where, None))
 
@@ -166,6 +197,69 @@ def grid(ax: Any, over: list[tuple[str, Numbers]], drawn: tuple[str, Numbers]) -
     image = ax.pcolormesh(x, y, values.T, shading="nearest", cmap=FIELD)
     ax.figure.colorbar(image, ax=ax, label=label(drawn[0]))
     return tidy(ax, label(first), label(second), (x, y))
+
+
+def measured(ax: Any, velocity: Numbers, mu: Numbers, error: Numbers | None, temperature: Numbers | None) -> Any:
+    """Measured friction as grey crosses, which are named by their temperature where there are several."""
+    temperatures = [None] if temperature is None else np.unique(temperature).tolist()
+    for nth, one in enumerate(temperatures):
+        chosen = slice(None) if temperature is None else temperature == one
+        name = "measured" if one is None else f"measured, {one:g} °C"
+        yerr = None if error is None else error[chosen]
+        ax.errorbar(velocity[chosen], mu[chosen], yerr, fmt="xv^s+d"[nth % 6], color="0.5", markersize=5, capsize=2, label=name)
+    ax.legend()
+    return ax
+
+
+def master_curve(fit: Any, ax: Any) -> Any:
+    """The moduli of a fit over the frequency, and the points that were fitted, where they are on its master curve."""
+    points = fit.measured
+    if points is None or points.angular_frequency is None:
+        raise ValueError("a picture belongs to the fit of a table with storage and loss modulus")
+    omega = np.geomspace(points.angular_frequency.min(), points.angular_frequency.max(), 200)
+    fitted = fit.material.storage_modulus(omega), fit.material.loss_modulus(omega)
+    for name, curve, known, colour in zip(("G′", "G″"), fitted, (points.storage, points.loss), COLOURS):
+        ax.plot(points.angular_frequency, known, "o", color=colour, markersize=3, fillstyle="none", label=f"{name} measured")
+        ax.plot(omega, curve, color=colour, label=name)
+    ax.legend()
+    shifted = ("angular frequency a_T ω [rad/s]", "modulus G/b_T [Pa]") if fit.shifts else ("angular frequency ω [rad/s]", "modulus G [Pa]")
+    return tidy(ax, *shifted, (omega, np.concatenate(fitted)))
+
+
+def heights(surface: Any, ax: Any) -> Any:
+    """A map in its colours, whose summits touch first, with the direction of motion."""
+    (rows, columns), (dx, dy) = surface.heights.shape, surface.spacing
+    shown = surface.heights - np.nanmean(surface.heights)
+    image = ax.pcolormesh(dx * np.arange(columns), dy * np.arange(rows), shown, shading="nearest", cmap=FIELD)
+    _coloured(ax, image, "height z [m]", float(np.nanmax(np.abs(shown))))
+    motion(ax)
+    return tidy(ax, "x [m]", "y [m]", (None, None))
+
+
+def _coloured(ax: Any, image: Any, name: str, largest: float) -> None:
+    """A field with its bar of colours, as it lies in the plane."""
+    factor, name = prefixed(name, (0.0, largest))
+    ax.figure.colorbar(image, ax=ax, label=name, format=in_units_of(factor or 1.0))
+    ax.set_aspect("equal")
+
+
+def motion(ax: Any) -> None:
+    """An arrow along the direction of motion."""
+    arrow = {"arrowstyle": "->"}
+    ax.annotate("", xy=(0.3, 0.06), xytext=(0.06, 0.06), xycoords="axes fraction", arrowprops=arrow)
+    ax.text(0.06, 0.09, "motion", bbox={"color": "white", "alpha": 0.7, "pad": 1}, transform=ax.transAxes)
+
+
+def temperature(answer: Any, ax: Any) -> Any:
+    """Rise of the temperature of the surface."""
+    rise = answer.temperature
+    if rise.shape[0] == 1:
+        ax.plot(answer.line_pressure[:, 0], rise[0])
+        return tidy(ax, "x [m]", "temperature rise [K]", (None, None))
+    image = ax.pcolormesh(answer.x, answer.y, rise, shading="nearest", cmap="inferno")
+    _coloured(ax, image, "temperature rise [K]", float(rise.max()))
+    motion(ax)
+    return tidy(ax, "x [m]", "y [m]", (None, None))
 
 
 def single(answer: Any, ax: Any) -> Any:
@@ -183,13 +277,9 @@ def single(answer: Any, ax: Any) -> Any:
         return tidy(ax, LABELS["indentation_depth"], LABELS["normal_force"], (None, None))
     pressure = np.ma.masked_less_equal(answer.pressure, 0.0)
     image = ax.pcolormesh(answer.x, answer.y, pressure, shading="nearest", cmap=FIELD, norm=colours(answer, pressure))
-    factor, name = prefixed("pressure P [Pa]", (0.0, float(pressure.max())))
-    ax.figure.colorbar(image, ax=ax, label=name, format=in_units_of(factor or 1.0))
-    ax.set_aspect("equal")
+    _coloured(ax, image, "pressure P [Pa]", float(pressure.max()))
     if answer.mu is not None:
-        arrow = {"arrowstyle": "->"}
-        ax.annotate("", xy=(0.3, 0.06), xytext=(0.06, 0.06), xycoords="axes fraction", arrowprops=arrow)
-        ax.text(0.06, 0.09, "motion", bbox={"color": "white", "alpha": 0.7, "pad": 1}, transform=ax.transAxes)
+        motion(ax)
     return tidy(ax, "x [m]", "y [m]", (None, None))
 
 

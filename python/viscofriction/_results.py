@@ -5,8 +5,8 @@ from __future__ import annotations
 import html
 import json
 import math
-from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -345,18 +345,25 @@ class Answer(Compared):
         notes = [*self.warnings, *failed]
         if self.shape == ():
             head = ["quantity", "value", "unit"]
-            return html_table(f"{self.method}, {self.model}", head, self._rows(), notes)
+            return html_table(f"{self.method}, {self.model}", head, self._rows(), notes) + self._budget_html()
         known = self._known()
         head = [*self.loads, *(with_unit(name, self._unit(name)) for name in known)]
         columns = [[_native.printed(load, 0.0) for load in np.ravel(values)] for values in self.loads.values()]
         columns += map(self._printed, known)
         return html_table(f"{len(self.failures)} answers", head, list(zip(*columns, strict=True)), notes)
 
-    def plot(self, ax: Any = None) -> Any:
-        """Draws friction with its bars over what varies, or the pressure of a single scene; returns the axes of matplotlib."""
+    def _budget_html(self) -> str:
+        """Where the uncertainty of the friction coefficient is from, if it is known."""
+        of_friction = {source: known.get("friction_coefficient", np.array(np.nan)) for source, known in self._by_number("budget").items()}
+        rows = [[source, f"{float(value):.2g}"] for source, value in of_friction.items() if not np.isnan(value)]
+        return html_table("standard uncertainty of the friction coefficient", ["source", "value"], rows, []) if rows else ""
+
+    def plot(self, ax: Any = None, field: Literal["pressure", "temperature"] = "pressure") -> Any:
+        """Draws friction with its bars over what varies, or the pressure or the temperature rise of a single scene; returns the axes of
+        matplotlib."""
         from . import _plotting
 
-        return _plotting.plot(self, ax)
+        return _plotting.temperature(self, _plotting.axes(ax)) if field == "temperature" else _plotting.plot(self, ax)
 
 
 class SlidingAnswer(Answer):
@@ -412,9 +419,11 @@ for _attribute_name, _name in ATTRIBUTES.items():
         setattr(Answer, _attribute_name + _end, _attribute(_name, _end))
 
 
-def html_table(caption: str, head: Sequence[str], rows: Sequence[Sequence[str]], notes: Sequence[str]) -> str:
-    """A table for a notebook, of many rows the first and the last, with sentences below it."""
-    if len(rows) > 2 * SHOWN:
+def html_table(
+    caption: str, head: Sequence[str], rows: Sequence[Sequence[str]], notes: Sequence[str], *, all_rows: bool = False
+) -> str:
+    """A table for a notebook, of many rows the first and the last unless ``all_rows`` are wanted, with sentences below it."""
+    if len(rows) > 2 * SHOWN and not all_rows:
         rows = [*rows[:SHOWN], ["…"] * len(head), *rows[-SHOWN:]]
 
     def line(cells: Sequence[str], tag: str) -> str:
@@ -423,6 +432,18 @@ def html_table(caption: str, head: Sequence[str], rows: Sequence[Sequence[str]],
     body = line(head, "th") + "".join(line(row, "td") for row in rows)
     paragraphs = "".join(f"<p>{html.escape(note)}</p>" for note in notes)
     return f"<table><caption>{html.escape(caption)}</caption>{body}</table>{paragraphs}"
+
+
+#: How pages of their own look.
+_STYLE = """body { font: 1em/1.4 sans-serif; max-width: 70em; margin: auto; padding: 1em } table { border-collapse: collapse; font-size: 0.8em;
+display: block; overflow: auto } td, th { padding: 0.2em 0.6em; text-align: right } pre { overflow: auto } svg { max-width: 100%; height: auto }"""
+
+
+def html_page(title: str, body: str, texts: Mapping[str, str]) -> str:
+    """A page of its own, without anything from elsewhere, whose end are texts that unfold."""
+    named = (f"<details><summary>{html.escape(name)}</summary><pre>{html.escape(text)}</pre></details>" for name, text in texts.items())
+    head = f'<meta charset="utf-8"><title>{html.escape(title)}</title><style>{_STYLE}</style>'
+    return f'<!doctype html><html lang="en"><head>{head}</head><body><h1>{html.escape(title)}</h1>{body}{"".join(named)}</body></html>\n'
 
 
 def not_reached(answer: Answer) -> None:

@@ -8,7 +8,7 @@ import os
 import shutil
 import warnings
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import IO, Any
 
@@ -17,14 +17,18 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._arrays import Compared, count, numbers, text_of
-from ._results import QUANTITIES, html_table, noted, with_bars, with_unit
-from ._solving import Progress, Scene, read, shown
+from ._friction import MeasuredFriction
+from ._results import QUANTITIES, html_page, html_table, noted, with_bars, with_unit
+from ._solving import LARGEST_SCENE, Progress, Scene, read, shown
 
-__all__ = ["Sweep", "sweep"]
+__all__ = ["Sweep", "read_sweep", "sweep"]
 
 # Columns that hold no numbers, and those that hold whole ones; keys may hold either.
 TEXTS = {"sweep", "check", "program", "method", "model", "warnings", "failure"}
 WHOLE = {"point", "points", "unknowns"}
+
+# Largest table that is read back: more rows than a sweep has points.
+LARGEST_SWEEP = 64 * LARGEST_SCENE
 
 Row = list[str]
 Finished = list[tuple[int, Row]]
@@ -91,22 +95,58 @@ class Sweep(Compared):
         return f"<{len(self)} points over {', '.join(self.keys)}{failures}{warnings}>"
 
     def _repr_html_(self) -> str:
+        return self._html()
+
+    def _html(self, *, all_rows: bool = False) -> str:
         known = [name for name in QUANTITIES if any(self._cells(name))]
         head = [*self.keys, *(with_unit(name, QUANTITIES[name][1][0]) for name in known)]
         columns = [self._cells(key) for key in self.keys]
         columns += [with_bars(self[name], self[f"{name}_error"]) for name in known]
         rows = list(zip(*columns, strict=True))
         failed = [f"not reached: {failure}" for failure in dict.fromkeys(self.failures) if failure]
-        return html_table(f"{len(self)} points", head, rows, [*self.warnings, *failed])
+        return html_table(f"{len(self)} points", head, rows, [*self.warnings, *failed], all_rows=all_rows)
 
-    def plot(self, ax: Any = None, quantity: str = "friction_coefficient") -> Any:
+    def plot(
+        self,
+        ax: Any = None,
+        quantity: str = "friction_coefficient",
+        *,
+        measured: MeasuredFriction | None = None,
+        name: str = "",
+        style: str = "-",
+    ) -> Any:
         """Draws a quantity with its bars over the key that has the most values, a line for each combination of the others where they
-        are few, or as colours over two; returns the axes of matplotlib."""
+        are few, or as colours over two; returns the axes of matplotlib.
+
+        Beside friction are its part from hysteresis, that of Persson's theory, and the band of an uncertain material, where they are
+        known, and ``measured`` friction. ``name`` is what the legend says of all lines, and ``style`` their line.
+        """
         from . import _plotting
 
         keys = {key: self[key] for key in self.keys}
         drawn = (quantity, self[quantity], self[quantity + "_error"])
-        return _plotting.table(_plotting.axes(ax), keys, drawn)
+        curves = _plotting.BESIDE if quantity == "friction_coefficient" else ()
+        known = tuple((what, line, values) for key, what, line in curves if (values := self._known(key)) is not None)
+        beside = _plotting.Beside(self._known(f"{quantity}_material_error"), known, name, style)
+        axes = _plotting.table(_plotting.axes(ax), keys, drawn, beside)
+        if measured is not None:
+            _plotting.measured(axes, measured.velocity, measured.mu, measured.standard_error, measured.temperature)
+        return axes
+
+    def to_html(self, file: str | os.PathLike[str], *, picture: Any = None, texts: Mapping[str, str] | None = None) -> None:
+        """Writes a page of its own with the picture, all points with their errors, the warnings, and ``texts`` by their names, such as the
+        scene; a file that is there is not replaced. ``picture`` are axes of matplotlib, those of ``plot`` unless others are given."""
+        drawn = io.StringIO()
+        (self.plot() if picture is None else picture).figure.savefig(drawn, format="svg")
+        svg = drawn.getvalue()
+        title = f"A sweep over {' and '.join(self.keys)}"
+        with Path(file).open("x", encoding="utf-8") as out:
+            out.write(html_page(title, svg[svg.index("<svg") :] + self._html(all_rows=True), texts or {}))
+
+    def _known(self, column: str) -> NDArray[np.float64] | None:
+        """The numbers of a column of which something is known."""
+        values = self[column] if column in self._header else np.array([np.nan])
+        return None if np.isnan(values).all() else values
 
 
 def sweep(
@@ -119,6 +159,7 @@ def sweep(
     out: str | os.PathLike[str] | None = None,
     resume: bool = False,
     progress: Progress = None,
+    stop: Callable[[], object] | None = None,
 ) -> Sweep:
     """Solves a scene for all combinations of the values of its keys, such as ``vary={"load.velocity": v}``.
 
@@ -133,6 +174,10 @@ def sweep(
     same to the last bit. ``out`` is a CSV file, to which each point is added, and ``progress`` called, as soon as it is finished,
     in any order; at the end the file is sorted. With ``resume`` the points that it holds are not computed again, as after
     an interruption; where it holds all of them a warning says so.
+
+    ``stop`` is asked about every 50 ms, with a client at every finished point: once it is true, no more points are computed, and
+    the sweep has those that are finished, fewer than its column ``points`` says. ``out`` keeps them, and ``resume`` goes on. Other
+    threads run while a sweep computes.
 
     What a method could not reach is part of its row. Raises ValueError for wrong input, before anything is computed.
     """
@@ -161,22 +206,64 @@ def sweep(
 
         def take(finished: Finished) -> None:
             nonlocal done
-            if file is not None:
+            if file is not None and finished:
                 file.write(_text(*(row for _, row in finished)))
                 file.flush()
             for point, row in finished:
                 rows[point] = row
             done += len(finished)
-            if show is not None:
+            if show is not None and finished:
                 show(done, len(rows))
+            if stop is not None and stop():
+                raise _Stopped
 
-        _compute(request, missing, client, take)
+        with suppress(_Stopped):
+            if missing:
+                take([])
+                _compute(request, missing, client, take)
         complete = [row for row in rows if row is not None]
         if out is not None:
             _sort(Path(out).resolve(), _text(header, *complete))
     if samples is not None:
         values["sample"] = np.arange(samples + 1.0)
     return Sweep(header, complete, values)
+
+
+class _Stopped(Exception):
+    """No more points are wanted."""
+
+
+def read_sweep(file: str | os.PathLike[str]) -> Sweep:
+    """The points in the table of a sweep, of this package or of the program, also while it is written and after an interruption.
+
+    A last line that is not complete is left out. Raises ValueError for another file, and for a row that was changed.
+    """
+    path = Path(file)
+    if not path.is_file() or path.stat().st_size > LARGEST_SWEEP:
+        raise ValueError(f"{path}: a regular file of at most {LARGEST_SWEEP} bytes is needed")
+    try:
+        text = path.read_bytes().decode("utf-8-sig")
+        header, *rows = list(csv.reader(io.StringIO(text[: text.rfind("\n") + 1]))) or [[]]
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise ValueError(f"{path} is not the table of a sweep: {error}") from None
+    if header[:3] != ["sweep", "point", "points"] or "check" not in header:
+        raise ValueError(f"{path} is not the table of a sweep, whose columns begin with sweep, point, points")
+    is_whole = [len(row) == len(header) and row[1].isdecimal() for row in rows]
+    problem = (is_whole.index(False), "there is no point") if not all(is_whole) else _native.changed_row(header, rows)
+    if problem is not None:
+        raise ValueError(f"{path}, line {problem[0] + 2}: {problem[1]}")
+    rows.sort(key=lambda row: int(row[1]))
+    keys = header[3 : header.index("check")]
+    cells = {key: [row[3 + place] for row in rows] for place, key in enumerate(keys)}
+    return Sweep(header, rows, {key: column if any(map(_is_text, column)) else () for key, column in cells.items()})
+
+
+def _is_text(cell: str) -> bool:
+    try:
+        float(cell)
+    except ValueError:
+        return True
+    return False
 
 
 def _values(key: str, wanted: Any) -> NDArray[np.float64] | list[str]:

@@ -1,0 +1,267 @@
+"""The page without a browser: what is chosen, and that scene file, command, program and tables of it are the same to the last bit."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from contextlib import closing
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from conftest import ROOT
+
+import viscofriction as vf
+
+pytest.importorskip("nicegui", reason="the page needs the extra app")
+
+from viscofriction.app import _choices, _curves, _work  # noqa: E402
+from viscofriction.app._choices import Choices  # noqa: E402
+
+DATA = ROOT / "examples" / "data"
+BALL = Choices(
+    material="tread-rubber.csv",
+    tables={"indenter": {"sphere": {"radius": 5e-3}}},
+    force=1.0,
+    slowest=1e-3,
+    fastest=1e-2,
+    n_speeds=2,
+    temperatures=(0.0, 20.0),
+    relative_error=0.1,
+)
+HOT = replace(
+    BALL,
+    tables={**BALL.tables, "interface": {"constant": {"shear_strength": 1e5}}, "heat": {"": {"conductivity": 0.25, "diffusivity": 1.2e-7}}},
+    n_speeds=1,
+)
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """A folder with files as a laboratory has them."""
+    for name in ("tread-rubber.csv", "road.x3p", "dry-friction.csv"):
+        shutil.copy(DATA / name, tmp_path)
+    return tmp_path
+
+
+def computed(choices: Choices, folder: Path) -> _work.Project:
+    project = _work.Project(folder)
+    project.choose(choices)
+    project.compute().wait()
+    assert project.computation is not None and project.computation.problem == "" and project.computation.state == "finished"
+    return project
+
+
+@pytest.mark.parametrize("choices", [BALL, replace(HOT, temperatures=(20.0,))], ids=["ball", "hot ball"])
+def test_scene_command_and_python_compute_the_same_table(choices: Choices, folder: Path, tmp_path: Path, program: Callable[..., str]) -> None:
+    project = computed(choices, folder)
+    tables = project.exported("CSV")
+    assert set(tables) == {"friction-1.csv", *(["friction-1-without-heat.csv"] if "heat" in choices.tables else [])}
+    # By the commands, from the scene files and from nothing else than the material.
+    for name in tables:
+        (folder / name).unlink()
+    [command] = project.exported("Command").values()
+    lines = [line for line in command.decode().splitlines() if not line.startswith("#")]
+    assert len(lines) == len(tables)
+    where = os.getcwd()
+    try:
+        os.chdir(folder)
+        for line in lines:
+            program(*line.split()[1:])
+    finally:
+        os.chdir(where)
+    assert {name: (folder / name).read_bytes() for name in tables} == tables
+    # By the program in Python, from the table of moduli.
+    elsewhere = tmp_path / "elsewhere"
+    elsewhere.mkdir()
+    shutil.copy(folder / "tread-rubber.csv", elsewhere)
+    [(name, script)] = project.exported("Python").items()
+    (elsewhere / name).write_bytes(script)
+    subprocess.run([sys.executable, name], check=True, cwd=elsewhere, env=os.environ | {"MPLBACKEND": "Agg"})
+    assert {name: (elsewhere / name).read_bytes() for name in tables} == tables
+    assert (elsewhere / "friction-1-material.toml").read_bytes() == (folder / "friction-1-material.toml").read_bytes()
+    for name, text in project.exported("Scene file").items():
+        assert (folder / name).read_bytes() == text
+
+
+def test_the_material_is_that_of_the_command_in_the_comment(folder: Path, program: Callable[..., str]) -> None:
+    choices = replace(BALL, reference_temperature=10.0, vertical="entropic", deformation="tension", band=False, n_speeds=1, temperatures=(10.0,))
+    project = computed(choices, folder)
+    [command] = project.exported("Command").values()
+    comment = command.decode().splitlines()[0].split(": ", 1)[1].split()[1:]
+    comment[comment.index("tread-rubber.csv")], comment[-1] = str(folder / "tread-rubber.csv"), str(folder / comment[-1])
+    program(*comment)
+    theirs, ours = (vf.MaterialFile(folder / name, temperature=10.0) for name in ("friction-1-fit/material.toml", "friction-1-material.toml"))
+    omega = np.logspace(-2, 6, 30)
+    assert (theirs.loss_modulus(omega) == ours.loss_modulus(omega)).all()
+
+
+def test_a_stopped_computation_goes_on_also_after_a_new_start(folder: Path) -> None:
+    many = replace(BALL, n_speeds=30, band=False)
+    project = _work.Project(folder)
+    project.choose(many)
+    computation = project.compute()
+    with pytest.raises(ValueError, match="a computation runs already"):
+        project.compute()
+    until = time.monotonic() + 30
+    while computation.done < 2 and time.monotonic() < until:
+        time.sleep(0.01)
+    project.stop()
+    computation.wait()
+    assert computation.state == "stopped" and 2 <= computation.done < computation.total == 60
+    assert "stopped; Compute goes on" in computation.told
+    kept = (folder / "friction-1.csv").read_text().splitlines()
+    again = _work.Project(folder)
+    assert again.choices == many and again.computation is not None and again.computation.told == computation.told
+    assert len(again.sweeps()["friction-1"]) == computation.done == len(kept) - 1
+    again.compute().wait()
+    assert again.computation.name == "friction-1" and again.computation.state == "finished"
+    assert set(kept) <= set((folder / "friction-1.csv").read_text().splitlines())
+    # Other choices, and other contents of a file, are another computation.
+    again.choose(replace(many, force=2.0, n_speeds=1))
+    again.compute().wait()
+    assert again.computation.name == "friction-2"
+    (folder / "tread-rubber.csv").write_bytes((folder / "tread-rubber.csv").read_bytes() + b"\n")
+    again.compute().wait()
+    assert again.computation.name == "friction-3"
+
+
+def test_points_are_drawn_with_their_parts_and_what_was_measured(folder: Path) -> None:
+    project = computed(HOT, folder)
+    project.choose(replace(HOT, measured="dry-friction.csv"))
+    drawn = _curves.plotly(project.sweeps(), project.measured())
+    json.dumps(drawn, allow_nan=False)
+    names = [trace["name"] for trace in drawn["data"] if trace.get("showlegend", True)]
+    assert names[:3] == ["0 °C", "0 °C, hysteresis", "0 °C, shear"] and "20 °C, without heat" in names and "measured, 0 °C" in names
+    points = _curves.points(project.sweeps())
+    assert points["friction-1-without-heat", 1] == "0.001 m/s, 20 °C, without heat" and len(points) == 4
+    assert project.computation is not None
+    answer, title = project.computation.point("friction-1", 1)
+    sweep = project.sweeps()["friction-1"]
+    assert title == "temperature 20, velocity 0.001" and answer.mu == sweep["friction_coefficient"][1]
+    assert answer.temperature.max() > 0
+    assert project.exported("SVG")["friction-1.svg"].lstrip().startswith(b"<?xml")
+    assert project.exported("PNG")["friction-1.png"].startswith(b"\x89PNG")
+    [report] = project.exported("Report").values()
+    page = report.decode()
+    assert page.count("<table>") == 2 and "[indenter.sphere]" in page and "viscofriction sweep" in page and "<script" not in page
+
+
+def test_a_height_map_is_guessed_at_and_said_so(folder: Path) -> None:
+    table = {"height-map": {"file": "road.x3p", "edges": "mirrored", "level": True}}
+    body, guessed = _choices.surface(replace(BALL, tables={"indenter": table}), folder)
+    assert guessed.keys("indenter") == table["height-map"] | {"shortest_wavelength": 3.2e-4} and guessed.is_periodic
+    np.savetxt(folder / "micrometres.csv", body.heights * 1e6, delimiter=",")
+    table = {"height-map": {"file": "micrometres.csv", "spacing": [4e-5, 4e-5]}}
+    other, guessed = _choices.surface(replace(BALL, tables={"indenter": table}), folder)
+    assert guessed.keys("indenter")["unit"] == "um" and not guessed.is_periodic and guessed.force_label == "normal force [N]"
+    assert np.allclose(other.heights, body.heights, rtol=0, atol=1e-18)
+    chosen = replace(BALL, tables={"indenter": {"height-map": table["height-map"] | {"unit": "mm"}}})
+    assert _choices.surface(chosen, folder)[1].keys("indenter")["unit"] == "mm"
+
+
+@pytest.mark.parametrize(
+    ("wrong", "problem"),
+    [
+        ({"material": ""}, "material: a table of moduli is needed"),
+        ({"tables": {}}, "indenter: a body is needed"),
+        ({"tables": {"indenter": {"sphere": {"radius": -1.0}}}}, "indenter.sphere.radius must be finite and greater than 0, but is -1"),
+        ({"tables": {"indenter": {"sphere": {"radius": None}}}}, "indenter.sphere.radius is needed: Radius > 0, [m]."),
+        ({"force": None}, "load.normal_force must be finite and greater than 0, but is missing"),
+        ({"slowest": -1.0}, "load.velocity.slowest must be finite and greater than 0, but is -1"),
+        ({"fastest": 1e-4}, "load.velocity.fastest must be greater than the slowest"),
+        ({"n_speeds": 2.5}, "load.velocity.count must be a whole number from 1 to 1000, but is 2.5"),
+        ({"temperatures": (0.0, 0.0)}, "material.file.temperature: a temperature is given twice"),
+        ({"temperatures": tuple(range(7))}, "material.file.temperature: at most 6 temperatures"),
+        ({"relative_error": 0.0}, "solve.relative_error must be finite and greater than 0, but is 0"),
+    ],
+)
+def test_what_is_wrong_is_named_before_anything_is_computed(wrong: dict[str, Any], problem: str, folder: Path) -> None:
+    project = _work.Project(folder)
+    project.choose(replace(BALL, **wrong))
+    with pytest.raises(ValueError) as refused:
+        project.compute()
+    assert str(refused.value).startswith(problem)
+    assert not list(folder.glob("friction-*"))
+
+
+@pytest.mark.parametrize(
+    ("wrong", "problem"),
+    [
+        ({"material": "road.x3p"}, "road.x3p"),
+        ({"temperatures": (0.0, 100.0)}, "material.file.temperature"),
+        ({"tables": {"indenter": {"height-map": {"file": "tread-rubber.csv"}}}}, "indenter.height-map.spacing"),
+    ],
+)
+def test_what_only_the_computation_finds_wrong_is_said(wrong: dict[str, Any], problem: str, folder: Path) -> None:
+    project = _work.Project(folder)
+    project.choose(replace(BALL, **wrong))
+    project.compute().wait()
+    assert project.computation is not None and project.computation.state == "failed" and problem in project.computation.problem
+
+
+def test_dropped_files_never_replace_others(folder: Path, tmp_path: Path) -> None:
+    project = _work.Project(folder)
+    before = (folder / "road.x3p").read_bytes()
+    dropped = tmp_path / "dropped"
+    for content, kept in ((b"other", "road (2).x3p"), (before, "road.x3p"), (b"third", "road (3).x3p")):
+        dropped.write_bytes(content)
+        assert project.keep("C:\\scans\\road.x3p", dropped) == kept
+        assert (folder / kept).read_bytes() == content
+    dropped.write_bytes(b"x")
+    assert project.keep("../../.hidden", dropped) == "hidden" and not dropped.exists()
+    assert (folder / "road.x3p").read_bytes() == before
+    assert project.files({".x3p"}) == ["road (2).x3p", "road (3).x3p", "road.x3p"]
+
+
+def test_choices_of_other_versions_and_damaged_ones_do_no_harm(folder: Path) -> None:
+    assert Choices.from_json(HOT.to_json()) == HOT
+    assert Choices.from_json('{"material": "a.csv", "colour": 1}') == Choices(material="a.csv")
+    for text in ("[]", '{"tables": 1}', "nothing"):
+        (folder / "viscofriction-app.json").write_text(text)
+        (folder / "friction-1.json").write_text(text)
+        project = _work.Project(folder)
+        assert project.choices == Choices() and project.computation is None
+
+
+def test_the_page_is_at_this_machine_and_needs_the_token(folder: Path) -> None:
+    import http.client
+    import urllib.parse
+
+    command = [sys.executable, "-c", "from viscofriction.app import main; main()", folder, "--no-browser", "--threads", "1"]
+    # NiceGUI behaves otherwise where it sees that it is tested.
+    environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST")}
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=folder, env=environment) as server:
+        assert server.stdout is not None
+        address = urllib.parse.urlsplit(server.stdout.readline().strip())
+        assert address.hostname == "127.0.0.1" and address.port is not None
+
+        def answer(path: str, **headers: str) -> tuple[int, str]:
+            with closing(http.client.HTTPConnection("127.0.0.1", address.port, timeout=10)) as connection:
+                connection.request("GET", path, headers=headers)
+                found = connection.getresponse()
+                return found.status, found.getheader("Set-Cookie") or ""
+
+        deadline = time.monotonic() + 20
+        while time.monotonic() < deadline:
+            try:
+                answer("/")
+                break
+            except ConnectionRefusedError:
+                time.sleep(0.1)
+        assert answer("/")[0] == answer("/?token=guess")[0] == answer("/_nicegui/socket.io/")[0] == 403
+        status, cookie = answer(f"/?{address.query}")
+        assert status == 303 and "HttpOnly" in cookie and "SameSite=Strict" in cookie
+        cookie = cookie.split(";")[0]
+        assert answer("/", Cookie=cookie)[0] == 200
+        assert answer("/", Cookie=cookie + "x")[0] == answer("/", Cookie=cookie, Host="elsewhere.example")[0] == 403
+        server.terminate()
+    refused = subprocess.run([*command[:3], folder / "absent"], capture_output=True, text=True, cwd=folder, env=environment)
+    assert refused.returncode == 2 and "absent is no folder" in refused.stderr

@@ -1,0 +1,423 @@
+"""The page: what is chosen on the left, what comes of it on the right."""
+
+from __future__ import annotations
+
+import base64
+import html
+import tempfile
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from typing import Any, Literal
+
+from nicegui import background_tasks, events, run, ui
+
+import viscofriction as vf
+
+from .._fitting import Fit
+from .._forms import Family, Key, kinds
+from . import _choices, _curves
+from ._choices import FAMILIES, MAPS, TABLES, Choices
+from ._work import Project
+
+#: Largest file that is dropped onto the page [bytes]; a larger one is put into the folder.
+LARGEST_DROP = 1 << 27
+#: Keys of a height map that most people need; the others unfold.
+SHOWN = {"file", "unit", "spacing", "edges", "level", "shortest_wavelength", "direction"}
+TITLES = {"indenter": "2. Body", "interface": "Shear in the contact", "heat": "Heat of sliding", "strain": "Strain dependence"}
+#: What a kind begins with.
+GUESSED: dict[str, dict[str, Any]] = {"height-map": {"edges": "mirrored", "level": True}}
+VERTICAL = {None: "as the isotherms show", "none": "none", "entropic": "with the absolute temperature", "free": "a factor of each"}
+DEFORMATION = {None: "as the names of the columns say", "tension": "E: tension", "shear": "G: shear"}
+SPEEDS = (
+    ("slowest", "load.velocity.slowest", "slowest speed [m/s]"),
+    ("fastest", "load.velocity.fastest", "fastest speed [m/s]"),
+    ("n_speeds", "load.velocity.count", "number of speeds"),
+    ("relative_error", "solve.relative_error", "relative error of the computation"),
+)
+FIELDS: tuple[Literal["pressure", "temperature"], ...] = ("pressure", "temperature")
+STYLE = """
+body { font-family: system-ui, sans-serif } h1, h2 { font-size: 1.2rem; font-weight: 600; line-height: 1.4 }
+.both { display: grid; grid-template-columns: minmax(0, 1fr); gap: 1rem; width: 100%; align-items: start }
+@media (min-width: 1000px) { .both { grid-template-columns: 24rem minmax(0, 1fr) }
+  .both > :last-child { position: sticky; top: 5rem; max-height: calc(100vh - 6rem); overflow: auto; flex-wrap: nowrap } }
+.q-card, .q-uploader, .wide { width: 100% } .q-uploader { min-height: 0 } .q-uploader__list, .q-uploader__subtitle { display: none }
+.body--dark .js-plotly-plot text { fill: #ddd !important } img { max-width: 100% } pre, code { white-space: pre-wrap !important }
+table { font-size: 0.85rem; display: block; overflow: auto } td, th { padding: 0.1rem 0.5rem; text-align: right }
+"""
+
+
+def image(ax: Any, meaning: str) -> str:
+    """A picture as a part of the page."""
+    return f'<img alt="{html.escape(meaning)}" src="data:image/png;base64,{base64.b64encode(_curves.picture(ax)).decode()}">'
+
+
+def paragraphs(lines: list[str] | tuple[str, ...]) -> str:
+    return "".join(f"<p>{html.escape(line)}</p>" for line in lines)
+
+
+def raw(content: str) -> None:
+    ui.html(content, sanitize=False).classes("wide")
+
+
+class Page:
+    """One view of the project; several may be open, and all of them show the same computation."""
+
+    def __init__(self, project: Project) -> None:
+        self.project = project
+        #: What shows the value of a key, and the problem with it, by the path of the key.
+        self.fields: dict[str, Any] = {}
+        self.marks: dict[Any, object] = {}
+        self.seen: Any = None
+        ui.add_css(STYLE)
+        ui.colors(primary="#005a91")
+        dark = ui.dark_mode(None)
+        with ui.header().classes("items-center justify-between"):
+            ui.html("<h1>Friction of rubber</h1>", sanitize=False)
+            ui.button("dark or light", on_click=dark.toggle).props("flat color=white no-caps")
+        with ui.element("main").classes("both"):
+            with ui.column().classes("wide"):
+                self.material()
+                self.family("indenter")
+                self.load()
+                for family in FAMILIES[1:]:
+                    self.family(family)
+            with ui.column().classes("wide"):
+                self.results()
+        ui.timer(0.5, self.refresh)
+        self.look_at_material()
+        self.look_at_surface()
+
+    @property
+    def chosen(self) -> Choices:
+        return self.project.choices
+
+    def choose(self, choices: Choices | None = None, **changed: Any) -> None:
+        self.project.choose(replace(choices or self.chosen, **changed))
+        self.problem.set_text("")
+        for field in self.fields.values():
+            field.error = None
+
+    def refuse(self, error: Exception, place: str = "") -> None:
+        """Says an error beside the field that it names, or the one that it belongs to, and beside the button."""
+        # A sentence begins with the key that is wrong, perhaps without those above it, and may end with other keys of its point.
+        text = str(error)
+        places = {path: 0 if text.startswith(f"{path.rpartition('.')[2]}:") else text.find(path) for path in self.fields}
+        named = sorted((at, -len(path), path) for path, at in places.items() if at >= 0)
+        field = self.fields.get(named[0][2] if named else place)
+        if field is not None:
+            field.error = str(error)
+        self.problem.set_text(str(error))
+
+    def tried(self, work: Callable[[], Any], place: str = "") -> Any:
+        """What comes of it, or None where it is refused, which is said."""
+        try:
+            return work()
+        except (ValueError, OSError) as error:
+            self.refuse(error, place)
+
+    async def later(self, place: Any, path: str, work: Callable[[], Any], tell: Callable[[Any], None]) -> None:
+        """Does what takes a while in a thread, and tells what came of it unless something else is wanted since."""
+        mark = self.marks[place] = object()
+        place.clear()
+        with place:
+            ui.spinner(size="lg").props('aria-label="working"')
+        try:
+            found = await run.io_bound(work)
+        except Exception as error:  # Whatever it is, the page says it, and stays.
+            if self.marks[place] is mark:
+                place.clear()
+                self.refuse(error, path)
+            return
+        if self.marks[place] is mark:
+            place.clear()
+            with place:
+                tell(found)
+
+    # What is chosen.
+
+    def select(self, path: str, label: str, options: dict[Any, str] | list[str], value: Any, change: Callable[[Any], None]) -> Any:
+        field = ui.select(options, label=label, value=value, on_change=lambda event: change(event.value))
+        return self.field(path, field)
+
+    def number(self, path: str, label: str, value: float | None, change: Callable[[float | None], None]) -> Any:
+        return self.field(path, ui.number(label, value=value, on_change=lambda event: change(event.value)).props("step=any"))
+
+    def field(self, path: str, field: Any) -> Any:
+        """Keeps a field by the key that it shows; its problem stays until something else is chosen."""
+        self.fields[path] = field.props("debounce=300").classes("wide").without_auto_validation()
+        return field
+
+    def file(self, path: str, label: str, ends: set[str], value: str, change: Callable[[str], None]) -> None:
+        """A file of the folder, or one that is dropped and kept there."""
+        names = self.project.files(ends)
+        chooser = self.select(path, label, names, value if value in names else None, lambda name: change(name or ""))
+        chooser.props("clearable")
+
+        async def keep(event: events.UploadEventArguments) -> None:
+            with tempfile.TemporaryDirectory(dir=self.project.folder, prefix=".dropped-") as folder:
+                dropped = Path(folder) / "file"
+                await event.file.save(dropped)
+                kept = await run.io_bound(self.project.keep, event.file.name, dropped)
+            chooser.set_options([*dict.fromkeys([*self.project.files(ends), kept])], value=kept)
+
+        upload = ui.upload(label="or drop a file here", auto_upload=True, max_file_size=LARGEST_DROP, on_upload=keep)
+        too_large = f"{path}: at most {LARGEST_DROP >> 20} MiB can be dropped; put a larger file into {self.project.folder}"
+        upload.props("flat bordered").on_rejected(lambda: self.refuse(ValueError(too_large)))
+
+    def material(self) -> None:
+        chosen = self.chosen
+        with ui.card():
+            raw("<h2>1. Material</h2>")
+            self.file("material", "table of moduli", TABLES | {".toml"}, chosen.material, partial(self.choose_material, "material"))
+            with ui.expansion("master curve").classes("wide"):
+                name = "reference_temperature"
+                self.number(name, "reference temperature", chosen.reference_temperature, partial(self.choose_material, name))
+                for name, label, words in (("vertical", "vertical shift", VERTICAL), ("deformation", "moduli", DEFORMATION)):
+                    self.select(name, label, words, getattr(chosen, name), partial(self.choose_material, name))
+            self.of_material = ui.column().classes("wide")
+
+    def choose_one(self, name: str, value: Any) -> None:
+        self.choose(**{name: value})
+
+    def choose_material(self, name: str, value: Any) -> None:
+        self.choose_one(name, value)
+        self.look_at_material()
+
+    def look_at_material(self) -> None:
+        chosen, folder = self.chosen, self.project.folder
+
+        def look() -> tuple[Fit, str]:
+            fit = _choices.fit(chosen, folder)
+            has_curve = fit.storage_error is not None
+            return fit, image(fit.plot(_curves.new_axes()), "moduli over the frequency, measured and fitted") if has_curve else ""
+
+        def tell(found: tuple[Fit, str]) -> None:
+            raw(paragraphs(found[0].decisions) + found[1])
+            if not self.chosen.temperatures:
+                self.fields["material.file.temperature"].set_value(" ".join(f"{one:g}" for one in _choices.guessed_temperatures(found[0])))
+
+        self.of_material.clear()
+        if chosen.material and chosen.is_fitted:
+            background_tasks.create(self.later(self.of_material, "material", look, tell))
+
+    def family(self, family: Family) -> None:
+        """The kinds of a family, and the keys of the chosen one."""
+        listed = kinds(family)
+        # The table of heat has no kinds.
+        options = {None: "none"} | {name: f"{name}: {kind.meaning}"[:60] if name else "computed" for name, kind in listed.items()}
+
+        def choose(kind: str | None) -> None:
+            self.choose(self.chosen.with_table(family, kind, GUESSED.get(kind or "", {})))
+            fill()
+
+        def fill() -> None:
+            kind = self.chosen.kind(family)
+            self.fields = {path: field for path, field in self.fields.items() if not path.startswith(f"{family}.")}
+            form.clear()
+            with form:
+                keys = () if kind is None else listed[kind].keys
+                rare = [key for key in keys if kind == "height-map" and key.name not in SHOWN]
+                for key in keys:
+                    if key not in rare:
+                        self.key(family, kind or "", key)
+                if rare:
+                    with ui.expansion("more").classes("wide"):
+                        for key in rare:
+                            self.key(family, kind or "", key)
+                if family == "heat" and kind is not None:
+                    both = ui.switch("also without heat", value=self.chosen.cold_too)
+                    both.on_value_change(lambda event: self.choose_one("cold_too", event.value))
+            if family == "indenter":
+                self.look_at_surface()
+
+        with ui.card():
+            raw(f"<h2>{TITLES[family]}</h2>")
+            self.select(family, "kind", options, self.chosen.kind(family), choose)
+            form = ui.column().classes("wide gap-1")
+            if family == "indenter":
+                self.of_surface = ui.column().classes("wide")
+        fill()
+
+    def key(self, family: Family, kind: str, key: Key) -> None:
+        """The field of a key."""
+        path, value = ".".join(filter(None, (family, kind, key.name))), self.chosen.keys(family).get(key.name, key.default)
+        label = key.name.replace("_", " ") + (f" [{key.unit}]" if key.unit else "")
+
+        def change(value: Any) -> None:
+            if value == self.chosen.keys(family).get(key.name, key.default):
+                return
+            if path in self.fields:
+                self.fields[path].props(remove="hint")
+            keys = {**self.chosen.keys(family), key.name: None if value == key.default else value}
+            self.choose(self.chosen.with_table(family, kind, keys))
+            self.tried(lambda: _choices.check(self.chosen, family))
+            if family == "indenter":
+                self.look_at_surface()
+
+        if key.entry == "file":
+            self.file(path, label, MAPS | TABLES if kind == "height-map" else TABLES, value or "", change)
+        elif key.entry == "switch":
+            ui.switch(label, value=bool(value), on_change=lambda event: change(event.value)).tooltip(key.meaning)
+        elif key.entry in ("word", "share"):
+            meanings = {word: word if word == meaning else f"{word}: {meaning}" for word, meaning in key.words.items()}
+            words = meanings if key.default is not None else {None: "as the file says"} | meanings
+            self.select(path, label, words, value if value in words else None, change).tooltip(key.meaning)
+        elif key.entry == "pair":
+            ends = list(value or (None, None))
+
+            def change_end(nth: int, end: float | None) -> None:
+                ends[nth] = end
+                change(None if None in ends else list(ends))
+
+            for nth, axis in enumerate("xy"):
+                self.number(path if nth == 0 else f"{path}[1]", f"{label}, {axis}", ends[nth], partial(change_end, nth))
+        else:
+            whole = key.entry == "count"
+            self.number(path, label, value, lambda value: change(int(value) if whole and value is not None else value)).tooltip(key.meaning)
+
+    def look_at_surface(self) -> None:
+        chosen, folder = self.chosen, self.project.folder
+        if not hasattr(self, "of_surface") or not hasattr(self, "force"):
+            return
+        self.force.props(f'label="{chosen.force_label}"')
+        self.of_surface.clear()
+        if chosen.kind("indenter") != "height-map" or not chosen.keys("indenter").get("file"):
+            return
+
+        def look() -> tuple[vf.HeightMap, Choices, str]:
+            found, guessed = _choices.surface(chosen, folder)
+            return found, guessed, image(found.plot(_curves.new_axes()), "the surface, its summits bright")
+
+        def tell(found: tuple[vf.HeightMap, Choices, str]) -> None:
+            body, guessed, picture = found
+            rough = body.roughness
+            (rows, columns), (dx, dy) = body.heights.shape, body.spacing
+            lines = [f"{columns} × {rows} heights along x and y, {dx:.4g} m × {dy:.4g} m apart"]
+            lines += [f"Sq {rough.rms_height:.3g} m, Sa {rough.mean_deviation:.3g} m, Sdq {rough.rms_gradient:.3g}"]
+            lines += [f"Ssk {rough.skewness:.2g}, Sku {rough.kurtosis:.2g}"]
+            new = {name: value for name, value in guessed.keys("indenter").items() if name not in chosen.keys("indenter")}
+            self.project.choose(self.chosen.with_table("indenter", "height-map", guessed.keys("indenter")))
+            for name, value in new.items():
+                field = self.fields[f"indenter.height-map.{name}"]
+                field.set_value(value)
+                field.props('hint="this is a guess"')
+            raw(paragraphs([*lines, *dict.fromkeys([*body.notes, *rough.warnings])]) + picture)
+
+        background_tasks.create(self.later(self.of_surface, "indenter.height-map.file", look, tell))
+
+    def load(self) -> None:
+        chosen = self.chosen
+        with ui.card():
+            raw("<h2>3. Load and speeds</h2>")
+            self.force = self.number("load", chosen.force_label, chosen.force, partial(self.choose_one, "force"))
+            for name, path, label in SPEEDS:
+                self.number(path, label, getattr(chosen, name), partial(self.choose_one, name))
+            text = " ".join(f"{one:g}" for one in chosen.temperatures)
+            hot = ui.input("temperatures [°C], between blanks", value=text, on_change=lambda event: self.choose_temperatures(event.value))
+            self.field("material.file.temperature", hot)
+            ui.switch("band of the material", value=chosen.band, on_change=lambda event: self.choose_one("band", event.value))
+            self.file("measured", "measured friction", TABLES, chosen.measured, self.choose_measured)
+
+    def choose_temperatures(self, text: str) -> None:
+        self.tried(lambda: self.choose(temperatures=_choices.temperatures(text or "")))
+
+    # What comes of it.
+
+    def results(self) -> None:
+        with ui.card():
+            with ui.row().classes("items-center wide"):
+                self.go = ui.button("Compute", on_click=self.compute).props("no-caps")
+                self.halt = ui.button("Stop", on_click=lambda: self.project.stop()).props("no-caps color=negative")
+                self.told = ui.label().props("role=status")
+            self.bar = ui.linear_progress(0.0, show_value=False).props('aria-label="points that are computed"')
+            self.problem = ui.label().classes("text-negative wide").props("role=alert")
+            self.plot = ui.plotly(_curves.plotly({}, None)).classes("wide").props('role=img aria-label="friction over the speed"')
+            self.plot.on("plotly_click", self.clicked, ["points"])
+            with ui.row().classes("wide"):
+                for kind in ("Scene file", "Command", "Python"):
+                    ui.button(kind, on_click=partial(self.show, kind), color=None).props("outline no-caps")
+                for kind in ("CSV", "SVG", "PNG", "Report"):
+                    ui.button(kind, on_click=partial(self.give, kind), color=None).props("outline no-caps icon=download")
+            with ui.expansion("all points as a table").classes("wide"):
+                self.table = ui.column().classes("wide")
+        with ui.card():
+            raw("<h2>The contact of a point</h2>")
+            chooser = ui.select({}, label="point, or click on one", on_change=lambda event: self.look_at_point(event.value))
+            self.point = chooser.classes("wide").style("scroll-margin-top: 4rem")
+            self.of_point = ui.column().classes("wide")
+
+    def compute(self) -> None:
+        self.choose()
+        self.tried(self.project.compute)
+
+    def choose_measured(self, name: str) -> None:
+        self.choose(measured=name)
+        self.tried(self.project.measured, "measured")
+
+    def refresh(self) -> None:
+        """Shows the state, and the points where there are other ones."""
+        computation = self.project.computation
+        self.halt.set_visibility(self.project.is_running)
+        self.go.set_enabled(not self.project.is_running)
+        self.bar.set_value(computation.done / computation.total if computation else 0.0)
+        self.told.set_text(computation.told if computation else "nothing is computed yet")
+        state = computation and (computation, computation.done, computation.state, self.chosen.measured)
+        if computation is None or state == self.seen:
+            return
+        self.seen = state
+        if computation.problem:
+            self.refuse(ValueError(computation.problem))
+        self.draw()
+
+    def draw(self) -> None:
+        sweeps = self.tried(self.project.sweeps) or {}
+        self.plot.update_figure(_curves.plotly(sweeps, self.tried(self.project.measured, "measured")))
+        self.point.set_options({f"{part}:{row}": text for (part, row), text in _curves.points(sweeps).items()})
+        self.table.clear()
+        with self.table:
+            for part, sweep in sweeps.items():
+                raw(f"<h3>{html.escape(part)}</h3>" + sweep._repr_html_())
+
+    def clicked(self, event: events.GenericEventArguments) -> None:
+        points = [point["customdata"] for point in event.args["points"] if point.get("customdata")]
+        if points:
+            self.point.set_value(f"{points[0][0]}:{points[0][1]}")
+
+    def look_at_point(self, chosen: str | None) -> None:
+        computation = self.project.computation
+        self.of_point.clear()
+        if computation is None or not chosen:
+            return
+        part, row = chosen.rsplit(":", 1)
+
+        def look() -> str:
+            answer, title = computation.point(part, int(row))
+            fields = FIELDS if answer.largest_temperature_rise is not None else FIELDS[:1]
+            pictures = [image(answer.plot(_curves.new_axes(), field), f"{field} of the contact") for field in fields]
+            return f"<p>{html.escape(title)}</p>" + "".join(pictures) + answer._repr_html_()
+
+        def tell(found: str) -> None:
+            raw(found)
+            ui.run_javascript(f"setTimeout(() => getHtmlElement({self.point.id}).scrollIntoView({{behavior: 'smooth'}}), 200)")
+
+        background_tasks.create(self.later(self.of_point, "", look, tell))
+
+    # What leads on.
+
+    def show(self, kind: str) -> None:
+        """Texts by the names of their files, to be read, copied and saved."""
+        texts = self.tried(lambda: self.project.exported(kind)) or {}
+        with ui.dialog() as dialog, ui.card():
+            for name, text in texts.items():
+                raw(f"<h2>{html.escape(name)}</h2>")
+                ui.code(text.decode()).classes("wide")
+                ui.button("Save", on_click=partial(ui.download.content, text, name), color=None).props("no-caps outline")
+            ui.button("Close", on_click=dialog.close).props("no-caps")
+        dialog.set_value(bool(texts))
+
+    def give(self, kind: str) -> None:
+        for name, content in (self.tried(lambda: self.project.exported(kind)) or {}).items():
+            ui.download.content(content, name)
+

@@ -1,0 +1,250 @@
+"""A computation in the folder: its files, its thread, its progress, and the points that are there."""
+
+from __future__ import annotations
+
+import filecmp
+import os
+import re
+import threading
+import time
+import warnings
+from dataclasses import replace
+from pathlib import Path
+from typing import Literal
+
+import viscofriction as vf
+
+from .._results import html_page
+from .._sweeping import Sweep
+from . import _choices, _curves
+from ._choices import Choices
+
+#: Names of the files of computations.
+OWN = re.compile(r"friction-\d+(-without-heat|-material)?\.(csv|toml)")
+
+State = Literal["ready", "running", "stopped", "finished", "failed"]
+
+
+class Computation:
+    """The sweeps of some choices, in files of the folder that ``vf.sweep`` and the program go on with.
+
+    ``state``, ``problem``: Where it is, and the sentence of what ended it.
+    ``done``, ``total``: Points that are computed, and all of them.
+    """
+
+    def __init__(self, folder: Path, choices: Choices, name: str) -> None:
+        self.folder, self.choices, self.name = folder, choices, name
+        self.problem = ""
+        counts = {part: len(vf.read_sweep(self.table(part))) for part in _choices.parts(choices, name) if self.table(part).exists()}
+        self._done = dict.fromkeys(_choices.parts(choices, name), 0) | counts
+        n_points = 1
+        for values in _choices.vary(choices).values():
+            n_points *= len(values)
+        self.total = n_points * len(self._done)
+        self._begun: tuple[float, int] = (0.0, 0)
+        self._wanted = threading.Event()
+        self._thread: threading.Thread | None = None
+        self.state: State = "finished" if self.done == self.total else "stopped" if self.done else "ready"
+
+    @classmethod
+    def newest(cls, folder: Path) -> Computation | None:
+        """That of the folder with the highest number whose files are whole, or None."""
+        for name in _choices.named(folder):
+            try:
+                return cls(folder, Choices.from_json((folder / f"{name}.json").read_text("utf-8")), name)
+            except (ValueError, TypeError, OSError):
+                continue
+        return None
+
+    def table(self, part: str) -> Path:
+        """The file of the points of a part."""
+        return self.folder / f"{part}.csv"
+
+    @property
+    def done(self) -> int:
+        """How many points are computed."""
+        return sum(self._done.values())
+
+    @property
+    def seconds_left(self) -> float | None:
+        """An estimate of the time that the missing points take [s], from those of this run; None before the first of them."""
+        begun, before = self._begun
+        now = self.done - before
+        return (time.monotonic() - begun) / now * (self.total - self.done) if self.state == "running" and now else None
+
+    @property
+    def told(self) -> str:
+        """The state as a sentence, with an estimate of what is left."""
+        left = self.seconds_left
+        after = {"running": "about to begin" if left is None else f"about {left:.0f} s left", "stopped": "stopped; Compute goes on"}
+        words = after | {"finished": "finished", "failed": "ended by an error", "ready": ""}
+        return f"{self.name}: {self.done} of {self.total} points, {words[self.state]}"
+
+    def point(self, part: str, row: int) -> tuple[vf.Answer, str]:
+        """The answer of a point with its fields and its budget, and what it is. Raises ValueError and NotReached."""
+        sweep = self.sweeps()[part]
+        text = ", ".join(f"{key.rsplit('.', 1)[-1]} {sweep[key][row]:g}" for key in sweep.keys)
+        scene = _choices.at_point(self.folder, part, sweep, row)
+        # With heat or strain there are no derivatives.
+        return vf.solve(scene, sensitivity=self.choices.band and not {"heat", "strain"} & scene.keys()), text
+
+    def sweeps(self) -> dict[str, Sweep]:
+        """The points that are in the files, by the names of the parts."""
+        return {part: vf.read_sweep(self.table(part)) for part in self._done if self.table(part).exists()}
+
+    def start(self) -> None:
+        """Writes the files of the scenes and computes the missing points in a thread of its own."""
+        self.state, self.problem = "running", ""
+        self._wanted.clear()
+        self._begun = (time.monotonic(), self.done)
+        self._thread = threading.Thread(target=self._run, daemon=True)
+        self._thread.start()
+
+    def stop(self) -> None:
+        """Asks for the end; the points that are computed stay."""
+        self._wanted.set()
+
+    def wait(self) -> None:
+        """Returns when the thread has ended."""
+        if self._thread is not None:
+            self._thread.join()
+
+    def _run(self) -> None:
+        try:
+            self._write()
+            for part in self._done:
+                self._sweep(part)
+            self.state = "finished" if self.done == self.total else "stopped"
+        except Exception as error:  # Whatever it is, the page says it, and stays.
+            self.state, self.problem = "failed", str(error) or type(error).__name__
+
+    def _write(self) -> None:
+        scenes = {part: _choices.scene_text(table) for part, table in _choices.parts(self.choices, self.name).items()}
+        if self.choices.is_fitted:
+            text = _choices.fit(self.choices, self.folder).material.to_toml()
+            write(self.folder / _choices.material_file(self.choices, self.name), text)
+        for part, text in scenes.items():
+            write(self.folder / f"{part}.toml", text)
+        write(self.folder / f"{self.name}.json", _choices.stored(self.choices, self.folder))
+
+    def _sweep(self, part: str) -> None:
+        def count(done: int, _: int) -> None:
+            self._done[part] = done
+
+        with warnings.catch_warnings():
+            # A part that is complete says so.
+            warnings.simplefilter("ignore")
+            found = vf.sweep(
+                self.folder / f"{part}.toml",
+                _choices.vary(self.choices),
+                sensitivity=self.choices.band,
+                out=self.table(part),
+                resume=True,
+                progress=count,
+                stop=self._wanted.is_set,
+            )
+        self._done[part] = len(found)
+
+
+def write(path: Path, text: str) -> None:
+    """Writes a file so that it is whole or the old one; one that is there with this text stays as it is."""
+    if path.exists() and path.read_bytes() == text.encode("utf-8"):
+        return
+    part = path.with_name(f".{path.name}.part")
+    part.write_text(text, encoding="utf-8", newline="")
+    os.replace(part, path)
+
+
+class Project:
+    """What all pages of one folder share: the choices, and the computation that runs or has run."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.computation = Computation.newest(folder)
+        self.choices = Choices() if self.computation is None else self.computation.choices
+        draft = self._draft
+        if draft.is_file():
+            try:
+                self.choices = Choices.from_json(draft.read_text("utf-8"))
+            except (ValueError, TypeError):
+                draft.unlink()
+
+    @property
+    def _draft(self) -> Path:
+        return self.folder / "viscofriction-app.json"
+
+    @property
+    def is_running(self) -> bool:
+        """Whether a computation runs: one at a time, so that pages do not slow each other."""
+        return self.computation is not None and self.computation.state == "running"
+
+    def choose(self, choices: Choices) -> None:
+        """Keeps the choices, also for the next start."""
+        self.choices = choices
+        write(self._draft, choices.to_json())
+
+    def compute(self) -> Computation:
+        """Begins the computation of the choices, or goes on with it. Raises ValueError for what is missing or wrong."""
+        if self.is_running:
+            raise ValueError("a computation runs already, perhaps of another page; stop it first")
+        name = _choices.name_for(self.choices, self.folder)
+        self.computation = Computation(self.folder, self.choices, name)
+        self.computation.start()
+        return self.computation
+
+    def files(self, ends: set[str]) -> list[str]:
+        """The names of the files in the folder with one of these ends, without those of computations."""
+        paths = sorted(self.folder.iterdir(), key=lambda path: path.name.lower())
+        names = [path.name for path in paths if path.is_file() and path.suffix.lower() in ends and not path.name.startswith(".")]
+        return [name for name in names if not OWN.fullmatch(name)]
+
+    def keep(self, name: str, dropped: Path) -> str:
+        """Keeps a dropped file under its name, or one with a number where another file has that; returns the name."""
+        base = Path(Path(name.replace("\\", "/")).name.lstrip(".") or "file")
+        path, count = self.folder / base, 1
+        while path.exists() and not filecmp.cmp(path, dropped, shallow=False):
+            count += 1
+            path = self.folder / f"{base.stem} ({count}){base.suffix}"
+        os.replace(dropped, path)
+        return path.name
+
+    def stop(self) -> None:
+        """Ends the computation that runs; its points stay."""
+        if self.computation is not None:
+            self.computation.stop()
+
+    def shown(self) -> tuple[Choices, str]:
+        """The choices and the name of the computation that is shown, or of the one that would begin."""
+        if self.computation is not None:
+            return replace(self.computation.choices, measured=self.choices.measured), self.computation.name
+        return self.choices, _choices.name_for(self.choices, self.folder)
+
+    def measured(self) -> vf.MeasuredFriction | None:
+        """The chosen table of friction. Raises ValueError with line and column."""
+        return vf.read_friction(self.folder / self.choices.measured) if self.choices.measured else None
+
+    def sweeps(self) -> dict[str, Sweep]:
+        """The points of the computation that is shown."""
+        return {} if self.computation is None else self.computation.sweeps()
+
+    def exported(self, kind: str) -> dict[str, bytes]:
+        """Files by their names: "Scene file", "Command", "Python", "CSV", "SVG", "PNG" or "Report" of what is shown. Raises ValueError for
+        what is missing in the choices, and without points."""
+        choices, name = self.shown()
+        scenes = {f"{part}.toml": _choices.scene_text(table) for part, table in _choices.parts(choices, name).items()}
+        texts = {"Scene file": scenes, "Command": {f"{name}.sh": _choices.command(choices, name)}}
+        texts |= {"Python": {f"{name}.py": _choices.python(choices, name)}}
+        if kind in texts:
+            return {file: text.encode() for file, text in texts[kind].items()}
+        sweeps = self.sweeps()
+        if not any(map(len, sweeps.values())):
+            raise ValueError("there are no points yet")
+        if kind == "CSV":
+            return {f"{part}.csv": (self.folder / f"{part}.csv").read_bytes() for part in sweeps}
+        axes = _curves.drawn(sweeps, self.measured())
+        if kind != "Report":
+            return {f"{name}.{kind.lower()}": _curves.picture(axes, kind.lower())}
+        svg = _curves.picture(axes, "svg").decode()
+        tables = "".join(f"<h2>{part}</h2>{sweep._html(all_rows=True)}" for part, sweep in sweeps.items())
+        below = {file: text for of in texts.values() for file, text in of.items()}
+        return {f"{name}.html": html_page(f"Friction over the speed: {name}", svg[svg.index("<svg") :] + tables, below).encode()}
