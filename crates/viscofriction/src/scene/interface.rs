@@ -155,15 +155,14 @@ impl Interface {
         Ok(())
     }
 
-    /// The shear strength, checked; reads the file of a table.
-    pub(crate) fn law(&self, files: &Files<'_>) -> Result<ShearLaw, SceneError> {
+    /// The shear strength that the scene gives by numbers, with its activation energy in J/mol.
+    ///
+    /// # Errors
+    /// [`SceneError`] for the first number out of range, and for a shear strength that is read from a file.
+    pub fn shear_strength(&self) -> Result<ShearStrength, SceneError> {
         self.check()?;
-        let refused = |error: RheologyError| SceneError::at(self.key(), error.to_string());
-        match self {
-            Self::Constant { shear_strength } => {
-                let strength = ShearStrength::constant(*shear_strength);
-                strength.map(ShearLaw::exact).map_err(refused)
-            }
+        let strength = match self {
+            Self::Constant { shear_strength } => ShearStrength::constant(*shear_strength),
             Self::Bell {
                 shear_strength,
                 velocity,
@@ -180,16 +179,28 @@ impl Interface {
                     activation_energy: activation_energy.map(|energy| unit * energy),
                     reference_temperature: *reference_temperature,
                 };
-                let strength = ShearStrength::bell(parameters);
-                strength.map(ShearLaw::exact).map_err(refused)
+                ShearStrength::bell(parameters)
             }
-            Self::Table { file } => {
-                let at_file = |WrongInput(problem)| SceneError::at("interface.table.file", problem);
-                let (file, contents) = files.table(file).map_err(at_file)?;
-                shear_strengths(&file, &contents)
-                    .map_err(|problem| SceneError::at("interface.table.file", problem))
+            Self::Table { .. } => {
+                return Err(SceneError::at(
+                    self.key(),
+                    "it is read from a file, and not given by numbers",
+                ));
             }
+        };
+        let refused = |error: RheologyError| SceneError::at(self.key(), error.to_string());
+        strength.map_err(refused)
+    }
+
+    /// The shear strength, checked; reads the file of a table.
+    pub(crate) fn law(&self, files: &Files<'_>) -> Result<ShearLaw, SceneError> {
+        if let Self::Table { file } = self {
+            let at_file = |problem| SceneError::at("interface.table.file", problem);
+            let table = files.table(file);
+            let (file, contents) = table.map_err(|WrongInput(problem)| at_file(problem))?;
+            return shear_strengths(&file, &contents).map_err(at_file);
         }
+        self.shear_strength().map(ShearLaw::exact)
     }
 }
 

@@ -10,7 +10,7 @@ use cpu_time::ThreadTime;
 use mdr_core::MdrError;
 use serde::{Deserialize, Serialize};
 use strum::IntoEnumIterator as _;
-use viscofriction::scene::Method;
+use viscofriction::scene::{Method, Scene};
 use viscofriction::solve::{Answer, SolveError, plan};
 use viscofriction::{Estimate, Progress};
 
@@ -31,8 +31,13 @@ pub(super) struct Row {
     /// Kinds of body and material.
     indenter: String,
     material: String,
-    /// What moves, and what is held constant.
-    pub(super) motion: String,
+    pub(super) motion: Motion,
+    /// True if a depth is given, and not a force.
+    pub(super) is_at_depth: bool,
+    /// True on a layer.
+    pub(super) has_layer: bool,
+    /// True in the one-dimensional model.
+    is_line: bool,
     /// Name of the [`Relation`]; `answer` for what a single answer must fulfil.
     pub(super) relation: String,
     /// Methods that gave the two answers.
@@ -52,6 +57,20 @@ pub(super) struct Row {
     seconds: f64,
     /// Why there is no answer, or what is wrong with it.
     pub(super) message: String,
+}
+
+/// How the body of a scene moves.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum Motion {
+    #[default]
+    Stationary,
+    FromFirstTouch,
+    Track,
+    Reciprocating,
+    ThroughPoints,
+    Pressed,
+    History,
 }
 
 /// Outcome of a comparison.
@@ -91,11 +110,9 @@ pub(super) fn judge(seed: u64, number: usize, source: &Source, out: &Path) -> Re
     let folder = out.join(format!("agreement-{seed}-{number}"));
     let case = sample(&mut random, source, &folder)?;
     let mut rows = judged(&case, &folder, &mut random)?;
-    let [indenter, material] = [case.scene.indenter.key(), case.scene.material.key()];
+    rows.iter_mut().for_each(|row| row.describe(&case));
     for row in &mut rows {
-        (row.seed, row.scene, row.motion) = (seed, number, motion(&case));
-        row.indenter = indenter.replace("indenter.", "");
-        row.material = material.replace("material.", "");
+        (row.seed, row.scene) = (seed, number);
     }
     if rows.iter().any(|row| row.verdict.contradicts()) {
         case.write(&folder, "scene.toml")?;
@@ -105,24 +122,21 @@ pub(super) fn judge(seed: u64, number: usize, source: &Source, out: &Path) -> Re
     Ok(rows)
 }
 
-/// Motion, quantity held constant, layer and model of a scene in words, separated by commas; a column of the table.
-fn motion(case: &Case) -> String {
-    let (load, solve) = (&case.scene.load, &case.scene.solve);
-    let motion = match load.velocity {
-        None if load.stroke.is_some() => "to and fro",
-        None if load.motion.is_some() => "through points",
-        None => "history",
-        _ if load.track.is_some() => "track",
-        Some(velocity) if velocity <= 0.0 => "pressed",
-        _ if solve.duration.or(solve.sliding_distance).is_some() => "from first touch",
-        _ => "stationary",
-    };
-    let history = load.history.as_ref();
-    let depth = history.map_or(load.indentation_depth, |points| points[0].indentation_depth);
-    let control = if depth.is_some() { "depth" } else { "force" };
-    let layer = case.scene.layer.map_or("", |_| ", layer");
-    let model = solve.model.map_or("", |_| ", line");
-    format!("{motion}, {control}{layer}{model}")
+impl Motion {
+    /// The motion of a scene.
+    const fn of(Scene { load, solve, .. }: &Scene) -> Self {
+        match load.velocity {
+            None if load.stroke.is_some() => Self::Reciprocating,
+            None if load.motion.is_some() => Self::ThroughPoints,
+            None => Self::History,
+            _ if load.track.is_some() => Self::Track,
+            Some(velocity) if velocity <= 0.0 => Self::Pressed,
+            _ if solve.duration.is_some() || solve.sliding_distance.is_some() => {
+                Self::FromFirstTouch
+            }
+            _ => Self::Stationary,
+        }
+    }
 }
 
 /// First the row `answer`, then, if there is an answer, those of [`RELATIONS_PER_SCENE`] relations that `random` chooses among
@@ -196,6 +210,19 @@ impl Row {
         }
     }
 
+    /// Fills in body, material, motion, control, layer and model of the scene.
+    fn describe(&mut self, Case { scene, .. }: &Case) {
+        self.indenter = scene.indenter.key().replace("indenter.", "");
+        self.material = scene.material.key().replace("material.", "");
+        self.motion = Motion::of(scene);
+        let history = scene.load.history.as_ref();
+        let depth = scene.load.indentation_depth;
+        let depth = history.map_or(depth, |points| points[0].indentation_depth);
+        self.is_at_depth = depth.is_some();
+        self.has_layer = scene.layer.is_some();
+        self.is_line = scene.solve.model.is_some();
+    }
+
     /// Whether its body is of one of the kinds that `bodies` names, separated by blanks.
     pub(super) fn is_of(&self, bodies: &str) -> bool {
         bodies.split(' ').any(|body| body == self.indenter)
@@ -203,9 +230,7 @@ impl Row {
 
     /// Whether it slides, on the half space or a layer and not in the one-dimensional model.
     pub(super) fn slides(&self) -> bool {
-        let motion = self.motion.split(", ").next().unwrap_or_default();
-        let slides = "stationary|from first touch|to and fro|through points";
-        slides.split('|').any(|slides| slides == motion) && !self.motion.contains("line")
+        !self.is_line && !matches!(self.motion, Motion::Pressed | Motion::History)
     }
 }
 

@@ -110,10 +110,8 @@ const KINDS: [Kind; 6] = [
     ("flat ends that slide on the half space", |row| {
         row.slides() && row.is_of("flat-punch flat-cone truncated-paraboloid")
     }),
-    ("sliding at a depth", |row| {
-        row.slides() && row.motion.contains("depth")
-    }),
-    ("layers", |row| row.motion.contains("layer")),
+    ("sliding at a depth", |row| row.slides() && row.is_at_depth),
+    ("layers", |row| row.has_layer),
     ("pressed, and histories", |row| !row.slides()),
     ("all", |_| true),
 ];

@@ -50,22 +50,14 @@ impl Scene {
         let mut file = sample(random, &source, Path::new(""))?.scene;
         // Leave model and error open, because both models and several errors are requested of the same scene.
         (file.solve.model, file.solve.relative_error) = (None, None);
+        let (interface, heat, strain) = (&file.interface, &file.heat, &file.strain);
         let label = Label {
             scene: number,
             indenter: inline(&file.indenter)?,
             material: inline(&file.material)?,
-            interface: match &file.interface {
-                Some(interface) => inline(interface)?,
-                None => String::new(),
-            },
-            heat: match &file.heat {
-                Some(heat) => inline(heat)?,
-                None => String::new(),
-            },
-            strain: match &file.strain {
-                Some(strain) => inline(strain)?,
-                None => String::new(),
-            },
+            interface: interface.as_ref().map_or(Ok(String::new()), inline)?,
+            heat: heat.as_ref().map_or(Ok(String::new()), inline)?,
+            strain: strain.as_ref().map_or(Ok(String::new()), inline)?,
             load: inline(&file.load)?,
             solve: inline(&file.solve)?,
         };

@@ -8,11 +8,10 @@ use std::path::Path;
 use anyhow::{Context, Result};
 use measurements::Finding;
 use measurements::friction::FrictionPoint;
-use rheology::{BellParameters, ShearStrength};
 use serde::{Deserialize, Serialize};
 use toml::Value;
 use viscofriction::friction_fit::{Free, FrictionFitOptions, fit_friction};
-use viscofriction::scene::{Accuracy, Interface, Method, Model, Scene};
+use viscofriction::scene::{Accuracy, Method, Model, Scene};
 
 use super::request::{Request, no_file, number_at};
 use super::{Report, Share};
@@ -226,8 +225,8 @@ impl Case {
         let answer = request.solve(&scene)?;
         let shear = match (interface, answer.contact_area) {
             (Some(interface), Some(area)) => {
-                let strength = law(&interface)?.at(point.velocity, point.temperature)?;
-                strength * area.value / answer.normal_force.value
+                let law = interface.shear_strength()?;
+                law.at(point.velocity, point.temperature)? * area.value / answer.normal_force.value
             }
             (Some(_), None) => anyhow::bail!("{}: no contact area", self.name),
             (None, _) => 0.0,
@@ -273,28 +272,6 @@ impl Case {
         let fit = fit_friction(&scene, (Path::new(""), no_file), &points, &options, &|_| ())?;
         Ok(fit.fit.findings)
     }
-}
-
-/// The law of an interface with numbers in SI.
-fn law(interface: &Interface) -> Result<ShearStrength> {
-    Ok(match *interface {
-        Interface::Constant { shear_strength } => ShearStrength::constant(shear_strength)?,
-        Interface::Bell {
-            shear_strength,
-            velocity,
-            width,
-            activation_energy,
-            reference_temperature,
-            ..
-        } => ShearStrength::bell(BellParameters {
-            shear_strength,
-            velocity,
-            width,
-            activation_energy,
-            reference_temperature,
-        })?,
-        Interface::Table { .. } => anyhow::bail!("a table has no parameters"),
-    })
 }
 
 /// Multiplies all positive numbers within `value`, a table of a scene, whose keys are chosen by `is_moved`, by random factors of up

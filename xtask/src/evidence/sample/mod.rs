@@ -112,6 +112,21 @@ impl Case {
         Ok(())
     }
 
+    /// True if a method answers the scene.
+    fn is_offered(&self, folder: &Path) -> bool {
+        self.problem(folder)
+            .is_ok_and(|problem| plan(&problem).is_ok())
+    }
+
+    /// Changes the scene if a method still answers it then.
+    fn keep_if_offered(&mut self, folder: &Path, change: impl FnOnce(&mut Scene)) {
+        let before = self.scene.clone();
+        change(&mut self.scene);
+        if !self.is_offered(folder) {
+            self.scene = before;
+        }
+    }
+
     /// The problem that the scene states, or what is wrong with it. Writes its files into `folder`, from where they are read.
     pub(super) fn problem(&self, folder: &Path) -> Result<Problem> {
         self.write_files(folder)?;
@@ -352,45 +367,28 @@ pub(super) fn sample(random: &mut Random, source: &Source, folder: &Path) -> Res
     for _ in 0..MAX_DRAWN_MOTIONS {
         (case.scene.load, case.scene.solve) = (Load::default(), Solve::default());
         sample.motion(&mut case.scene, range, folder)?;
-        let problem = case.problem(folder);
-        if problem.is_ok_and(|problem| plan(&problem).is_ok()) {
+        if case.is_offered(folder) {
             break;
         }
     }
-    // Draw the shear of the contact and its heat last and from a copy of the generator, so that all other numbers of this scene and of the next
-    // ones are those that they have without shear. Scenes in which nothing slides stay without.
+    // Draw shear, heat and strain dependence last and from a copy of the generator, so that all other numbers of this scene and of the
+    // next ones are those that they have without. Scenes in which nothing slides stay without.
     let mut copied = sample.random.clone();
     sample.random = &mut copied;
     let interface = sample.interface();
     if sample.random.uniform() < SHEAR_SHARE {
-        case.scene.interface = Some(interface);
-        let has_plan = |problem: Problem| plan(&problem).is_ok();
-        if !case.problem(folder).is_ok_and(has_plan) {
-            case.scene.interface = None;
-        }
+        case.keep_if_offered(folder, |scene| scene.interface = Some(interface));
     }
-    // Draw heat in the same way.
-    let heat = sample.heat();
+    let mut heat = sample.heat();
     if sample.random.uniform() < HEAT_SHARE {
-        case.scene.heat = Some(heat);
-        if !case.scene.indenter.is_periodic()
-            && let Some(heat) = &mut case.scene.heat
-        {
+        if !case.scene.indenter.is_periodic() {
             heat.duration = None;
         }
-        let has_plan = |problem: Problem| plan(&problem).is_ok();
-        if !case.problem(folder).is_ok_and(has_plan) {
-            case.scene.heat = None;
-        }
+        case.keep_if_offered(folder, |scene| scene.heat = Some(heat));
     }
-    // Draw strain dependence in the same way.
     let strain = sample.strain();
     if sample.random.uniform() < STRAIN_SHARE {
-        case.scene.strain = Some(strain);
-        let has_plan = |problem: Problem| plan(&problem).is_ok();
-        if !case.problem(folder).is_ok_and(has_plan) {
-            case.scene.strain = None;
-        }
+        case.keep_if_offered(folder, |scene| scene.strain = Some(strain));
     }
     Ok(case)
 }
