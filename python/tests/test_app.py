@@ -110,7 +110,7 @@ def test_a_stopped_computation_goes_on_also_after_a_new_start(folder: Path) -> N
     computation = project.compute()
     with pytest.raises(ValueError, match="a computation runs already"):
         project.compute()
-    until = time.monotonic() + 30
+    until = time.monotonic() + 120
     while computation.done < 2 and time.monotonic() < until:
         time.sleep(0.01)
     project.stop()
@@ -244,12 +244,12 @@ def test_the_page_is_at_this_machine_and_needs_the_token(folder: Path) -> None:
         assert address.hostname == "127.0.0.1" and address.port is not None
 
         def answer(path: str, **headers: str) -> tuple[int, str]:
-            with closing(http.client.HTTPConnection("127.0.0.1", address.port, timeout=10)) as connection:
+            with closing(http.client.HTTPConnection("127.0.0.1", address.port, timeout=60)) as connection:
                 connection.request("GET", path, headers=headers)
                 found = connection.getresponse()
                 return found.status, found.getheader("Set-Cookie") or ""
 
-        deadline = time.monotonic() + 20
+        deadline = time.monotonic() + 120
         while time.monotonic() < deadline:
             try:
                 answer("/")

@@ -196,6 +196,8 @@ def test_a_master_curve_a_map_and_a_temperature_are_drawn() -> None:
     axes = fit.plot()
     assert (axes.get_xlabel(), axes.get_xscale(), axes.get_yscale()) == ("angular frequency a_T ω [rad/s]", "log", "log")
     assert fit.measured is not None and (axes.lines[0].get_ydata() == fit.measured.storage).all()
+    storage, loss = axes.figure.axes[1].lines[:2]
+    assert (storage.get_ydata() == 100 * fit.residuals[0]).all() and (loss.get_ydata() == 100 * fit.residuals[1]).all()
     with pytest.raises(ValueError, match="the fit of a table"):
         vf.fit_relaxation(SPEEDS, fit.material.relaxation_modulus(SPEEDS)).plot()
     narrow = replace(fit, measured=vf.Moduli(np.array([1.0, 2.0, 3.0]), np.array([1e6, 2e6, 3e6]), np.array([1e6, 1e6, 1e6])))

@@ -115,7 +115,8 @@ class Fit:
         return (*lines, f"placed by the shift law of the others: the isotherms of {placed}") if placed else tuple(lines)
 
     def plot(self, ax: Any = None) -> Any:
-        """Draws the moduli of a table and of the fit over the frequency, on the master curve; returns the axes of matplotlib."""
+        """Draws the moduli of a table and of the fit over the frequency, on the master curve, and below them the relative error of every
+        point; returns the upper axes of matplotlib."""
         from . import _plotting
 
         return _plotting.master_curve(self, _plotting.axes(ax))

@@ -212,7 +212,10 @@ def measured(ax: Any, velocity: Numbers, mu: Numbers, error: Numbers | None, tem
 
 
 def master_curve(fit: Any, ax: Any) -> Any:
-    """The moduli of a fit over the frequency, and the points that were fitted, where they are on its master curve."""
+    """The moduli of a fit over the frequency, and the points that were fitted, where they are on its master curve; below them the
+    relative errors of the fit."""
+    from mpl_toolkits.axes_grid1 import make_axes_locatable
+
     points = fit.measured
     if points is None or points.angular_frequency is None:
         raise ValueError("a picture belongs to the fit of a table with storage and loss modulus")
@@ -223,7 +226,19 @@ def master_curve(fit: Any, ax: Any) -> Any:
         ax.plot(omega, curve, color=colour, label=name)
     ax.legend()
     shifted = ("angular frequency a_T ω [rad/s]", "modulus G/b_T [Pa]") if fit.shifts else ("angular frequency ω [rad/s]", "modulus G [Pa]")
-    return tidy(ax, *shifted, (omega, np.concatenate(fitted)))
+    tidy(ax, *shifted, (omega, np.concatenate(fitted)))
+    if ax.figure.axes == [ax]:
+        # A constrained layout leaves no room for the labels of what is appended.
+        ax.figure.set_layout_engine("none")
+        ax.set_position((0.15, 0.15, 0.82, 0.82))
+    below = make_axes_locatable(ax).append_axes("bottom", "30%", pad=0.1, sharex=ax)
+    for residuals, colour in zip(fit.residuals, COLOURS):
+        below.plot(points.angular_frequency, 100 * residuals, "o", color=colour, markersize=3, fillstyle="none")
+    below.axhline(0.0, color="0.5", linewidth=1)
+    below.set(xlabel=ax.get_xlabel(), ylabel="error [%]")
+    ax.tick_params(labelbottom=False)
+    ax.xaxis.label.set_visible(False)
+    return ax
 
 
 def heights(surface: Any, ax: Any) -> Any:
