@@ -127,7 +127,7 @@ def test_a_stopped_computation_goes_on_also_after_a_new_start(folder: Path) -> N
     # Other choices, and other contents of a file, are another computation.
     again.choose(replace(many, force=2.0, n_speeds=1))
     again.compute().wait()
-    assert again.computation.name == "friction-2"
+    assert again.computation.name == "friction-2" and again.files({".csv"}) == ["dry-friction.csv", "tread-rubber.csv"]
     (folder / "tread-rubber.csv").write_bytes((folder / "tread-rubber.csv").read_bytes() + b"\n")
     again.compute().wait()
     assert again.computation.name == "friction-3"
@@ -218,6 +218,8 @@ def test_dropped_files_never_replace_others(folder: Path, tmp_path: Path) -> Non
     dropped.write_bytes(b"x")
     assert project.keep("../../.hidden", dropped) == "hidden" and not dropped.exists()
     assert (folder / "road.x3p").read_bytes() == before
+    (folder / "friction-7.csv").write_text("v (m/s),mu\n1,0.1\n")
+    assert "friction-7.csv" in project.files({".csv"}), "it belongs to no computation"
     assert project.files({".x3p"}) == ["road (2).x3p", "road (3).x3p", "road.x3p"]
 
 

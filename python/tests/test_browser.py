@@ -200,6 +200,8 @@ def looks(visitor: Visitor) -> None:
         page.wait_for_function("document.documentElement.scrollWidth <= window.innerWidth")
         page.get_by_role("progressbar").scroll_into_view_if_needed()
         visitor.shoot(name)
+    visitor.choose("colours", "dark")
+    page.wait_for_function("document.body.classList.contains('body--dark')")
 
 
 def chosen_ball(visitor: Visitor, n_speeds: int) -> None:

@@ -75,7 +75,8 @@ class Page:
         dark = ui.dark_mode(None)
         with ui.header().classes("items-center justify-between"):
             ui.html("<h1>Friction of rubber</h1>", sanitize=False)
-            ui.button("dark or light", on_click=dark.toggle).props("flat color=white no-caps")
+            colours = ui.select({None: "as the system", False: "light", True: "dark"}, label="colours").props("dark dense borderless")
+            colours.on_value_change(lambda event: dark.set_value(event.value))
         with ui.element("main").classes("both"):
             with ui.column().classes("wide"):
                 self.material()

@@ -7,7 +7,6 @@ import os
 import re
 import threading
 import time
-import warnings
 from dataclasses import replace
 from pathlib import Path
 from typing import Literal
@@ -20,7 +19,7 @@ from . import _choices, _curves
 from ._choices import Choices
 
 #: Names of the files of computations.
-OWN = re.compile(r"friction-\d+(-without-heat|-material)?\.(csv|toml)")
+OWN = re.compile(r"(friction-\d+)(-without-heat|-material)?\.(csv|toml)")
 
 State = Literal["ready", "running", "stopped", "finished", "failed"]
 
@@ -131,10 +130,8 @@ class Computation:
         def count(done: int, _: int) -> None:
             self._done[part] = done
 
-        with warnings.catch_warnings():
-            # A part that is complete says so.
-            warnings.simplefilter("ignore")
-            found = vf.sweep(
+        if self._done[part] < self.total // len(self._done):
+            vf.sweep(
                 self.folder / f"{part}.toml",
                 _choices.vary(self.choices),
                 sensitivity=self.choices.band,
@@ -143,7 +140,6 @@ class Computation:
                 progress=count,
                 stop=self._wanted.is_set,
             )
-        self._done[part] = len(found)
 
 
 def write(path: Path, text: str) -> None:
@@ -193,10 +189,11 @@ class Project:
         return self.computation
 
     def files(self, ends: set[str]) -> list[str]:
-        """The names of the files in the folder with one of these ends, without those of computations."""
+        """The names of the files in the folder with one of these ends, without those of its computations."""
         paths = sorted(self.folder.iterdir(), key=lambda path: path.name.lower())
         names = [path.name for path in paths if path.is_file() and path.suffix.lower() in ends and not path.name.startswith(".")]
-        return [name for name in names if not OWN.fullmatch(name)]
+        known = set(_choices.named(self.folder))
+        return [name for name in names if not ((own := OWN.fullmatch(name)) and own[1] in known)]
 
     def keep(self, name: str, dropped: Path) -> str:
         """Keeps a dropped file under its name, or one with a number where another file has that; returns the name."""

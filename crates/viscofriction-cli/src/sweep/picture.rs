@@ -381,7 +381,7 @@ impl Drawn {
     }
 }
 
-/// Markers of the measured points of each curve; of all curves together if they have the same points.
+/// Markers of the measured points of each curve that has some; of all curves together if they have the same points.
 fn measured_series(measured: &Measured, keys: &[Key<'_>], curves: &Curves) -> Vec<Series> {
     let of_curve = |curve: usize| {
         let row = curves.of.iter().position(|of| *of == curve);
@@ -391,10 +391,13 @@ fn measured_series(measured: &Measured, keys: &[Key<'_>], curves: &Curves) -> Ve
         points.copied().collect::<Vec<_>>()
     };
     let mut points: Vec<_> = (0..curves.labels.len()).map(of_curve).collect();
-    points.dedup();
-    let is_shared = points.len() == 1;
+    let is_shared = points.iter().all(|of_curve| *of_curve == points[0]);
+    if is_shared {
+        points.truncate(1);
+    }
     let mut series: Vec<Series> = Vec::new();
-    for (curve, points) in points.into_iter().enumerate() {
+    let with_points = points.into_iter().enumerate();
+    for (curve, points) in with_points.filter(|(_, points)| !points.is_empty()) {
         let places = points
             .iter()
             .map(|point| [point.velocity, point.friction_coefficient]);
@@ -409,7 +412,7 @@ fn measured_series(measured: &Measured, keys: &[Key<'_>], curves: &Curves) -> Ve
                 .iter()
                 .filter_map(|point| point.standard_error)
                 .collect(),
-            label: (curve == 0).then(|| "measured".to_owned()),
+            label: series.is_empty().then(|| "measured".to_owned()),
             ..Series::markers(places.collect(), marker, colour)
         });
     }

@@ -90,10 +90,19 @@ fn points_belong_to_the_curve_of_their_normal_force() {
         "friction.csv",
         format!("v (m/s),mu,normal force (N)\n{rows}"),
     );
-    let forces = "--vary load.normal_force=1,2";
     let speeds = speeds(8);
+    // The first and the second curve of the forces has the points.
+    for forces in ["1,2", "0.5,1"] {
+        let line = format!("sweep true.toml --vary load.normal_force={forces} {speeds}");
+        let said = folder.done(format!(
+            "{line} --measured friction.csv --out rows.csv --overwrite"
+        ));
+        assert!(!said.stderr.contains("no picture"), "{said:?}");
+        let svg = folder.text("rows.svg");
+        assert!(svg.contains("measured"), "a curve has points: {svg}");
+    }
     folder.done(format!(
-        "sweep true.toml {forces} {speeds} --measured friction.csv --out rows.csv"
+        "sweep true.toml --vary load.normal_force=1,2 {speeds} --measured friction.csv --out rows.csv --overwrite"
     ));
     let rows = cells(&folder, "rows.measured.csv");
     let forces: Vec<&str> = rows.iter().map(|row| &*row[1]).collect();
