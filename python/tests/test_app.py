@@ -231,6 +231,8 @@ def test_choices_of_other_versions_and_damaged_ones_do_no_harm(folder: Path) -> 
         (folder / "friction-1.json").write_text(text)
         project = _work.Project(folder)
         assert project.choices == Choices() and project.computation is None
+    kept = {path.read_text() for path in folder.glob("viscofriction-app-unreadable*.json")}
+    assert kept == {"[]", '{"tables": 1}', "nothing"}
 
 
 def test_the_page_is_at_this_machine_and_needs_the_token(folder: Path) -> None:

@@ -163,7 +163,8 @@ class Project:
             try:
                 self.choices = Choices.from_json(draft.read_text("utf-8"))
             except (ValueError, TypeError):
-                draft.unlink()
+                # Whatever it is, it is not lost.
+                self.keep("viscofriction-app-unreadable.json", draft)
 
     @property
     def _draft(self) -> Path:
