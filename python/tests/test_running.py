@@ -212,7 +212,8 @@ def test_an_interrupted_sweep_keeps_every_finished_row(tmp_path: Path) -> None:
     done = [int(line) for line in "".join([*told, more]).splitlines()]
     rows = (tmp_path / "rows.csv").read_text().splitlines(keepends=True)
     assert "KeyboardInterrupt" in errors
-    assert len(rows) - 1 == done[-1] < 100 and rows[-1].endswith("\n")
+    # A row is written before it is told, and the interruption may come between both.
+    assert done[-1] <= len(rows) - 1 < 100 and rows[-1].endswith("\n")
     assert {row.count(",") for row in rows} == {rows[0].count(",")}
 
 

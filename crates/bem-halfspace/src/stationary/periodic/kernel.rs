@@ -20,6 +20,7 @@ use rustfft::num_complex::Complex;
 
 use crate::parallel::reductions::mean;
 use crate::stationary::periodic::fourier_multiplier::{FourierMultiplier, Wave};
+#[cfg(feature = "rough")]
 use crate::substrate::base::check_no_wave_shift;
 use crate::{Base, BemError, Elastomer, Grid, WaveShift};
 
