@@ -6,6 +6,7 @@
 //!
 //! Theory: docs/theory/heat.md, "Back on the material".
 
+use bem_halfspace::heat::DepthProfile;
 use numerics::{Estimate, Progress};
 
 use super::answer::Answer;
@@ -100,7 +101,7 @@ impl Caused for ContactTemperature<'_> {
     fn problem_at(&self, value: f64, near: Option<&Answer>) -> Result<Problem> {
         let uniform = self.problem.at_temperature(value)?;
         let near = near.and_then(|near| {
-            let caused = near.dissipation_weighted_rise?.value;
+            let caused = self.effective_rise(near)?.value;
             Some((near.temperature_by_depth.as_ref()?, caused))
         });
         let rise = value - self.ambient;
@@ -118,10 +119,10 @@ impl Caused for ContactTemperature<'_> {
 
     /// Temperature of the surroundings and rise weighted with the dissipated power.
     fn caused_by(&self, answer: &Answer) -> Estimate {
-        let rise = answer.dissipation_weighted_rise;
-        rise.map_or(Estimate::exact(self.ambient), |rise| {
-            Estimate::new(self.ambient + rise.value, rise.error)
-        })
+        self.effective_rise(answer)
+            .map_or(Estimate::exact(self.ambient), |rise| {
+                Estimate::new(self.ambient + rise.value, rise.error)
+            })
     }
 
     fn difference(&self, answer: &Answer, problem: &Problem) -> f64 {
@@ -129,16 +130,13 @@ impl Caused for ContactTemperature<'_> {
         else {
             return 0.0;
         };
-        let scaled = assumed.scaled(caused.mean().value / assumed.mean().value);
-        // The temperature of the contact area changes the part of the shear, if its strength depends on it.
-        let of_shear = match (answer.friction_from_shear, answer.friction_coefficient) {
-            (Some(shear), Some(all)) if problem.shear_depends_on_temperature() => {
-                shear.value / all.value
-            }
-            _ => 0.0,
+        let of_shear = self.share_of_contact(answer);
+        let effective = |profile: &DepthProfile| {
+            (1.0 - of_shear) * profile.mean().value + of_shear * profile.contact()
         };
+        let scaled = assumed.scaled(effective(caused) / effective(assumed));
         let of_contact = (caused.contact() - scaled.contact()).abs();
-        caused.difference_from(&scaled) + of_shear * of_contact
+        (1.0 - of_shear) * caused.difference_from(&scaled) + of_shear * of_contact
     }
 
     fn at_fixed_point(&self, answer: Answer, value: Estimate) -> Answer {
@@ -171,6 +169,28 @@ impl Caused for ContactTemperature<'_> {
 }
 
 impl ContactTemperature<'_> {
+    /// Mean rise weighted with the dissipated power, \[K]. Below a periodic surface it is weighted with the power of the bulk, and with that of
+    /// the interface if the shear strength depends on the temperature of the contact area: the fixed point is that of what changes the
+    /// friction.
+    fn effective_rise(&self, answer: &Answer) -> Option<Estimate> {
+        let of_bulk = answer.dissipation_weighted_rise?;
+        let of_shear = self.share_of_contact(answer);
+        match (&answer.temperature_by_depth, answer.mean_temperature_rise) {
+            (Some(_), Some(of_contact)) => Some(of_bulk * (1.0 - of_shear) + of_contact * of_shear),
+            _ => Some(of_bulk),
+        }
+    }
+
+    /// Share of the friction that the temperature of the contact area changes: that of the shear, if its strength depends on temperature.
+    fn share_of_contact(&self, answer: &Answer) -> f64 {
+        match (answer.friction_from_shear, answer.friction_coefficient) {
+            (Some(shear), Some(all)) if self.problem.shear_depends_on_temperature() => {
+                shear.value / all.value
+            }
+            _ => 0.0,
+        }
+    }
+
     /// Largest difference of the friction coefficients at the temperature of the surroundings, with which the material enters the
     /// contact, and at the largest temperature in the contact from that at the fixed point; `None` if they are not known or outside the
     /// range of the laws.

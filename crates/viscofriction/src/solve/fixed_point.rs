@@ -415,6 +415,7 @@ impl FixedPoint<'_> {
                 answer,
                 missed,
                 caused,
+                difference,
                 ..
             } = state;
             let known = Estimate::new(value, correction.abs() + response * caused.error);
@@ -449,7 +450,10 @@ impl FixedPoint<'_> {
                 return Ok((answer, Some(Box::new(missed))));
             }
             value = self.within(value + correction);
+            // A distribution that has not settled is solved for again, and not more finely.
+            let is_settling = response * difference > 0.5 * known.error;
             if others > AIMED_SHARE * allowed
+                && !is_settling
                 && let Accuracy::RelativeError(request) = accuracy
             {
                 let is_in_vain = others > MIN_PROGRESS * least;
