@@ -25,6 +25,7 @@ use numerics::{Estimate, lobatto_rule};
 use rustfft::num_complex::Complex;
 
 use crate::heat::bulk::{BulkHeat, Coefficients, Plane};
+use crate::heat::periodic_waves::decay_constant;
 use crate::parallel::row_blocks::for_each_row;
 use crate::transform::plane_transform::ZERO;
 use crate::transform::plane_transform::complex_product::signed_offset;
@@ -211,7 +212,12 @@ impl DepthHeat<'_> {
                 let rises = if row == 0 {
                     standing.rises(q_y, &powers, flux)
                 } else {
-                    running_wave(self.decay_constant([q_x, q_y]), &nodes, &powers, flux)
+                    running_wave(
+                        decay_constant([q_x, q_y], self.velocity_over_diffusivity),
+                        &nodes,
+                        &powers,
+                        flux,
+                    )
                 };
                 for ((sum, power), rise) in sums.iter_mut().zip(&powers).zip(&rises) {
                     *sum += weight * (power.conj() * rise).re;
@@ -245,14 +251,6 @@ impl DepthHeat<'_> {
             spacing,
             power_of_unit: self.unit_power * spacing,
         }
-    }
-
-    /// Decay constant β of the temperature of a running wave over the depth, \[1/m].
-    fn decay_constant(&self, [q_x, q_y]: [f64; 2]) -> Complex<f64> {
-        let square = q_x * q_x + q_y * q_y;
-        let transport = q_x * self.velocity_over_diffusivity;
-        let real = (0.5 * (square.hypot(transport) + square)).sqrt();
-        Complex::new(real, -0.5 * transport / real)
     }
 }
 

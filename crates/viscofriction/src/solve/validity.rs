@@ -23,8 +23,8 @@ pub(super) const MAX_USUAL_FRICTION: f64 = 10.0;
 
 /// Smallest and largest activation energy without a warning, [J/mol]. Chosen: the law of Williams, Landel and Ferry, with the constants
 /// C₁ = 17.44 and C₂ = 51.6 K that they found for most polymers (1955, J. Am. Chem. Soc. 77, 3701), has the apparent energy
-/// R ln(10) C₁ T²/C₂ at the glass transition T: 0.3e6 of a rubber of 220 K, 0.9e6 of polystyrene. Far above it polymers have 2e4 to 1e5,
-/// silicones about 1.5e4. Energies of this range in kJ/mol or eV are below it as numbers.
+/// R ln(10) C₁ T²/C₂ at the glass transition T: 0.3e6 of a rubber of 220 K, 0.9e6 of polystyrene. The smallest one is four times the
+/// thermal energy RT at room temperature. Energies of this range in kJ/mol or eV are below it as numbers.
 pub(super) const USUAL_ACTIVATION_ENERGIES: [f64; 2] = [1e4, 1e6];
 
 /// Warnings about the validity of an answer, after those of its files; without any the linear theory holds.
