@@ -36,6 +36,9 @@ pub struct Quantity {
 /// Change of the logarithm of a quantity of an answer for a change of the scene, with its error. `None` if the quantity is given.
 pub(crate) type LogChange = fn(&Answer, &AnswerChange) -> Option<Estimate>;
 
+/// Change of a quantity that is differentiated by differences of answers only.
+const BY_DIFFERENCES: Option<LogChange> = Some(|_, _| None);
+
 /// Unit of a quantity; empty for a number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
@@ -201,6 +204,7 @@ pub static QUANTITIES: [Quantity; 22] = [
     },
     Quantity {
         is_dissipative: true,
+        log_change: BY_DIFFERENCES,
         ..stored!(mean_temperature_rise, Unit::TEMPERATURE_DIFFERENCE)
     },
     Quantity {
@@ -210,6 +214,7 @@ pub static QUANTITIES: [Quantity; 22] = [
     stored!(temperature_model_spread, Unit::NUMBER),
     Quantity {
         symbol: "ε",
+        log_change: BY_DIFFERENCES,
         ..stored!(strain, Unit::NUMBER)
     },
     stored!(storage_factor, Unit::NUMBER),

@@ -27,7 +27,7 @@ const NARROW_LOG_RATIO: f64 = 0.2;
 const NEGLIGIBLE_STRAIN: f64 = 1e-6;
 
 /// Amplitude of the equivalent strain in the contact.
-struct ContactStrain<'a> {
+pub(super) struct ContactStrain<'a> {
     problem: &'a Problem,
     law: &'a StrainDependence,
 }
@@ -35,10 +35,9 @@ struct ContactStrain<'a> {
 /// Solves at the strain that the answer causes; without strain dependence, once.
 pub(super) fn solve(first: Plan, watch: &dyn Progress) -> Result<Answer> {
     let (problem, method) = (first.problem, first.method);
-    let Some(law) = problem.strain_dependence() else {
+    let Some(strain) = ContactStrain::of(problem) else {
         return shear::solve(first, watch);
     };
-    let strain = ContactStrain { problem, law };
     let fixed_point = FixedPoint {
         problem,
         method,
@@ -46,7 +45,8 @@ pub(super) fn solve(first: Plan, watch: &dyn Progress) -> Result<Answer> {
         of: &strain,
     };
     let mut found = fixed_point.solve()?;
-    if let (Some(amplitude), Some([_, largest])) = (found.answer.strain, law.measured_range())
+    if let (Some(amplitude), Some([_, largest])) =
+        (found.answer.strain, strain.law.measured_range())
         && amplitude.value > largest
     {
         found.answer.warnings.push(Warning::UnmeasuredStrain {
@@ -85,6 +85,14 @@ pub(super) fn beside_linear(first: Plan, watch: &dyn Progress) -> Result<Answer>
             Err(SolveError::NotReached { answer, why })
         }
         Err(other) => Err(other),
+    }
+}
+
+impl<'a> ContactStrain<'a> {
+    /// The strain of a problem with strain dependence; `None` without.
+    pub(super) fn of(problem: &'a Problem) -> Option<Self> {
+        let law = problem.strain_dependence()?;
+        Some(Self { problem, law })
     }
 }
 

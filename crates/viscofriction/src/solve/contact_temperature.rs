@@ -27,7 +27,7 @@ const NARROW_RANGE: f64 = 3.0;
 const NEGLIGIBLE_EXCESS: f64 = 1e-3;
 
 /// Temperature of material and shear strength, \[°C].
-struct ContactTemperature<'a> {
+pub(super) struct ContactTemperature<'a> {
     problem: &'a Problem,
     /// Temperature far from the contact, \[°C].
     ambient: f64,
@@ -38,14 +38,8 @@ struct ContactTemperature<'a> {
 /// Solves at the temperature that the answer causes; without heat, and if nothing depends on the temperature, once.
 pub(super) fn solve(first: Plan, watch: &dyn Progress) -> Result<Answer> {
     let (problem, method) = (first.problem, first.method);
-    let ambient = problem.heating().and_then(|heating| heating.ambient);
-    let Some(ambient) = ambient.filter(|_| problem.depends_on_temperature()) else {
+    let Some(temperature) = ContactTemperature::of(problem) else {
         return contact_strain::solve(first, watch);
-    };
-    let temperature = ContactTemperature {
-        problem,
-        ambient,
-        highest: problem.highest_temperature(),
     };
     let fixed_point = FixedPoint {
         problem,
@@ -60,7 +54,8 @@ pub(super) fn solve(first: Plan, watch: &dyn Progress) -> Result<Answer> {
         .largest_temperature_rise
         .map_or(0.0, |rise| rise.value);
     let below = found.answer.temperature_by_depth.as_ref();
-    let hottest = ambient + below.map_or(of_surface, |below| below.largest().max(of_surface));
+    let hottest =
+        temperature.ambient + below.map_or(of_surface, |below| below.largest().max(of_surface));
     if hottest > temperature.highest {
         found.answer.warnings.push(Warning::HotterThanLaws {
             temperature: hottest,
@@ -168,7 +163,17 @@ impl Caused for ContactTemperature<'_> {
     }
 }
 
-impl ContactTemperature<'_> {
+impl<'a> ContactTemperature<'a> {
+    /// The temperature of a problem with heat; `None` without heat, and if nothing depends on the temperature.
+    pub(super) fn of(problem: &'a Problem) -> Option<Self> {
+        let ambient = problem.heating()?.ambient?;
+        problem.depends_on_temperature().then(|| Self {
+            problem,
+            ambient,
+            highest: problem.highest_temperature(),
+        })
+    }
+
     /// Mean rise weighted with the dissipated power, \[K]. Below a periodic surface it is weighted with the power of the bulk, and with that of
     /// the interface if the shear strength depends on the temperature of the contact area: the fixed point is that of what changes the
     /// friction.

@@ -157,7 +157,11 @@ impl Problem {
         let heating = Heating::of(scene, &parts.half_space)?;
         let ambient = heating.as_ref().and_then(|heating| heating.ambient);
         let temperature = ambient.or(parts.half_space.temperature());
-        let shear = law.transpose()?.map(|law| Shear { law, temperature });
+        let shear = law.transpose()?.map(|law| Shear {
+            law,
+            temperature,
+            factor: 1.0,
+        });
         let not_reduced = |error: RheologyError| SceneError::at("material", error.to_string());
         let of_method = scene.solve.method.and_then(Method::model);
         let (count, standard_error) = scene.indenter.realisations()?;
@@ -353,6 +357,14 @@ impl Problem {
             factors,
             ..self.clone()
         }
+    }
+
+    /// The problem with another factor on its shear strength.
+    pub(super) fn with_shear_factor(mut self, factor: f64) -> Self {
+        if let Some(shear) = &mut self.shear {
+            shear.factor = factor;
+        }
+        self
     }
 
     /// The problem with the moduli of small strains.

@@ -8,6 +8,7 @@
 
 use indenters::{FrictionParts, Moved, Shape};
 use numerics::{ErrorParts, Estimate, Progress};
+use rheology::RheologyError;
 
 use super::answer::Answer;
 use super::error::{Result, SolveError};
@@ -43,13 +44,16 @@ pub(crate) struct Shear {
     pub(crate) law: ShearLaw,
     /// Temperature of the contact, \[°C]; `None` if the scene gives none.
     pub(crate) temperature: Option<f64>,
+    /// Factor on the strength of the law.
+    pub(crate) factor: f64,
 }
 
 impl Shear {
     /// Shear strength at a velocity \[m/s], \[Pa]; the error names the table of the scene.
     pub(crate) fn strength(&self, velocity: f64) -> Result<f64, SceneError> {
         let strength = self.law.strength.at(velocity, self.temperature);
-        strength.map_err(|error| SceneError::at("interface", error.to_string()))
+        let refused = |error: RheologyError| SceneError::at("interface", error.to_string());
+        Ok(self.factor * strength.map_err(refused)?)
     }
 }
 
@@ -69,8 +73,9 @@ impl Problem {
     /// shear strength and the body slides at a constant velocity.
     pub(super) fn shear_strength_uncertainty(&self) -> Result<f64, SceneError> {
         match (self.shear(), self.motion()) {
-            (Some(Shear { law, temperature }), Motion::Sliding(load)) => law
-                .relative_uncertainty(load.velocity(), *temperature)
+            (Some(shear), Motion::Sliding(load)) => shear
+                .law
+                .relative_uncertainty(load.velocity(), shear.temperature)
                 .map_err(|error| SceneError::at("interface", error.to_string())),
             _ => Ok(0.0),
         }

@@ -5,7 +5,7 @@ use std::sync::Mutex;
 
 use numerics::{Estimate, Progress, SilentProgress};
 use viscofriction::solve::{Sensitivity, Source, spectral_sensitivity, with_sensitivity};
-use viscofriction::{Answer, Problem, Scene, SolveError, WrongInput, solve};
+use viscofriction::{Answer, Problem, Quantity, Scene, SolveError, WrongInput, solve};
 
 pub(crate) fn no_file(path: &Path, _: u64) -> Result<Vec<u8>, WrongInput> {
     Err(WrongInput(format!("{}: no file", path.display())))
@@ -32,6 +32,11 @@ impl Progress for Told {
     fn report(&self, part: f64) {
         self.0.lock().expect("parts").push(part);
     }
+}
+
+fn solved(text: &str) -> Answer {
+    let scene: Scene = text.parse().expect("a scene");
+    solve(&Problem::try_from(&scene).expect("a problem")).expect("an answer")
 }
 
 pub(crate) fn answered(text: &str) -> (Answer, Result<Vec<Sensitivity>, SolveError>) {
@@ -484,4 +489,110 @@ fn derivatives_of_a_rough_surface_add_up_and_those_of_many_are_refused() {
     let (_, refused) = answered(&scene(", realisations = 2"));
     let refused = refused.expect_err("a mean").to_string();
     assert!(refused.contains("realisations"), "{refused}");
+}
+
+/// A hot ball on an elastic half space: the shear strength τ_f(T) at T = T_0 + C τ_f(T), so that friction and rise have the derivatives 1/(1 − s)
+/// by the strength and −s/(1 − s), −1/(1 − s) by the conductivity, with s = (T − T_0) d ln τ_f/dT.
+#[test]
+fn derivatives_follow_the_temperature_that_friction_causes() {
+    let text = "indenter.sphere.radius = 5e-3\nmaterial.elastic.shear_modulus = 1e6\n\
+                interface.bell = { shear_strength = 1e6, velocity = 1.0, activation_energy = 8e4 }\n\
+                heat = { conductivity = 0.25, diffusivity = 1e-7, ambient_temperature = 20.0 }\n\
+                load = { normal_force = 5.0, velocity = 0.1 }\nsolve.relative_error = 0.02";
+    let (answer, known) = answered(text);
+    let known = known.expect("derivatives");
+    let temperature = answer.effective_temperature.expect("a temperature").value;
+    // log₁₀ a_T = E/(R ln 10) (1/T − 1/T_r), and ln τ_f = −(log₁₀(v a_T/v_0)/w)² + constant with w = √10.
+    let kelvin = temperature + 273.15;
+    let per_reciprocal = 8e4 / (8.314_462_618 * 10.0_f64.ln());
+    let log_speed = 0.1_f64.log10() + per_reciprocal * (kelvin.recip() - 293.15_f64.recip());
+    let slope = 2.0 * log_speed / 10.0 * per_reciprocal / kelvin.powi(2);
+    let share = (temperature - 20.0) * slope;
+    assert!(share < -0.15, "the temperature matters: {share}");
+    for (parameter, quantity, expected) in [
+        (
+            "interface.bell.shear_strength",
+            "friction_coefficient",
+            1.0 / (1.0 - share),
+        ),
+        (
+            "interface.bell.shear_strength",
+            "mean_temperature_rise",
+            1.0 / (1.0 - share),
+        ),
+        (
+            "heat.conductivity",
+            "friction_coefficient",
+            -share / (1.0 - share),
+        ),
+        (
+            "heat.conductivity",
+            "mean_temperature_rise",
+            -1.0 / (1.0 - share),
+        ),
+        ("heat.conductivity", "contact_area", 0.0),
+    ] {
+        let by_number = of(&known, parameter).derivatives.of(quantity);
+        let by_number = by_number.unwrap_or_else(|| panic!("{parameter}, {quantity}"));
+        let off = (by_number.value - expected).abs();
+        // The temperature itself has an error, and so has the expected derivative.
+        let allowed = by_number.error + 0.01 * expected.abs();
+        assert!(
+            off <= allowed,
+            "{parameter}, {quantity}: {by_number:?} for {expected}"
+        );
+        assert!(
+            by_number.error < 0.05,
+            "{parameter}, {quantity}: {by_number:?}"
+        );
+    }
+}
+
+/// Derivatives with strain dependence are the slopes between answers on given elements, and add up in units of stress and time.
+#[test]
+fn derivatives_follow_the_strain_that_the_contact_causes() {
+    let scene = |force: f64| {
+        format!(
+            "indenter.sphere.radius = 5e-3\n\
+             material.standard-solid = {{ equilibrium_modulus = 1e6, maxwell_modulus = 1e7, viscosity = 1e4 }}\n\
+             strain.kraus = {{ critical_strain = 0.02, storage_ratio = 0.2, loss_peak_ratio = 1.3 }}\n\
+             load = {{ normal_force = {force}, velocity = 0.1 }}\nsolve.elements = 24"
+        )
+    };
+    let (_, known) = answered(&scene(2.0));
+    let known = known.expect("derivatives");
+    let friction = |parameter: &str| {
+        let derivatives = &of(&known, parameter).derivatives;
+        derivatives
+            .of("friction_coefficient")
+            .expect("a derivative")
+    };
+    let [lower, upper] = [1.9, 2.1].map(|force| solved(&scene(force)));
+    for quantity in ["friction_coefficient", "contact_area", "strain"] {
+        let log = |answer: &Answer| {
+            let known = Quantity::named(quantity).and_then(|of| (of.of)(answer));
+            known.expect("a quantity").value.ln()
+        };
+        let expected = (log(&upper) - log(&lower)) / (2.1_f64 / 1.9).ln();
+        let by_load = of(&known, "load.normal_force").derivatives.of(quantity);
+        let by_load = by_load.expect("a derivative");
+        // The fixed point of an answer is found to a part of its error.
+        let allowed = by_load.error + 0.01;
+        assert!(
+            (by_load.value - expected).abs() <= allowed,
+            "{quantity}: {by_load:?} for {expected}"
+        );
+    }
+    let moduli = ["equilibrium_modulus", "maxwell_modulus", "viscosity"]
+        .map(|key| friction(&format!("material.standard-solid.{key}")));
+    let of_stress = moduli
+        .into_iter()
+        .fold(friction("load.normal_force"), |sum, one| sum + one);
+    let of_time = friction("load.velocity") + moduli[2] * -1.0;
+    for (unit, sum) in [("stress", of_stress), ("time", of_time)] {
+        assert!(
+            sum.value.abs() <= sum.error && sum.error < 0.05,
+            "{unit}: {sum:?}"
+        );
+    }
 }

@@ -32,8 +32,11 @@ pub(super) struct Asked {
     model: Model,
     /// Requested of the answer that is differentiated.
     relative_error: f64,
-    /// Requested of the answers that are differenced.
-    reference_error: f64,
+    /// What is requested of the answers that are differenced.
+    reference: Reference,
+    /// True if scenes keep their heat and strain dependence, and those without are left out; else all lose it.
+    #[serde(default)]
+    moduli_follow: bool,
     /// h: step of the logarithm of the number that is changed.
     step: f64,
     /// Number of scenes from which those are taken.
@@ -42,6 +45,17 @@ pub(super) struct Asked {
     memory: Option<String>,
     /// Largest memory of an answer that is differenced, if not that of the one that is differentiated.
     reference_memory: Option<String>,
+}
+
+/// Request of the answers that are differenced.
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Reference {
+    /// A relative error, from which that of the difference follows.
+    RelativeError(f64),
+    /// Two numbers of elements: on given elements neighbouring answers have nearly the same errors, and the distance of both differences is
+    /// the error of the first one.
+    Elements([usize; 2]),
 }
 
 /// One derivative of the logarithm of a quantity by that of a number of the scene, and the difference that is its reference.
@@ -98,18 +112,20 @@ pub(super) fn compared(
     asked: &Asked,
     count: usize,
 ) -> Result<Vec<Derivative>> {
-    let scene = asked.scene(scene, asked.relative_error);
+    let mut scene = asked.scene(scene);
+    scene.solve.relative_error = Some(asked.relative_error);
+    let is_left_out = asked.moduli_follow && scene.heat.is_none() && scene.strain.is_none();
     let problem = Problem::try_from(&scene)?;
-    if plan(&problem).is_err() {
+    if is_left_out || plan(&problem).is_err() {
         return Ok(Vec::new());
     }
     let known = derivatives(&scene, &problem, solve(&problem)?)?;
     let mut random = Random::new(*number as u64);
     let mut rows = Vec::new();
     for one in chosen(&known, &scene, asked, &mut random, count) {
-        let answers = asked.answers(&scene, &one.parameter)?;
+        let answers = asked.references(&scene, &one.parameter)?;
         for (quantity, known_as) in one.derivatives.iter() {
-            let Some(reference) = difference(&answers, quantity, asked.step) else {
+            let Some(reference) = reference(&answers, quantity, asked.step) else {
                 continue;
             };
             rows.push(Derivative {
@@ -162,6 +178,19 @@ fn largest(known: &[Sensitivity], quantity: &str) -> f64 {
         .fold(0.0, f64::max)
 }
 
+/// The derivative of the logarithm of a quantity from answers to one request, or from those on two numbers of elements.
+fn reference(answers: &[Vec<Answer>], name: &str, step: f64) -> Option<Estimate> {
+    match answers {
+        [fine, coarse] => {
+            let value = |answers: &[Answer]| Some(difference(answers, name, step)?.value);
+            let [fine, coarse] = [value(fine)?, value(coarse)?];
+            Some(Estimate::new(fine, (fine - coarse).abs()))
+        }
+        [exact] => difference(exact, name, step),
+        _ => None,
+    }
+}
+
 /// The derivative of the logarithm of the quantity `name` from `answers` at the positions of [`STENCIL`]. Its error has two
 /// parts: those of the answers, as if independent of each other, and the estimated remainder of the difference. `None` where an
 /// answer has no such quantity or it is not positive.
@@ -186,27 +215,46 @@ fn difference(answers: &[Answer], name: &str, step: f64) -> Option<Estimate> {
 }
 
 impl Asked {
-    /// The scene with this method, its model and memory, and a relative error.
-    fn scene(&self, scene: &Scene, relative_error: f64) -> Scene {
+    /// The scene with this method, its model and memory, without a requested accuracy.
+    fn scene(&self, scene: &Scene) -> Scene {
         let mut scene = scene.clone();
         scene.solve.method = Some(self.method);
         scene.solve.model = Some(self.model);
-        // With heat and strain dependence there are no derivatives.
-        (scene.heat, scene.strain) = (None, None);
+        if !self.moduli_follow {
+            (scene.heat, scene.strain) = (None, None);
+        }
         if self.model == Model::Line {
             // The one-dimensional model knows no contact area, on which shear acts.
             scene.interface = None;
         }
-        scene.solve.relative_error = Some(relative_error);
+        scene.solve.relative_error = None;
         if self.memory.is_some() {
             scene.solve.max_memory.clone_from(&self.memory);
         }
         scene
     }
 
-    /// The exact answers at the positions of [`STENCIL`] around a scene, of whose numbers that at the path `parameter` changes.
-    fn answers(&self, scene: &Scene, parameter: &str) -> Result<Vec<Answer>> {
-        let mut exact = self.scene(scene, self.reference_error);
+    /// The answers that are differenced, once or on two numbers of elements.
+    fn references(&self, scene: &Scene, parameter: &str) -> Result<Vec<Vec<Answer>>> {
+        let mut exact = self.scene(scene);
+        match self.reference {
+            Reference::RelativeError(error) => {
+                exact.solve.relative_error = Some(error);
+                Ok(vec![self.answers(exact, parameter)?])
+            }
+            Reference::Elements(numbers) => {
+                let on_elements = |elements: usize| {
+                    let mut scene = exact.clone();
+                    scene.solve.elements = Some(elements);
+                    self.answers(scene, parameter)
+                };
+                numbers.into_iter().map(on_elements).collect()
+            }
+        }
+    }
+
+    /// The answers at the positions of [`STENCIL`] around a scene, of whose numbers that at the path `parameter` changes.
+    fn answers(&self, mut exact: Scene, parameter: &str) -> Result<Vec<Answer>> {
         if self.reference_memory.is_some() {
             exact.solve.max_memory.clone_from(&self.reference_memory);
         }
@@ -234,6 +282,8 @@ impl Asked {
         let kind = key.split('.').nth(1).unwrap_or_default();
         let body = match kind {
             _ if self.method != Method::BemSteady => "",
+            "self-affine" if self.moduli_follow => ", rough, heat or strain",
+            _ if self.moduli_follow => ", heat or strain",
             "self-affine" => ", rough",
             _ if scene.layer.is_some() => ", layer",
             "cylinder" => ", cylinder",

@@ -11,8 +11,7 @@
 use numerics::Estimate;
 use serde::ser::{Serialize, SerializeMap as _, Serializer};
 
-use super::Sensitivity;
-use super::adjoint::{AnswerChange, log_derivatives};
+use super::Derivatives;
 use super::parameters::Number;
 use crate::quantity::ByQuantity;
 use crate::scene::{MaterialTable, Scene};
@@ -45,7 +44,7 @@ pub(super) fn budget(
     material: &MaterialTable,
     scene: &Scene,
     numbers: &[Number],
-    sensitivity: &[Sensitivity],
+    derivatives: &Derivatives,
     answer: &Answer,
     shear_strength: f64,
 ) -> Budget {
@@ -54,30 +53,36 @@ pub(super) fn budget(
         let paths = modulus_paths(material, covariance.relative.len());
         let of_material = uncertainties(answer, |key| {
             let derivative = |path: &String| {
-                let one = sensitivity.iter().find(|one| one.parameter == *path);
+                let one = derivatives
+                    .by_numbers
+                    .iter()
+                    .find(|one| one.parameter == *path);
                 one.and_then(|one| one.derivatives.of(key))
             };
             let known: Vec<Option<Estimate>> = paths.iter().map(derivative).collect();
             // A modulus of 0 has no logarithmic derivative and contributes nothing.
             let value = |known: &Option<Estimate>| known.map_or(0.0, |known| known.value);
-            let derivatives: Vec<f64> = known.iter().map(value).collect();
+            let by_moduli: Vec<f64> = known.iter().map(value).collect();
             let is_known = known.iter().any(Option::is_some);
-            is_known.then(|| covariance.uncertainty(&derivatives))
+            is_known.then(|| covariance.uncertainty(&by_moduli))
         });
         entries.push((Source::Material, of_material));
     }
-    if shear_strength > 0.0 {
-        let source = Source::ShearTable;
-        let change = AnswerChange::of_shear_strength();
-        let by_strength = log_derivatives(source.name().to_owned(), answer, change, 1.0);
+    if let Some(by_strength) = &derivatives.by_shear_strength
+        && shear_strength > 0.0
+    {
         let of_table = uncertainties(answer, |key| {
             Some((by_strength.derivatives.of(key)?.value * shear_strength).abs())
         });
-        entries.push((source, of_table));
+        entries.push((Source::ShearTable, of_table));
     }
-    for (number, one) in numbers.iter().zip(sensitivity) {
+    for number in numbers {
         let path = number.path();
-        if let Some(given) = scene.uncertainty.get(&path) {
+        let by_number = derivatives
+            .by_numbers
+            .iter()
+            .find(|one| one.parameter == path);
+        if let (Some(given), Some(one)) = (scene.uncertainty.get(&path), by_number) {
             let relative = number.relative(*given);
             let of_number = uncertainties(answer, |key| {
                 Some((one.derivatives.of(key)?.value * relative).abs())

@@ -2,6 +2,7 @@
 
 mod adjoint;
 mod budget;
+mod caused;
 mod differences;
 mod parameters;
 mod sampling;
@@ -21,11 +22,11 @@ use super::work::work;
 use crate::files::ReadFile;
 use crate::quantity::{ByQuantity, Quantity};
 use crate::scene::{Method, Model, Scene, SceneError};
+use adjoint::log_derivatives;
 pub(crate) use adjoint::{AnswerChange, relative_change};
 use budget::budget;
 pub use budget::{Budget, Source};
 use differences::Values;
-use parameters::TEMPERATURE;
 pub(crate) use parameters::check_uncertainties;
 pub(crate) use parameters::{Number, Numbers};
 pub use sampling::sampled;
@@ -63,16 +64,15 @@ pub fn with_sensitivity(
     answer: Answer,
     watch: &dyn Progress,
 ) -> Result<Answer> {
-    check_isothermal(problem)?;
     // Differentiate the answer by all numbers of the scene. If the method cannot, solve the problem again by boundary elements.
     let numbers = Numbers::new(scene, folder, read)?;
     let all = numbers.all().into_iter();
     let all: Vec<Number> = all.chain(numbers.uncertain_temperature()).collect();
     let known = (&numbers, &all[..]);
-    let (answer, mut sensitivity) = match sensitivities(known, problem, &answer, watch) {
+    let (answer, mut found) = match derivatives(known, problem, &answer, watch) {
         Err(none @ SolveError::NoSensitivity { .. }) => {
             let answer = answer_with_derivatives(problem, answer.method, watch).ok_or(none)??;
-            let found = sensitivities(known, problem, &answer, watch)?;
+            let found = derivatives(known, problem, &answer, watch)?;
             (answer, found)
         }
         found => (answer, found?),
@@ -80,12 +80,17 @@ pub fn with_sensitivity(
     // The derivatives of a Prony series differ from those of the law it approximates by its ripple, so their errors are widened
     // by its error.
     let series = MODULUS_ERROR_AMPLIFICATION * problem.modulus_error();
-    sensitivity.iter_mut().for_each(|one| one.widen(series));
+    found
+        .by_numbers
+        .iter_mut()
+        .for_each(|one| one.widen(series));
     let material = numbers.scene()?.material;
     let of_shear = problem.shear_strength_uncertainty()?;
-    let budget = budget(&material, scene, &all, &sensitivity, &answer, of_shear);
+    let budget = budget(&material, scene, &all, &found, &answer, of_shear);
     // Remove the derivative by the temperature, because a temperature in °C has no logarithmic one.
-    sensitivity.retain(|one| one.parameter != TEMPERATURE);
+    let temperature = numbers.uncertain_temperature().map(|number| number.path());
+    let mut sensitivity = found.by_numbers;
+    sensitivity.retain(|one| Some(&one.parameter) != temperature.as_ref());
     Ok(Answer {
         sensitivity,
         budget,
@@ -93,14 +98,25 @@ pub fn with_sensitivity(
     })
 }
 
+/// Derivatives of an answer.
+struct Derivatives {
+    /// By the numbers of the scene that can change.
+    by_numbers: Vec<Sensitivity>,
+    /// By the shear strength as a whole.
+    by_shear_strength: Option<Sensitivity>,
+}
+
 /// The derivatives by all numbers, by the technique that suits the method of the answer.
-fn sensitivities(
+fn derivatives(
     (numbers, all): (&Numbers, &[Number]),
     problem: &Problem,
     answer: &Answer,
     watch: &dyn Progress,
-) -> Result<Vec<Sensitivity>> {
+) -> Result<Derivatives> {
     let progress = WorkProgress::new(watch, all.len() as f64);
+    if problem.heating().is_some() || problem.strain_dependence().is_some() {
+        return caused::derivatives((numbers, all), problem, answer, progress);
+    }
     let method = answer.method;
     let asked = answer.requested_quantity();
     let is_exact = asked.error <= MAX_DIFFERENCED_ERROR * asked.value.abs();
@@ -108,7 +124,7 @@ fn sensitivities(
     // terms add an error.
     let is_series =
         answer.model == Model::HalfSpace && problem.material().creep().fluidity() <= 0.0;
-    match (method, problem.motion()) {
+    let by_numbers = match (method, problem.motion()) {
         (Method::BemSteady, Motion::Sliding(load)) => {
             adjoint::sensitivities((numbers, all), problem, (load, answer), progress)
         }
@@ -122,7 +138,13 @@ fn sensitivities(
             differences::sensitivities((numbers, all), problem, values, answer, progress)
         }
         (method, _) => Err(SolveError::NoSensitivity { method }),
-    }
+    };
+    let of_strength = AnswerChange::of_shear_strength();
+    let name = Source::ShearTable.name().to_owned();
+    Ok(Derivatives {
+        by_numbers: by_numbers?,
+        by_shear_strength: Some(log_derivatives(name, answer, of_strength, 1.0)),
+    })
 }
 
 /// The boundary-element answer to stationary sliding, in place of that of a cheaper method. `None` if the scene names its method
@@ -151,7 +173,6 @@ fn answer_with_derivatives(
 /// # Errors
 /// [`SceneError`] at the key to change.
 pub fn check_sensitivity(problem: &Problem, method: Method) -> std::result::Result<(), SceneError> {
-    check_isothermal(problem)?;
     let none = || {
         SceneError::at(
             "solve.method",
@@ -167,20 +188,6 @@ pub fn check_sensitivity(problem: &Problem, method: Method) -> std::result::Resu
         }
         _ => Err(none()),
     }
-}
-
-/// Rejects a problem with heat or strain dependence, in which every number also changes temperature or strain of the contact.
-pub(super) fn check_isothermal(problem: &Problem) -> std::result::Result<(), SceneError> {
-    if problem.strain_dependence().is_some() {
-        let why = "derivatives are those at given moduli, and here every number changes them by the strain of the contact, too; leave [strain] out";
-        return Err(SceneError::at("strain", why));
-    }
-    if problem.heating().is_none() {
-        return Ok(());
-    }
-    let why = "derivatives are those at a given temperature, and here every number changes that of the contact, too; leave [heat] out and give \
-               material.file.temperature";
-    Err(SceneError::at("heat", why))
 }
 
 impl Sensitivity {

@@ -14,18 +14,21 @@ use crate::solve::body::body;
 use crate::solve::half_space::{half_space, material_of_file};
 use crate::solve::problem::Problem;
 
-/// Tables of the scene that contain moduli, times, loads, speeds and lengths.
-const TABLES: [&str; 6] = [
+/// Tables of the scene that contain moduli, times, loads, speeds, lengths and thermal properties.
+const TABLES: [&str; 8] = [
     "indenter",
     "material",
     "layer",
     "interface",
+    "heat",
+    "strain",
     "load",
     "solve",
 ];
 /// Keys in these tables by which answers are not differentiated: ranges of the material, the selection of waves,
 /// temperatures in °C, which have no logarithm, and options.
-const EXCLUDED_KEYS: [&str; 12] = [
+const EXCLUDED_KEYS: [&str; 13] = [
+    "ambient_temperature",
     "approximation",
     "covariance",
     "longest_wavelength",
@@ -41,7 +44,9 @@ const EXCLUDED_KEYS: [&str; 12] = [
 ];
 
 /// Path of the temperature of a material file; an answer is differentiated by it only if it is uncertain.
-pub(super) const TEMPERATURE: &str = "material.file.temperature";
+const TEMPERATURE: &str = "material.file.temperature";
+/// Path of the temperature of the surroundings, of which the same holds.
+const AMBIENT_TEMPERATURE: &str = "heat.ambient_temperature";
 
 /// A scene as a tree of keys, with access to its files.
 #[derive(Debug)]
@@ -63,7 +68,7 @@ pub(crate) struct Numbers<'a> {
 pub(crate) struct Number {
     /// Path from the root of the scene.
     steps: Vec<Step>,
-    /// Value of the number in SI units.
+    /// Value of the number in SI units, of a temperature in \[K].
     pub(crate) value: f64,
 }
 
@@ -106,16 +111,23 @@ impl<'a> Numbers<'a> {
             .unwrap_or_default()
     }
 
-    /// Temperature of the material file, \[K]; `None` unless the scene states its uncertainty.
+    /// Temperature of the surroundings, or else of the material file, \[K]; `None` unless the scene states its uncertainty.
     pub(super) fn uncertain_temperature(&self) -> Option<Number> {
-        let (_, kelvin) = self.of_file.as_ref()?;
-        let is_uncertain = self.uncertainty.contains_key(TEMPERATURE);
-        is_uncertain.then(|| Number {
-            steps: TEMPERATURE
-                .split('.')
-                .map(|key| Step::Key(key.to_owned()))
-                .collect(),
-            value: *kelvin,
+        let (path, value) = self.temperature()?;
+        let steps = path.split('.').map(|key| Step::Key(key.to_owned()));
+        self.uncertainty.contains_key(path).then(|| Number {
+            steps: steps.collect(),
+            value,
+        })
+    }
+
+    /// Path and value \[K] of the temperature of the surroundings, or else of the material file; `None` if the scene has neither.
+    fn temperature(&self) -> Option<(&'static str, f64)> {
+        let heat = self.scene.get("heat");
+        let ambient = heat.and_then(|heat| heat.get("ambient_temperature")?.as_float());
+        let of_file = || Some((TEMPERATURE, self.of_file.as_ref()?.1));
+        ambient.map_or_else(of_file, |celsius| {
+            Some((AMBIENT_TEMPERATURE, celsius + KELVIN_AT_ZERO_CELSIUS))
         })
     }
 
@@ -126,18 +138,21 @@ impl<'a> Numbers<'a> {
         for (path, value) in &self.uncertainty {
             let key = quoted("uncertainty", path);
             let (most, allowed) = match &path[..] {
-                TEMPERATURE => (f64::MAX, "at least 0, in K"),
+                TEMPERATURE | AMBIENT_TEMPERATURE => (f64::MAX, "at least 0, in K"),
                 _ => (1.0, "from 0 to 1, a part of the number, as 0.05 is 5 %"),
             };
             let holds = (0.0..=most).contains(value);
             in_range("", *value, holds, allowed)
                 .map_err(|refused| SceneError::value(key.clone(), refused))?;
             let problem = match &path[..] {
-                TEMPERATURE if self.of_file.is_some() => continue,
-                TEMPERATURE => {
-                    "a temperature is uncertain only of a material of a file with a shift law"
-                        .to_owned()
-                }
+                TEMPERATURE | AMBIENT_TEMPERATURE => match self.temperature() {
+                    Some((known, _)) if known == path => continue,
+                    Some((known, _)) => {
+                        format!("the contact has the temperature {known}, which may be uncertain")
+                    }
+                    None => "a temperature is uncertain only of a material of a file with a shift law, and of the surroundings in [heat]"
+                        .to_owned(),
+                },
                 _ if !known.contains(path) => {
                     let quoted: Vec<String> =
                         known.iter().map(|path| format!("{path:?}")).collect();
@@ -188,16 +203,18 @@ impl<'a> Numbers<'a> {
         Problem::with_parts(&scene, parts, self.folder, self.read)
     }
 
-    /// The scene in which `number` has another value; if it is the temperature, the scene that still names the material
-    /// file.
+    /// The scene in which `number` has another value; if it is the temperature of the material file, the scene that still names the file.
     pub(super) fn scene_with(&self, number: &Number, value: f64) -> Result<Scene, SceneError> {
-        let (mut scene, value) = match &self.of_file {
-            Some((written, _)) if number.is_temperature() => {
-                (written.clone(), value - KELVIN_AT_ZERO_CELSIUS)
-            }
-            _ => (self.scene.clone(), value),
+        let mut scene = match &self.of_file {
+            Some((written, _)) if number.path() == TEMPERATURE => written.clone(),
+            _ => self.scene.clone(),
         };
-        replace(&mut scene, number, value);
+        let zero = if number.is_temperature() {
+            KELVIN_AT_ZERO_CELSIUS
+        } else {
+            0.0
+        };
+        replace(&mut scene, number, value - zero);
         Scene::try_from(scene)
     }
 
@@ -316,9 +333,9 @@ impl Number {
         path
     }
 
-    /// True for the temperature of the material file.
-    fn is_temperature(&self) -> bool {
-        self.path() == TEMPERATURE
+    /// True for the temperature of the material file or of the surroundings.
+    pub(super) fn is_temperature(&self) -> bool {
+        [TEMPERATURE, AMBIENT_TEMPERATURE].contains(&&self.path()[..])
     }
 
     /// The relative standard uncertainty of this number for the stated one `given`. Both are equal, except for the temperature:

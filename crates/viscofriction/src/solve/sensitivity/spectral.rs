@@ -9,7 +9,6 @@ use serde::Serialize;
 use super::Sensitivity;
 use super::adjoint::AnswerChange;
 use super::adjoint::{self, Contact, check_surfaces};
-use super::check_isothermal;
 use crate::scene::{Method, SceneError};
 use crate::solve::answer::Answer;
 use crate::solve::error::{Result, SolveError};
@@ -58,7 +57,7 @@ pub fn spectral_sensitivity(
     answer: &Answer,
     watch: &dyn Progress,
 ) -> Result<SpectralSensitivity> {
-    check_isothermal(problem)?;
+    check_given_moduli(problem)?;
     let method = answer.method;
     let (Method::BemSteady, Motion::Sliding(load)) = (method, problem.motion()) else {
         return Err(SolveError::NoSpectralSensitivity { method });
@@ -90,6 +89,26 @@ pub fn spectral_sensitivity(
     })
 }
 
+/// Rejects a problem with heat or strain dependence, in which the modulus at each frequency also changes the others.
+fn check_given_moduli(problem: &Problem) -> std::result::Result<(), SceneError> {
+    let refused = |key: &str, why: &str| Err(SceneError::at(key, why));
+    if problem.strain_dependence().is_some() {
+        return refused(
+            "strain",
+            "derivatives by the modulus at each frequency are those at given moduli, and here all change with the strain of the contact; \
+             leave [strain] out",
+        );
+    }
+    if problem.heating().is_some() {
+        return refused(
+            "heat",
+            "derivatives by the modulus at each frequency are those at a given temperature, and here that of the contact changes, too; \
+             leave [heat] out and give material.file.temperature",
+        );
+    }
+    Ok(())
+}
+
 /// Rejects a problem whose answer by a method has no derivatives by the modulus at each frequency, before it is solved.
 ///
 /// # Errors
@@ -98,7 +117,7 @@ pub fn check_spectral_sensitivity(
     problem: &Problem,
     method: Method,
 ) -> std::result::Result<(), SceneError> {
-    check_isothermal(problem)?;
+    check_given_moduli(problem)?;
     if !matches!(
         (method, problem.motion()),
         (Method::BemSteady, Motion::Sliding(_))
