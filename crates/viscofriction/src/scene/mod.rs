@@ -84,8 +84,8 @@ pub struct Scene {
     /// What is asked, and how well.
     #[serde(default)]
     pub solve: Solve,
-    /// Relative standard uncertainties from 0 to 1 of numbers of the scene, by their paths in quotes such as "load.normal_force"; that of
-    /// "material.file.temperature" in K.
+    /// Relative standard uncertainties from 0 to 1 of numbers of the scene, by their paths in quotes such as "load.normal_force"; those of
+    /// "material.file.temperature" and "heat.ambient_temperature" in K.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub uncertainty: BTreeMap<String, f64>,
 }

@@ -495,12 +495,18 @@ fn derivatives_of_a_rough_surface_add_up_and_those_of_many_are_refused() {
 /// by the strength and −s/(1 − s), −1/(1 − s) by the conductivity, with s = (T − T_0) d ln τ_f/dT.
 #[test]
 fn derivatives_follow_the_temperature_that_friction_causes() {
-    let text = "indenter.sphere.radius = 5e-3\nmaterial.elastic.shear_modulus = 1e6\n\
+    let text = "uncertainty.\"heat.ambient_temperature\" = 2.0\n\
+                indenter.sphere.radius = 5e-3\nmaterial.elastic.shear_modulus = 1e6\n\
                 interface.bell = { shear_strength = 1e6, velocity = 1.0, activation_energy = 8e4 }\n\
                 heat = { conductivity = 0.25, diffusivity = 1e-7, ambient_temperature = 20.0 }\n\
                 load = { normal_force = 5.0, velocity = 0.1 }\nsolve.relative_error = 0.02";
-    let (answer, known) = answered(text);
-    let known = known.expect("derivatives");
+    let scene: Scene = text.parse().expect("a scene");
+    let problem = Problem::try_from(&scene).expect("a problem");
+    let answer = solve(&problem).expect("an answer");
+    let files = (Path::new(""), no_file as _);
+    let answer = with_sensitivity(&scene, files, &problem, answer, &SilentProgress);
+    let answer = answer.expect("derivatives");
+    let known = &answer.sensitivity;
     let temperature = answer.effective_temperature.expect("a temperature").value;
     // log₁₀ a_T = E/(R ln 10) (1/T − 1/T_r), and ln τ_f = −(log₁₀(v a_T/v_0)/w)² + constant with w = √10.
     let kelvin = temperature + 273.15;
@@ -532,7 +538,7 @@ fn derivatives_follow_the_temperature_that_friction_causes() {
         ),
         ("heat.conductivity", "contact_area", 0.0),
     ] {
-        let by_number = of(&known, parameter).derivatives.of(quantity);
+        let by_number = of(known, parameter).derivatives.of(quantity);
         let by_number = by_number.unwrap_or_else(|| panic!("{parameter}, {quantity}"));
         let off = (by_number.value - expected).abs();
         // The temperature itself has an error, and so has the expected derivative.
@@ -546,6 +552,19 @@ fn derivatives_follow_the_temperature_that_friction_causes() {
             "{parameter}, {quantity}: {by_number:?}"
         );
     }
+    // The surroundings are uncertain by 2 K, which heat or cool the contact by 2 K/(1 − s).
+    let friction = answer.friction_coefficient.expect("a friction").value;
+    let expected = friction * 2.0 * slope.abs() / (1.0 - share);
+    let ambient = Source::Number("heat.ambient_temperature".to_owned());
+    let mut entries = answer.budget.entries.iter();
+    let (_, found) = entries
+        .find(|(source, _)| *source == ambient)
+        .expect("an entry");
+    let found = found.of("friction_coefficient").expect("an uncertainty");
+    assert!(
+        (found / expected - 1.0).abs() < 0.05,
+        "{found} for {expected}"
+    );
 }
 
 /// Derivatives with strain dependence are the slopes between answers on given elements, and add up in units of stress and time.
