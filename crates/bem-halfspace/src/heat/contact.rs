@@ -66,7 +66,7 @@ const STRAIN_OF_PERIOD: BulkGrid = BulkGrid {
     most_elements: usize::MAX,
     period_over_contact: 1,
 };
-/// Relative error of the temperature over that of the power of the bulk, by waves that the surroundings do not resolve. Measured: see
+/// Relative error of the temperature by the bulk over that of its power, by waves that the surroundings do not resolve. Measured: see
 /// [`OF_BODY`].
 const ERROR_OVER_POWER_ERROR: f64 = 0.5;
 
@@ -110,15 +110,25 @@ pub enum ContactKind {
 /// Temperatures on the elements of the pressure field, and their averages.
 struct Solution {
     temperature: Vec<f64>,
-    largest: f64,
-    mean: f64,
-    power_weighted_mean: f64,
+    averages: Averages,
+    /// Errors of the averages by waves that the grid of the bulk does not resolve.
+    unresolved: Averages,
     /// Error of the largest temperature because the maximum is between centres of elements.
     sampling_error: f64,
-    /// Relative error by waves that the grid of the bulk does not resolve.
-    unresolved: f64,
     /// Temperature below the surface of a period that dissipates there.
     by_depth: Option<DepthProfile>,
+    /// Error of its mean by waves that the grid of the bulk does not resolve.
+    unresolved_by_depth: f64,
+}
+
+/// Averages of the temperature rise of the surface, \[K].
+#[derive(Clone, Copy, Default)]
+struct Averages {
+    largest: f64,
+    /// Mean over the contact area.
+    mean: f64,
+    /// Mean weighted with the power below each element.
+    power_weighted_mean: f64,
 }
 
 impl SlidingContact<'_> {
@@ -167,22 +177,24 @@ impl SlidingContact<'_> {
             ]
         });
         let [fine, coarse] = [fine?, coarse?];
-        let within = |rise: f64, coarse: f64| {
-            estimate(rise, coarse).map(|rise| rise.widened(fine.unresolved * rise.value.abs()))
+        let known = |of: fn(&Averages) -> f64| {
+            let rise = estimate(of(&fine.averages), of(&coarse.averages))?;
+            Ok::<_, BemError>(rise.widened(of(&fine.unresolved)))
         };
         let by_depth = match (fine.by_depth, coarse.by_depth) {
-            (Some(fine), Some(coarse)) => {
-                let mean = within(fine.mean().value, coarse.mean().value)?;
-                Some(fine.with_mean(mean.widened(DEPTH_ERROR * mean.value.abs())))
+            (Some(fine_profile), Some(coarse)) => {
+                let mean = estimate(fine_profile.mean().value, coarse.mean().value)?;
+                let error = fine.unresolved_by_depth + DEPTH_ERROR * mean.value.abs();
+                Some(fine_profile.with_mean(mean.widened(error)))
             }
             _ => None,
         };
         Ok(TemperatureRise {
             grid: self.pressure.grid,
             temperature: fine.temperature,
-            largest: within(fine.largest, coarse.largest)?.widened(fine.sampling_error),
-            mean: within(fine.mean, coarse.mean)?,
-            flux_weighted_mean: within(fine.power_weighted_mean, coarse.power_weighted_mean)?,
+            largest: known(|rise| rise.largest)?.widened(fine.sampling_error),
+            mean: known(|rise| rise.mean)?,
+            flux_weighted_mean: known(|rise| rise.power_weighted_mean)?,
             by_depth,
             total_power: finite("total power", shear_power + bulk_power)?,
             absorbed_power: share * shear_power + bulk_power,
@@ -384,18 +396,17 @@ impl Heated<'_> {
             temperature = self.rise(grid, [(&SourceDepth::Surface, &*flux)], self.share)?;
         }
         // The bulk is heated around the contact, where the shear of the interface changes the temperature, too.
-        let mut unresolved = 0.0;
-        let [mut weighted_sum, mut power] = [0.0, self.contact.shear_power];
+        let mut by_bulk = vec![0.0; grid.n_elements()];
+        let [mut around_the_contact, mut power] = [0.0, self.contact.shear_power];
         let mut around = None;
         if self.contact.bulk_power > 0.0 {
             let found = self.surroundings(pressure)?;
-            unresolved = found.relative_error;
-            for (index, rise) in temperature.iter_mut().enumerate() {
+            for (index, rise) in by_bulk.iter_mut().enumerate() {
                 let [row, column] = [index / grid.shape()[1], index % grid.shape()[1]];
                 let place = |axis: usize, number: usize| {
                     pressure.origin[axis] + number as f64 * grid.spacing()[axis]
                 };
-                *rise += found.at([place(0, row), place(1, column)]);
+                *rise = found.at([place(0, row), place(1, column)]);
             }
             let absorbed_flux = PressureField {
                 pressure: flux.iter().map(|flux| self.share * flux).collect(),
@@ -411,42 +422,59 @@ impl Heated<'_> {
             let weighted = rises
                 .zip(&found.power)
                 .map(|((bulk, shear), power)| (bulk + shear) * power);
-            weighted_sum += weighted.sum::<f64>() * self.kind.area_of_element(coarse);
+            around_the_contact = weighted.sum::<f64>() * self.kind.area_of_element(coarse);
             power += sum_of(&found.power) * self.kind.area_of_element(coarse);
             around = Some((found, absorbed_flux));
         }
-        let in_contact = temperature.iter().zip(contact);
-        let of_contact: f64 = in_contact.map(|(rise, part)| rise * part).sum();
-        weighted_sum += of_contact * shear_flux * area;
+        for (rise, by_bulk) in temperature.iter_mut().zip(&by_bulk) {
+            *rise += by_bulk;
+        }
         let hottest = (0..temperature.len())
             .filter(|element| contact[*element] > 0.0)
             .max_by(|left, right| temperature[*left].total_cmp(&temperature[*right]));
         let Some(hottest) = hottest else {
             return Ok(Solution {
                 temperature,
-                largest: 0.0,
-                mean: 0.0,
-                power_weighted_mean: 0.0,
+                averages: Averages::default(),
+                unresolved: Averages::default(),
                 sampling_error: 0.0,
-                unresolved,
                 by_depth: None,
+                unresolved_by_depth: 0.0,
             });
         };
-        let mean = of_contact / sum_of(contact);
-        let by_depth = around
-            .and_then(|(around, absorbed_flux)| self.depth_profile(&around, &absorbed_flux, mean));
+        let averages_of = |rises: &[f64]| {
+            let in_contact = rises.iter().zip(contact);
+            let of_contact: f64 = in_contact.map(|(rise, part)| rise * part).sum();
+            let weighted = around_the_contact + of_contact * shear_flux * area;
+            Averages {
+                largest: rises[hottest],
+                mean: of_contact / sum_of(contact),
+                power_weighted_mean: if power > 0.0 { weighted / power } else { 0.0 },
+            }
+        };
+        let averages = averages_of(&temperature);
+        // Waves that are not resolved are an error of the heat of the bulk, and of the places where it is dissipated.
+        let relative_error = (around.as_ref()).map_or(0.0, |(found, _)| found.relative_error);
+        let of_bulk = averages_of(&by_bulk);
+        let unresolved = Averages {
+            largest: relative_error * of_bulk.largest.abs(),
+            mean: relative_error * of_bulk.mean.abs(),
+            power_weighted_mean: relative_error * of_bulk.power_weighted_mean.abs(),
+        };
+        let by_depth = around.and_then(|(around, absorbed_flux)| {
+            self.depth_profile(&around, &absorbed_flux, averages.mean)
+        });
+        let unresolved_by_depth = by_depth.as_ref().map_or(0.0, |profile| {
+            let from_contact = (profile.mean().value - averages.mean).abs();
+            unresolved.mean + relative_error / ERROR_OVER_POWER_ERROR * from_contact
+        });
         Ok(Solution {
-            largest: temperature[hottest],
-            mean,
-            power_weighted_mean: if power > 0.0 {
-                weighted_sum / power
-            } else {
-                0.0
-            },
-            sampling_error: sampling_error(&temperature, hottest, grid.shape()),
+            averages,
             unresolved,
+            sampling_error: sampling_error(&temperature, hottest, grid.shape()),
             temperature,
             by_depth,
+            unresolved_by_depth,
         })
     }
 
