@@ -37,14 +37,22 @@ const DURATION: &str = "; give solve.duration";
 /// Advice if a number computed from indenter, material and load leaves the range of f64 or of a parameter.
 const UNITS: &str = "; check the units of indenter, material and load, from which it follows";
 
+/// True for an error of a half-space method on a grid that is too coarse.
+pub(super) const fn is_too_coarse(error: &BemError) -> bool {
+    matches!(
+        error,
+        BemError::GridTooCoarse { .. }
+            | BemError::ElementsTooFew { .. }
+            | BemError::PeriodTooCoarse { .. }
+            | BemError::SlopeNotResolved { .. }
+    )
+}
+
 /// Advice for an error of the half-space methods; empty if there is none.
 pub(super) const fn of_half_space(error: &BemError) -> &'static str {
     match error {
         BemError::GridTooLarge { .. } | BemError::TooManySteps { .. } => FEWER,
-        BemError::GridTooCoarse { .. }
-        | BemError::ElementsTooFew { .. }
-        | BemError::PeriodTooCoarse { .. }
-        | BemError::SlopeNotResolved { .. } => MORE_ELEMENTS,
+        coarse if is_too_coarse(coarse) => MORE_ELEMENTS,
         BemError::ContactNotConverged { .. } | BemError::SingularContact { .. } => OTHER_ELEMENTS,
         BemError::NotReached { .. }
         | BemError::TimeNotResolved { .. }

@@ -8,6 +8,8 @@
 //! All partial derivatives are differences of solutions on one number of elements, at the temperature and the strain of the answer. Each
 //! number takes two of them, and no search of a fixed point. Errors are the differences from the same derivatives on half as many elements,
 //! with twice the steps, and at the upper ends of the error bars of temperature and strain.
+//!
+//! Theory: docs/theory/sensitivities.md, "Heat and strain".
 
 use bem_halfspace::periodic;
 use numerics::{Estimate, SilentProgress, WorkProgress};
@@ -17,6 +19,7 @@ use super::parameters::{Number, Numbers};
 use super::{Derivatives, Sensitivity, Source};
 use crate::quantity::ByQuantity;
 use crate::scene::Accuracy;
+use crate::solve::advice::is_too_coarse;
 use crate::solve::answer::{Answer, Fields};
 use crate::solve::body::Body;
 use crate::solve::contact_strain::ContactStrain;
@@ -29,12 +32,21 @@ use crate::solve::shear::plan_again;
 /// Number of elements along the contact of a body for the differences. Chosen: solutions for slightly different numbers of a scene have
 /// nearly the same errors on a given number of elements, so that their logarithms differ by the right amount within some parts in 1000.
 const DIFFERENCE_ELEMENTS: usize = 24;
+/// The same for a line contact, whose elements cost less.
+const DIFFERENCE_ELEMENTS_OF_LINE: usize = 96;
+/// Largest number of elements along the contact of a body whose shape needs more.
+const MAX_DIFFERENCE_ELEMENTS: usize = 16 * DIFFERENCE_ELEMENTS;
 /// Step of the logarithm of a number, of the shear strength and of the strain. Chosen: solutions whose contact covers other elements
-/// scatter by some 1e-4, and friction curves hardly bend over 5 %.
-const DIFFERENCE_LOG_STEP: f64 = 0.05;
+/// scatter by some 1e-4, and friction curves hardly bend over 10 %.
+const DIFFERENCE_LOG_STEP: f64 = 0.1;
 /// Step of the temperature, \[K]. Chosen: by the universal constants of WLF it changes times by 20 % at 50 K above the glass transition,
-/// about as much friction as a step of the logarithm of the speed.
+/// about as much as a step of the logarithm of the speed.
 const DIFFERENCE_TEMPERATURE_STEP: f64 = 1.0;
+/// Ratio of the error of a derivative to its difference from that on the coarse elements. Chosen: both may agree by chance. Measured: see
+/// docs/theory/sensitivities.md.
+const ERROR_OVER_DIFFERENCE: f64 = 2.0;
+/// Error of a derivative by rounding. Derived: logarithms of up to 40 have the rounding error 1e-14 over a step of 0.1.
+const SLOPE_ROUNDING: f64 = 1e-13;
 
 /// Derivatives of an answer with heat or strain dependence by each number, and by the shear strength if it is uncertain.
 ///
@@ -46,9 +58,19 @@ pub(super) fn derivatives(
     mut progress: WorkProgress,
 ) -> Result<Derivatives> {
     check_surfaces(problem)?;
-    let elements = elements(problem);
-    let solutions = Contact::new((numbers, problem), answer, Resolution::fine(elements))?;
-    let coarse_solutions = Contact::new((numbers, problem), answer, Resolution::coarse(elements))?;
+    let mut elements = elements(problem);
+    let [solutions, coarse_solutions] = loop {
+        let resolutions = [Resolution::fine(elements), Resolution::coarse(elements)];
+        let [fine, coarse] = resolutions.map(|one| Contact::new((numbers, problem), answer, one));
+        match (fine, coarse) {
+            (Err(SolveError::HalfSpace(error)), _) | (_, Err(SolveError::HalfSpace(error)))
+                if is_too_coarse(&error) && elements < MAX_DIFFERENCE_ELEMENTS =>
+            {
+                elements *= 2;
+            }
+            (fine, coarse) => break [fine?, coarse?],
+        }
+    };
     let sensitivity =
         |parameter: String, direction: Direction<'_>| -> Result<Option<Sensitivity>> {
             let (Some(fine), Some(coarse)) = (
@@ -87,6 +109,7 @@ pub(super) fn derivatives(
 fn elements(problem: &Problem) -> usize {
     let fewest = match problem.body() {
         Body::Periodic(surface) => 2 * periodic::edge_for_bars(surface),
+        Body::Cylinder(_) => DIFFERENCE_ELEMENTS_OF_LINE,
         _ => DIFFERENCE_ELEMENTS,
     };
     match problem.accuracy() {
@@ -197,11 +220,14 @@ struct Contact<'a> {
     causes: Vec<(Cause, f64)>,
     /// An answer whose temperature has the distribution over the depth at which all are solved.
     near: Answer,
+    /// The solution without a change.
+    here: Point,
     /// Slopes over each of `causes`, in which those after it follow.
     by_cause: Vec<Slope>,
 }
 
 /// Solution of a problem.
+#[derive(Clone, Default)]
 struct Point {
     /// What is changed, as a difference from the answer.
     position: f64,
@@ -244,13 +270,16 @@ impl<'a> Contact<'a> {
                 .filter_map(value)
                 .collect(),
             near,
+            here: Point::default(),
             by_cause: Vec::new(),
         };
         // Take the distribution of the temperature from a solution with the same elements.
+        let values: Vec<f64> = contact.causes.iter().map(|(_, value)| *value).collect();
+        let first = contact.problem_at(problem, &values)?;
         if contact.near.temperature_by_depth.is_some() {
-            let values: Vec<f64> = contact.causes.iter().map(|(_, value)| *value).collect();
-            contact.near = contact.answer(&contact.problem_at(problem, &values)?)?;
+            contact.near = contact.answer(&first)?;
         }
+        contact.here = contact.point(&contact.problem_at(problem, &values)?, 0.0)?;
         // Let each value follow the ones before it, from the last to the first.
         let mut by_cause = Vec::new();
         for (index, (cause, _)) in contact.causes.iter().enumerate().rev() {
@@ -318,36 +347,37 @@ impl<'a> Contact<'a> {
         }
     }
 
-    /// Solution after a change of so many steps; `None` if it is not allowed.
-    fn point(&self, direction: Direction<'_>, steps: f64) -> Result<Option<Point>> {
-        let Some((problem, position)) = self.changed(direction, steps)? else {
-            return Ok(None);
-        };
-        let answer = self.answer(&problem)?;
+    /// Solution of a problem in which something is changed by `position`.
+    fn point(&self, problem: &Problem, position: f64) -> Result<Point> {
+        let answer = self.answer(problem)?;
         let log = |value: f64| (value != 0.0).then(|| value.abs().ln());
         let causes = self.causes.iter();
-        Ok(Some(Point {
+        Ok(Point {
             position,
             logs: ByQuantity::new(|quantity| log((quantity.of)(&answer)?.value)),
             caused: causes
-                .map(|(cause, _)| cause.caused_by(&problem, &answer))
+                .map(|(cause, _)| cause.caused_by(problem, &answer))
                 .collect(),
-            difference: ContactTemperature::of(&problem)
-                .map_or(0.0, |of| of.difference(&answer, &problem)),
-        }))
+            difference: ContactTemperature::of(problem)
+                .map_or(0.0, |of| of.difference(&answer, problem)),
+        })
     }
 
     /// Slope over a direction at given temperature and strain: a central difference, or a one-sided one at the end of the allowed range.
     /// `None` if no change is allowed.
     fn slope(&self, direction: Direction<'_>) -> Result<Option<Slope>> {
-        let [below, above] = [-1.0, 1.0].map(|steps| self.point(direction, steps));
-        let here = || self.point(direction, 0.0);
-        Ok(match (below?, above?) {
-            (Some(below), Some(above)) => Some(Slope::between([&below, &above])),
-            (Some(below), None) => here()?.map(|here| Slope::between([&below, &here])),
-            (None, Some(above)) => here()?.map(|here| Slope::between([&here, &above])),
-            (None, None) => None,
-        })
+        let solved = |steps: f64| {
+            let changed = self.changed(direction, steps)?;
+            let point = changed.map(|(problem, position)| self.point(&problem, position));
+            point.transpose()
+        };
+        let [below, above] = [-1.0, 1.0].map(solved);
+        let (below, above) = (below?, above?);
+        if below.is_none() && above.is_none() {
+            return Ok(None);
+        }
+        let ends = [below, above].map(|end| end.unwrap_or_else(|| self.here.clone()));
+        Ok(Some(Slope::between(ends.each_ref())))
     }
 
     /// Slope over a direction in which temperature and strain follow.
@@ -367,7 +397,8 @@ impl<'a> Contact<'a> {
             let by_distribution = self.by_cause.first().map_or(Some(0.0), |by_temperature| {
                 Some(by_temperature.logs.of(quantity.key)?.abs() * fine.difference)
             })?;
-            let error = (value - coarse_value).abs() + by_distribution;
+            let difference = (value - coarse_value).abs() + SLOPE_ROUNDING;
+            let error = ERROR_OVER_DIFFERENCE * difference + by_distribution;
             Some(Estimate::new(value, error))
         })
     }
