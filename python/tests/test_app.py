@@ -155,6 +155,17 @@ def test_points_are_drawn_with_their_parts_and_what_was_measured(folder: Path) -
     assert page.count("<table>") == 2 and "[indenter.sphere]" in page and "viscofriction sweep" in page and "<script" not in page
 
 
+def test_a_file_that_takes_too_long_to_read_is_refused_at_once(folder: Path) -> None:
+    with (folder / "huge.csv").open("wb") as file:
+        file.truncate(200 << 20)
+    project = _work.Project(folder)
+    project.choose(replace(BALL, material="huge.csv", measured="huge.csv"))
+    with pytest.raises(ValueError, match="measured: a table of friction has at most 8 MiB here, and huge.csv is larger"):
+        project.measured()
+    with pytest.raises(ValueError, match="huge.csv: a table of moduli has at most 8 MiB, and this file has 200 MiB"):
+        _choices.fit(project.choices, folder)
+
+
 def test_a_height_map_is_guessed_at_and_said_so(folder: Path) -> None:
     table = {"height-map": {"file": "road.x3p", "edges": "mirrored", "level": True}}
     body, guessed = _choices.surface(replace(BALL, tables={"indenter": table}), folder)

@@ -69,8 +69,8 @@ class Page:
         dark = ui.dark_mode(None)
         with ui.header().classes("items-center justify-between"):
             ui.html("<h1>Friction of rubber</h1>", sanitize=False)
-            colours = ui.select({None: "as the system", False: "light", True: "dark"}, label="colours").props("dark dense borderless")
-            colours.on_value_change(lambda event: dark.set_value(event.value))
+            schemes = {None: "as the system", False: "light", True: "dark"}
+            ui.select(schemes, label="colours", on_change=lambda event: dark.set_value(event.value)).props("dark dense borderless")
         with ui.element("main").classes("both"):
             with ui.column().classes("wide"):
                 self.material()
@@ -153,8 +153,7 @@ class Page:
     def file(self, path: str, label: str, ends: set[str], value: str, change: Callable[[str], None]) -> None:
         """A file of the folder, or one that is dropped and kept there."""
         names = self.project.files(ends)
-        chooser = self.select(path, label, names, value if value in names else None, lambda name: change(name or ""))
-        chooser.props("clearable")
+        chooser = self.select(path, label, names, value if value in names else None, lambda name: change(name or "")).props("clearable")
 
         async def keep(event: events.UploadEventArguments) -> None:
             with tempfile.TemporaryDirectory(dir=self.project.folder, prefix=".dropped-") as folder:
@@ -233,8 +232,7 @@ class Page:
                     with more if key.name in rare else common:
                         self.key(family, kind or "", key)
                 if family == "heat" and kind is not None:
-                    both = ui.switch("also without heat", value=self.chosen.cold_too)
-                    both.on_value_change(lambda event: self.choose_one("cold_too", event.value))
+                    ui.switch("also without heat", value=self.chosen.cold_too, on_change=lambda event: self.choose_one("cold_too", event.value))
 
         with ui.card():
             raw(f"<h2>{TITLES[family]}</h2>")
@@ -302,8 +300,7 @@ class Page:
             (rows, columns), (dx, dy) = body.heights.shape, body.spacing
             along, across, sq, sa = (f"{self.in_unit(one):.3g} {self.unit}" for one in (dx, dy, rough.rms_height, rough.mean_deviation))
             lines = [f"{columns} × {rows} heights along x and y, {along} × {across} apart"]
-            lines += [f"Sq {sq}, Sa {sa}, Sdq {rough.rms_gradient:.3g}"]
-            lines += [f"Ssk {rough.skewness:.2g}, Sku {rough.kurtosis:.2g}"]
+            lines += [f"Sq {sq}, Sa {sa}, Sdq {rough.rms_gradient:.3g}", f"Ssk {rough.skewness:.2g}, Sku {rough.kurtosis:.2g}"]
             new = {name: value for name, value in guessed.keys("indenter").items() if name not in chosen.keys("indenter")}
             self.project.choose(self.chosen.with_table("indenter", "height-map", guessed.keys("indenter")))
             for name, value in new.items():
@@ -352,8 +349,7 @@ class Page:
                 self.table = ui.column().classes("wide")
         with ui.card():
             raw("<h2>The contact of a point</h2>")
-            chooser = ui.select({}, label="point, or click on one", on_change=lambda event: self.look_at_point(event.value))
-            self.point = chooser.classes("wide").style("scroll-margin-top: 4rem")
+            self.point = ui.select({}, label="point, or click on one", on_change=lambda event: self.look_at_point(event.value)).classes("wide point")
             self.of_point = ui.column().classes("wide")
 
     def compute(self) -> None:
