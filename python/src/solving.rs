@@ -170,6 +170,11 @@ pub(crate) fn solve_loads<'py>(
     let count = scenes.columns.first().map_or(1, |(_, values)| values.len());
     let threads = scenes.scene.solve.threads;
     let problems = (0..count).map(|index| scenes.problem(index, 1));
+    // Fields are those of a single scene.
+    let problems = problems.map(|problem| match count {
+        1 => problem.map(Problem::with_gap),
+        _ => problem,
+    });
     let problems: Vec<Problem> = problems.collect::<PyResult<_>>()?;
     for problem in &problems {
         loads.check_derivatives(problem).map_err(wrong)?;
@@ -280,6 +285,12 @@ fn other(py: Python<'_>, answer: Answer) -> PyResult<Bound<'_, PyDict>> {
         dictionary.set_item("pressure", pressure)?;
         dictionary.set_item("origin", field.origin)?;
         dictionary.set_item("spacing", field.grid.spacing())?;
+    }
+    if let Some(field) = answer.fields.gap {
+        let shape = field.grid.shape();
+        dictionary.set_item("gap", field.gap.into_pyarray(py).reshape(shape)?)?;
+        dictionary.set_item("gap_origin", field.origin)?;
+        dictionary.set_item("gap_spacing", field.grid.spacing())?;
     }
     if let Some(field) = answer.fields.temperature {
         let shape = field.grid.shape();

@@ -9,7 +9,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
-from contextlib import closing
+from contextlib import ExitStack, closing
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -41,6 +41,7 @@ HOT = replace(
     tables={**BALL.tables, "interface": {"constant": {"shear_strength": 1e5}}, "heat": {"": {"conductivity": 0.25, "diffusivity": 1.2e-7}}},
     n_speeds=1,
 )
+ROUGH = {"indenter": {"height-map": {"file": "road.x3p", "edges": "mirrored"}}}
 
 
 @pytest.fixture
@@ -154,6 +155,17 @@ def test_points_are_drawn_with_their_parts_and_what_was_measured(folder: Path) -
     assert page.count("<table>") == 2 and "[indenter.sphere]" in page and "viscofriction sweep" in page and "<script" not in page
 
 
+def test_a_file_that_takes_too_long_to_read_is_refused_at_once(folder: Path) -> None:
+    with (folder / "huge.csv").open("wb") as file:
+        file.truncate(200 << 20)
+    project = _work.Project(folder)
+    project.choose(replace(BALL, material="huge.csv", measured="huge.csv"))
+    with pytest.raises(ValueError, match="measured: a table of friction has at most 8 MiB here, and huge.csv is larger"):
+        project.measured()
+    with pytest.raises(ValueError, match="huge.csv: a table of moduli has at most 8 MiB, and this file has 200 MiB"):
+        _choices.fit(project.choices, folder)
+
+
 def test_a_height_map_is_guessed_at_and_said_so(folder: Path) -> None:
     table = {"height-map": {"file": "road.x3p", "edges": "mirrored", "level": True}}
     body, guessed = _choices.surface(replace(BALL, tables={"indenter": table}), folder)
@@ -167,9 +179,29 @@ def test_a_height_map_is_guessed_at_and_said_so(folder: Path) -> None:
     assert _choices.surface(chosen, folder)[1].keys("indenter")["unit"] == "mm"
 
 
+def test_lengths_keep_their_digits_in_every_unit() -> None:
+    for shown, power, metres in ((0.1, -3, "0.0001"), (0.3, -3, "0.0003"), (5.0, -3, "0.005"), (320.0, -6, "0.00032"), (1e-3, -3, "1e-06"), (7, 0, "7.0")):
+        length = _choices.shifted(shown, power)
+        assert repr(length) == metres and _choices.shifted(length, -power) == shown
+    for digits in np.random.default_rng(3).integers(1, 10**12, 1000).tolist():
+        length = float(f"{digits}e-15")
+        assert _choices.shifted(_choices.shifted(length, 3), -3) == length
+    # The unit is no part of a computation.
+    metres = replace(BALL, unit="m")
+    assert _choices.stored(metres, Path()) == _choices.stored(BALL, Path()) and Choices.from_json(metres.to_json()) == metres
+    assert Choices.from_json('{"unit": "inch"}').unit == "mm"
+
+
+def test_a_layer_is_a_table_of_the_scene() -> None:
+    assert _choices.scene(replace(BALL, thickness=2e-3), "friction-1")["layer"] == {"thickness": 2e-3}
+    assert "layer" not in _choices.scene(BALL, "friction-1")
+
+
 @pytest.mark.parametrize(
     ("wrong", "problem"),
     [
+        ({"thickness": 0.0}, "layer.thickness must be finite and greater than 0, but is 0"),
+        ({"tables": ROUGH | {"heat": {"": {"conductivity": 0.25, "diffusivity": 1.2e-7}}}}, "heat.duration is needed: the time"),
         ({"material": ""}, "material: a table of moduli is needed"),
         ({"tables": {}}, "indenter: a body is needed"),
         ({"tables": {"indenter": {"sphere": {"radius": -1.0}}}}, "indenter.sphere.radius must be finite and greater than 0, but is -1"),
@@ -197,7 +229,7 @@ def test_what_is_wrong_is_named_before_anything_is_computed(wrong: dict[str, Any
     [
         ({"material": "road.x3p"}, "road.x3p"),
         ({"temperatures": (0.0, 100.0)}, "material.file.temperature"),
-        ({"tables": {"indenter": {"height-map": {"file": "tread-rubber.csv"}}}}, "indenter.height-map.spacing"),
+        ({"tables": {"indenter": {"height-map": {"file": "tread-rubber.csv"}}}}, "tread-rubber.csv:5: the columns have the names"),
     ],
 )
 def test_what_only_the_computation_finds_wrong_is_said(wrong: dict[str, Any], problem: str, folder: Path) -> None:
@@ -242,7 +274,8 @@ def test_the_page_is_at_this_machine_and_needs_the_token(folder: Path) -> None:
     command = [sys.executable, "-c", "from viscofriction.app import main; main()", folder, "--no-browser", "--threads", "1"]
     # NiceGUI behaves otherwise where it sees that it is tested.
     environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST")}
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=folder, env=environment) as server:
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=folder, env=environment) as server, ExitStack() as ended:
+        ended.callback(server.kill)
         assert server.stdout is not None
         address = urllib.parse.urlsplit(server.stdout.readline().strip())
         assert address.hostname == "127.0.0.1" and address.port is not None
@@ -262,10 +295,9 @@ def test_the_page_is_at_this_machine_and_needs_the_token(folder: Path) -> None:
                 time.sleep(0.1)
         assert answer("/")[0] == answer("/?token=guess")[0] == answer("/_nicegui/socket.io/")[0] == 403
         status, cookie = answer(f"/?{address.query}")
-        assert status == 303 and "HttpOnly" in cookie and "SameSite=Strict" in cookie
+        assert status == 303 and "HttpOnly" in cookie and "samesite=strict" in cookie.lower()
         cookie = cookie.split(";")[0]
         assert answer("/", Cookie=cookie)[0] == 200
         assert answer("/", Cookie=cookie + "x")[0] == answer("/", Cookie=cookie, Host="elsewhere.example")[0] == 403
-        server.terminate()
     refused = subprocess.run([*command[:3], folder / "absent"], capture_output=True, text=True, cwd=folder, env=environment)
     assert refused.returncode == 2 and "absent is no folder" in refused.stderr

@@ -7,9 +7,8 @@ import re
 import shutil
 import subprocess
 import sys
-import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -35,15 +34,19 @@ SHOTS = os.environ.get("VISCOFRICTION_SCREENSHOTS")
 
 
 class Server:
-    """The program of a folder, which is killed at the end."""
+    """The program of a folder, which begins at once and is waited for where its address is asked for; it is killed at the end."""
 
     def __init__(self, folder: Path) -> None:
+        self.folder = folder
         # NiceGUI behaves otherwise where it sees that it is tested.
         environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST")}
         command = [sys.executable, "-c", "from viscofriction.app import main; main()", folder, "--no-browser"]
         self.process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=folder, env=environment)
+
+    @cached_property
+    def address(self) -> str:
         assert self.process.stdout is not None
-        self.address = self.process.stdout.readline().strip()
+        return self.process.stdout.readline().strip()
 
     def seconds(self) -> float:
         """Processor time so far."""
@@ -56,12 +59,17 @@ class Server:
             self.process.communicate()
 
 
-@contextmanager
-def serving(folder: Path) -> Iterator[Server]:
-    server = Server(folder)
-    try:
-        yield server
-    finally:
+@pytest.fixture(scope="module")
+def servers(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, Server]]:
+    """A server for each test that needs one of its own, all of which begin while the first test runs."""
+    started = {}
+    for name in ("flow", "killed", "wrong", "keys"):
+        folder = tmp_path_factory.mktemp(name)
+        for file in ("tread-rubber.csv", "road.x3p", "dry-friction.csv"):
+            shutil.copy(DATA / file, folder)
+        started[name] = Server(folder)
+    yield started
+    for server in started.values():
         server.kill()
 
 
@@ -71,13 +79,6 @@ def browser() -> Iterator[Any]:
         chromium = driver.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
         yield chromium
         chromium.close()
-
-
-@pytest.fixture
-def folder(tmp_path: Path) -> Path:
-    for name in ("tread-rubber.csv", "road.x3p", "dry-friction.csv"):
-        shutil.copy(DATA / name, tmp_path)
-    return tmp_path
 
 
 class Visitor:
@@ -124,45 +125,46 @@ class Visitor:
         assert self.problems == []
 
 
-def test_from_three_files_to_friction_over_speed_and_temperature(browser: Any, folder: Path) -> None:
-    with serving(folder) as server:
-        visitor = Visitor(browser, server.address)
-        visitor.choose("table of moduli", "tread-rubber.csv")
-        visitor.sees("relative error of G′: 1 % rms")
-        visitor.choose("kind", "height-map")
-        visitor.choose("file", "road.x3p")
-        visitor.sees("this is a guess")
-        assert visitor.page.get_by_label("shortest wavelength [m]").input_value() == "0.00032"
-        visitor.fill("mean pressure [Pa]", "3e5")
-        visitor.press("Compute")
-        visitor.sees(re.compile(r"friction-1: \d+ of 10 points, about \d+ s left"))
-        visitor.sees("friction-1: 10 of 10 points, finished", 2 * PATIENCE)
-        assert visitor.actions <= 12 and server.seconds() < 60
-        print(f"{visitor.actions} actions, {server.seconds():.1f} s of processor time")
-        sweep = vf.read_sweep(folder / "friction-1.csv")
-        assert sweep.keys == ["material.file.temperature", "load.velocity"] and len(sweep) == 10
-        assert np.unique(sweep["material.file.temperature"]).tolist() == [0.0, 20.0] and sweep.failures == [None] * 10
-        # The numbers of the table in the page are those of the file.
-        visitor.press("all points as a table")
-        table = visitor.page.locator("table").last
-        table.wait_for()
-        assert all(text in table.inner_text() for text in vf._results.with_bars(sweep["friction_coefficient"], sweep["friction_coefficient_error"]))
-        visitor.press("all points as a table")
-        visitor.page.evaluate("window.scrollTo(0, 0)")
-        visitor.shoot("browser")
-        contact(visitor)
-        visitor.choose("measured friction", "dry-friction.csv")
-        visitor.sees("measured, 0 °C")
-        files(visitor, folder)
-        looks(visitor)
-        visitor.leave()
+def test_from_three_files_to_friction_over_speed_and_temperature(browser: Any, servers: dict[str, Server]) -> None:
+    server = servers["flow"]
+    folder, visitor = server.folder, Visitor(browser, server.address)
+    visitor.choose("table of moduli", "tread-rubber.csv")
+    visitor.sees("relative error of G′: 1 % rms")
+    visitor.choose("kind", "height-map")
+    visitor.choose("file", "road.x3p")
+    visitor.sees("this is a guess")
+    assert visitor.page.get_by_label("shortest wavelength [mm]").input_value() == "0.32"
+    visitor.fill("mean pressure [Pa]", "3e5")
+    visitor.press("Compute")
+    visitor.sees(re.compile(r"friction-1: \d+ of 10 points, about \d+ s left"))
+    visitor.sees("friction-1: 10 of 10 points, finished", 2 * PATIENCE)
+    assert visitor.actions <= 12 and server.seconds() < 60
+    print(f"{visitor.actions} actions, {server.seconds():.1f} s of processor time")
+    sweep = vf.read_sweep(folder / "friction-1.csv")
+    assert sweep.keys == ["material.file.temperature", "load.velocity"] and len(sweep) == 10
+    assert np.unique(sweep["material.file.temperature"]).tolist() == [0.0, 20.0] and sweep.failures == [None] * 10
+    # The numbers of the table in the page are those of the file.
+    visitor.press("all points as a table")
+    table = visitor.page.locator("table").last
+    table.wait_for()
+    assert all(text in table.inner_text() for text in vf._results.with_bars(sweep["friction_coefficient"], sweep["friction_coefficient_error"]))
+    visitor.press("all points as a table")
+    visitor.page.evaluate("window.scrollTo(0, 0)")
+    visitor.shoot("browser")
+    contact(visitor)
+    visitor.choose("measured friction", "dry-friction.csv")
+    visitor.sees("measured, 0 °C")
+    files(visitor, folder)
+    looks(visitor)
+    visitor.leave()
 
 
 def contact(visitor: Visitor) -> None:
     """A click on a point shows its contact."""
     point = visitor.page.locator(".scatterlayer .points path").nth(3).bounding_box()
     visitor.page.mouse.click(point["x"] + point["width"] / 2, point["y"] + point["height"] / 2)
-    visitor.page.get_by_alt_text("pressure of the contact").wait_for()
+    for field in ("pressure", "gap"):
+        visitor.page.get_by_alt_text(f"{field} of the contact").wait_for()
     visitor.sees("temperature 0, velocity 1")
     visitor.sees("standard uncertainty of the friction coefficient")
     visitor.sees(re.compile("^the answer depends on the shortest waves"))
@@ -209,113 +211,130 @@ def chosen_ball(visitor: Visitor, n_speeds: int) -> None:
     visitor.choose("table of moduli", "tread-rubber.csv")
     visitor.sees("relative error of G′: 1 % rms")
     visitor.choose("kind", "sphere")
-    visitor.fill("radius [m]", "5e-3")
+    visitor.fill("radius [mm]", "5")
     visitor.fill("normal force [N]", "1")
     visitor.fill("number of speeds", str(n_speeds))
     visitor.page.get_by_role("switch", name="band of the material").click()
 
 
-def test_nothing_is_lost_when_the_browser_is_closed_and_the_server_killed(browser: Any, folder: Path) -> None:
-    with serving(folder) as server:
-        visitor = Visitor(browser, server.address)
-        chosen_ball(visitor, 100)
-        visitor.press("Compute")
-        visitor.sees(re.compile(r"friction-1: [1-9]\d* of 200 points"))
-        visitor.leave()
-        # It goes on, and another page shows it.
-        before = len(vf.read_sweep(folder / "friction-1.csv"))
-        visitor = Visitor(browser, server.address)
-        visitor.sees("friction-1: ")
-        until = time.monotonic() + PATIENCE
-        while len(vf.read_sweep(folder / "friction-1.csv")) <= before and time.monotonic() < until:
-            time.sleep(0.1)
-        server.kill()
-        kept = vf.read_sweep(folder / "friction-1.csv")
-        assert before < len(kept) < 200
-        visitor.leave()
-    with serving(folder) as server:
-        visitor = Visitor(browser, server.address)
-        visitor.sees(f"friction-1: {len(kept)} of 200 points, stopped; Compute goes on")
-        assert visitor.page.get_by_label("radius [m]").input_value() == "0.005"
-        visitor.press("Compute")
-        visitor.sees(re.compile(rf"friction-1: (?!{len(kept)} )\d+ of 200 points, about"))
-        visitor.press("Stop")
-        visitor.sees(re.compile(r"points, stopped; Compute goes on"))
-        visitor.leave()
+def computed_points(visitor: Visitor, more_than: int) -> int:
+    """The number of points that the page shows, once it is greater than another one."""
+    shown = "Number(/friction-1: (\\d+) of/.exec(document.body.innerText)?.[1] ?? -1)"
+    visitor.page.wait_for_function(f"{shown} > {more_than}")
+    return int(visitor.page.evaluate(shown))
+
+
+def test_nothing_is_lost_when_the_browser_is_closed_and_the_server_killed(browser: Any, servers: dict[str, Server]) -> None:
+    server = servers["killed"]
+    folder, visitor = server.folder, Visitor(browser, server.address)
+    chosen_ball(visitor, 100)
+    visitor.press("Compute")
+    before = computed_points(visitor, 0)
+    visitor.leave()
+    # It goes on, and another page shows it.
+    visitor = Visitor(browser, server.address)
+    computed_points(visitor, before)
+    server.kill()
+    visitor.leave()
+    kept = vf.read_sweep(folder / "friction-1.csv")
+    assert before < len(kept) < 200
+    again = servers["killed again"] = Server(folder)
+    visitor = Visitor(browser, again.address)
+    visitor.sees(f"friction-1: {len(kept)} of 200 points, stopped; Compute goes on")
+    assert visitor.page.get_by_label("radius [mm]").input_value() == "5"
+    visitor.press("Compute")
+    computed_points(visitor, len(kept))
+    visitor.press("Stop")
+    visitor.sees(re.compile(r"points, stopped; Compute goes on"))
+    visitor.leave()
     more = vf.read_sweep(folder / "friction-1.csv")
     of_point = dict(zip(more["point"], more["friction_coefficient"]))
     assert len(more) > len(kept) and all(of_point[point] == mu for point, mu in zip(kept["point"], kept["friction_coefficient"]))
 
 
-def test_wrong_input_is_said_beside_its_field(browser: Any, folder: Path, tmp_path: Path) -> None:
-    with serving(folder) as server:
-        visitor = Visitor(browser, server.address)
-        page = visitor.page
-
-        def problem(label: str) -> str:
-            field = page.locator("label.q-field", has_text=label).first
-            shown = field.locator("[role=alert]")
-            shown.wait_for()
-            return str(shown.inner_text())
-
-        visitor.press("Compute")
-        assert problem("table of moduli") == "material: a table of moduli is needed"
-        # A file that is none, and one of the other kind.
-        (tmp_path / "noise.csv").write_bytes(bytes(range(256)) * 40)
-        drops = page.locator(".q-uploader input[type=file]")
-        drops.nth(0).set_input_files(tmp_path / "noise.csv")
-        assert "noise.csv" in problem("table of moduli")
-        shutil.copy(DATA / "road.x3p", tmp_path / "swapped.csv")
-        drops.nth(0).set_input_files(tmp_path / "swapped.csv")
-        visitor.sees(re.compile("swapped.csv, line"))
-        drops.nth(0).set_input_files(DATA / "tread-rubber.csv")
-        visitor.sees("relative error of G′: 1 % rms")
-        assert not page.get_by_label("table of moduli", exact=True).locator("xpath=ancestor::label//*[@role='alert']").count()
-        visitor.choose("kind", "height-map")
-        page.locator(".q-uploader input[type=file]").nth(1).set_input_files(DATA / "tread-rubber.csv")
-        assert problem("spacing [m], x").startswith("spacing: ")
-        visitor.choose("kind", "sphere")
-        visitor.fill("radius [m]", "-1")
-        assert problem("radius [m]") == "indenter.sphere.radius must be finite and greater than 0, but is -1"
-        visitor.fill("radius [m]", "0.01")
-        visitor.fill("temperatures [°C]", "0 warm")
-        assert "must be numbers between blanks, such as 0 20 39, but is 0 warm" in problem("temperatures [°C], between blanks")
-        visitor.fill("temperatures [°C]", "0 100")
-        visitor.fill("normal force [N]", "1")
-        visitor.press("Compute")
-        assert problem("temperatures [°C], between blanks").startswith("material.file.temperature")
-        # The page lives on.
-        visitor.fill("temperatures [°C]", "20")
-        visitor.fill("number of speeds", "2")
-        visitor.press("Compute")
-        visitor.sees(re.compile(r"friction-\d+: 2 of 2 points, finished"))
-        visitor.leave()
+def problem(visitor: Visitor, label: str) -> str:
+    """What is said beside a field."""
+    shown = visitor.page.locator("label.q-field", has_text=label).first.locator("[role=alert]")
+    shown.wait_for()
+    return str(shown.inner_text())
 
 
-def test_the_keyboard_is_enough(browser: Any, folder: Path) -> None:
-    with serving(folder) as server:
-        visitor = Visitor(browser, server.address)
-        keys = visitor.page.keyboard
+def test_wrong_input_is_said_beside_its_field(browser: Any, servers: dict[str, Server], tmp_path: Path) -> None:
+    visitor = Visitor(browser, servers["wrong"].address)
+    page = visitor.page
+    visitor.press("Compute")
+    assert problem(visitor, "table of moduli") == "material: a table of moduli is needed"
+    # A file that is none, and one of the other kind.
+    (tmp_path / "noise.csv").write_bytes(bytes(range(256)) * 40)
+    drops = page.locator(".q-uploader input[type=file]")
+    drops.nth(0).set_input_files(tmp_path / "noise.csv")
+    assert "noise.csv" in problem(visitor, "table of moduli")
+    shutil.copy(DATA / "road.x3p", tmp_path / "swapped.csv")
+    drops.nth(0).set_input_files(tmp_path / "swapped.csv")
+    visitor.sees(re.compile("swapped.csv, line .* the file is binary, as measured surfaces"))
+    drops.nth(0).set_input_files(DATA / "tread-rubber.csv")
+    visitor.sees("relative error of G′: 1 % rms")
+    assert not page.get_by_label("table of moduli", exact=True).locator("xpath=ancestor::label//*[@role='alert']").count()
+    visitor.choose("kind", "height-map")
+    page.locator(".q-uploader input[type=file]").nth(1).set_input_files(DATA / "tread-rubber.csv")
+    assert "the columns have the names 'Frequenz'" in problem(visitor, "file")
+    # Without the time of sliding there is no temperature below a periodic surface.
+    page.get_by_label("kind", exact=True).nth(2).click()
+    page.get_by_role("option", name="computed").click()
+    visitor.fill("conductivity [W/m/K]", "0.3")
+    assert problem(visitor, "duration [s]").startswith("heat.duration is needed")
+    page.get_by_label("kind", exact=True).nth(2).click()
+    page.get_by_role("option", name="none").click()
+    visitor.choose("kind", "sphere")
+    visitor.fill("radius [mm]", "-1")
+    assert problem(visitor, "radius [mm]") == "indenter.sphere.radius must be finite and greater than 0, but is -0.001"
+    visitor.fill("radius [mm]", "10")
+    visitor.fill("temperatures [°C]", "0 warm")
+    assert "must be numbers between blanks, such as 0 20 39, but is 0 warm" in problem(visitor, "temperatures [°C], between blanks")
+    visitor.fill("temperatures [°C]", "0 100")
+    visitor.fill("normal force [N]", "1")
+    visitor.press("Compute")
+    assert problem(visitor, "temperatures [°C], between blanks").startswith("material.file.temperature")
+    # The page lives on, and another unit of lengths changes no scene.
+    visitor.fill("temperatures [°C]", "20")
+    visitor.fill("number of speeds", "2")
+    visitor.press("Compute")
+    visitor.sees(re.compile(r"friction-\d+: 2 of 2 points, finished"))
+    visitor.choose("unit of lengths", "m$")
+    page.get_by_label("radius [m]").wait_for()
+    assert page.get_by_label("radius [m]").input_value() == "0.01"
+    visitor.press("Compute")
+    visitor.sees(re.compile(r"friction-\d+: 2 of 2 points, finished"))
+    assert len(list(servers["wrong"].folder.glob("friction-*.json"))) == 2
+    visitor.leave()
 
-        def reach(label: str) -> None:
-            focused = "(document.activeElement.labels?.[0]?.innerText || document.activeElement.ariaLabel || document.activeElement.innerText || '')"
-            for _ in range(80):
-                if visitor.page.evaluate(focused).strip().startswith(label):
-                    return
-                keys.press("Tab")
-            raise AssertionError(f"{label} is not reached by the keyboard")
 
-        reach("table of moduli")
-        for key in ("Enter", "ArrowDown", "ArrowDown", "Enter"):
-            keys.press(key)
-            visitor.page.wait_for_timeout(200)
-        visitor.sees("relative error of G′: 1 % rms")
-        reach("kind")
-        keys.type("sphere")
-        keys.press("Enter")
-        reach("normal force")
-        keys.type("1")
-        reach("Compute")
-        keys.press("Enter")
-        visitor.sees(re.compile("^(indenter|friction)"))
-        visitor.leave()
+def test_the_keyboard_is_enough(browser: Any, servers: dict[str, Server]) -> None:
+    visitor = Visitor(browser, servers["keys"].address)
+    page, keys = visitor.page, visitor.page.keyboard
+
+    def reach(label: str) -> None:
+        focused = "(document.activeElement.labels?.[0]?.innerText || document.activeElement.ariaLabel || document.activeElement.innerText || '')"
+        for _ in range(80):
+            if page.evaluate(focused).strip().startswith(label):
+                return
+            keys.press("Tab")
+        raise AssertionError(f"{label} is not reached by the keyboard")
+
+    reach("table of moduli")
+    keys.press("Enter")
+    for name in ("dry-friction.csv", "tread-rubber.csv"):
+        page.get_by_role("option", name=name).wait_for()
+        keys.press("ArrowDown")
+        page.locator(".q-manual-focusable--focused", has_text=name).wait_for()
+    keys.press("Enter")
+    visitor.sees("relative error of G′: 1 % rms")
+    reach("kind")
+    keys.type("sphere")
+    keys.press("Enter")
+    reach("normal force")
+    keys.type("1")
+    reach("Compute")
+    keys.press("Enter")
+    visitor.sees(re.compile("^(indenter|friction)"))
+    visitor.leave()

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import io
+import re
 import subprocess
 import sys
 import zipfile
 from pathlib import Path
 
 import pytest
+from conftest import ROOT
 
 import viscofriction as vf
 
@@ -84,3 +86,52 @@ def test_a_scene_file_has_a_largest_size(tmp_path: Path) -> None:
             vf.solve(path)
     with pytest.raises(FileNotFoundError):
         vf.solve(tmp_path / "none.toml")
+
+
+#: What each reader says of the files of the others.
+EXCHANGED = {
+    "moduli": {
+        "friction": "this is a table of measured friction",
+        "sweep": "this is a table of results of a sweep",
+        "map": "these are numbers without names, as of a height map",
+        "surface": "the file is binary",
+    },
+    "friction": {
+        "moduli": "this is a table of moduli",
+        "sweep": "this is a table of results of a sweep",
+        "map": "these are numbers without names, as of a height map",
+        "surface": "the file is binary",
+    },
+    "map": {
+        "moduli": "the columns have the names 'Frequenz' and 'Temperatur': this is a table of measurements or results",
+        "friction": "the columns have the names 'v (mm/s)' and 'T (C)': this is a table of measurements or results",
+        "sweep": "no line is a row of numbers; this one begins with 'sweep,point",
+    },
+    "sweep": dict.fromkeys(("moduli", "friction", "map", "surface"), "is not the table of a sweep, whose columns begin with sweep, point, points"),
+}
+
+
+@pytest.mark.parametrize(("reader", "given"), [(reader, given) for reader, others in EXCHANGED.items() for given in others])
+def test_exchanged_files_are_named(reader: str, given: str, tmp_path: Path) -> None:
+    data = ROOT / "examples" / "data"
+    (tmp_path / "map.csv").write_text("\n".join("0.1,0.25,0.3,0.15" for _ in range(4)) + "\n")
+    ball = {"indenter": vf.Sphere(5e-3), "material": vf.Elastic(1e6), "load": {"normal_force": 1.0, "velocity": 0.0}, "solve": {"duration": 1.0}}
+    vf.sweep(ball, {"load.normal_force": [1.0, 2.0]}, out=tmp_path / "sweep.csv")
+    files = {"moduli": data / "tread-rubber.csv", "friction": data / "dry-friction.csv", "surface": data / "road.x3p"}
+    files |= {"map": tmp_path / "map.csv", "sweep": tmp_path / "sweep.csv"}
+    readers = {"moduli": vf.fit_material, "friction": vf.read_friction, "sweep": vf.read_sweep}
+    readers["map"] = lambda file: vf.read_height_map(vf.HeightMapFile(file, spacing=(1e-5, 1e-5)))
+    with pytest.raises(ValueError, match=re.escape(EXCHANGED[reader][given])):
+        readers[reader](files[given])
+
+
+def test_tables_that_take_too_long_to_fit_are_refused_at_once(tmp_path: Path) -> None:
+    large = tmp_path / "large.csv"
+    with large.open("wb") as file:
+        file.truncate((8 << 20) + 1)
+    with pytest.raises(ValueError, match="large.csv: a table of moduli has at most 8 MiB, and this file has 8 MiB"):
+        vf.fit_material(large)
+    rows = (f"{0.1 + 1e-4 * index},{10 * (index % 3)},2.0,0.3" for index in range(20_001))
+    large.write_text("\n".join(["f (Hz),T (C),E' (MPa),E'' (MPa)", *rows]))
+    with pytest.raises(ValueError, match="20001 points at 3 temperatures: at most 20000 are shifted"):
+        vf.fit_material(large)

@@ -212,6 +212,21 @@ def test_a_master_curve_a_map_and_a_temperature_are_drawn() -> None:
     assert (np.ravel(axes.collections[0].get_array()) == np.ravel(answer.temperature)).all()
 
 
+def test_the_gap_is_around_the_contact() -> None:
+    answer = vf.slide(vf.Sphere(5e-3), SOLID, normal_force=0.2, velocity=0.01, relative_error=0.01)
+    assert answer.gap.shape == (answer.gap_y.size, answer.gap_x.size)
+    rows, columns = (np.abs(here[:, np.newaxis] - there).argmin(axis=0) for here, there in ((answer.gap_y, answer.y), (answer.gap_x, answer.x)))
+    assert np.allclose(answer.gap_x[columns], answer.x) and np.allclose(answer.gap_y[rows], answer.y)
+    in_contact = answer.gap[np.ix_(rows, columns)][answer.pressure > 0.0]
+    assert np.abs(in_contact).max() < 1e-4 * answer.gap.max(), "0 in the contact"
+    drawn = answer.plot(field="gap").collections[0].get_array()
+    assert drawn.compressed().size < answer.gap.size and drawn.max() == answer.gap.max()
+    line = vf.slide(vf.Cylinder(5e-3), SOLID, normal_force=100.0, velocity=0.01, relative_error=0.1)
+    assert line.gap.shape == (1, line.gap_x.size) and (line.plot(field="gap").lines[0].get_ydata() == line.gap[0]).all()
+    with pytest.raises(AttributeError, match="analytic has no gap"):
+        vf.slide(vf.Sphere(5e-3), SOLID, normal_force=0.2, velocity=0.01, relative_error=0.1).gap  # noqa: B018
+
+
 def test_results_know_their_warnings_and_what_is_not_in_them() -> None:
     slides = ["adhesion", "strain dependence", "heating", "interfacial shear"]
     steep, load = vf.Cone(0.8), {"normal_force": 1.0, "velocity": 0.01}

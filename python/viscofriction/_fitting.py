@@ -7,6 +7,7 @@ import math
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
@@ -178,6 +179,12 @@ def read_moduli(file: File, *, poisson_ratio: float = 0.5, deformation: Deformat
     return Moduli(omega, storage, loss, np.concatenate([np.full(columns[0].size, one) for one, columns in parts]))
 
 
+#: Largest table that is fitted [bytes], far above the export of an instrument and read in seconds.
+LARGEST_TABLE = 8 << 20
+#: Most points of isotherms that are shifted and fitted, in a minute or so.
+MOST_SHIFTED = 20_000
+
+
 def fit_material(
     frequency: ArrayLike | File,
     storage: ArrayLike | None = None,
@@ -221,6 +228,9 @@ def fit_material(
     if isinstance(frequency, str | os.PathLike):
         if storage is not None or loss is not None:
             raise ValueError("storage and loss: a file has its own")
+        path = Path(frequency)
+        if path.is_file() and (size := path.stat().st_size) > LARGEST_TABLE:
+            raise ValueError(f"{path}: a table of moduli has at most {LARGEST_TABLE >> 20} MiB, and this file has {size / (1 << 20):.0f} MiB")
         measured = _native.read_moduli(os.fspath(frequency), poisson_ratio, deformation)
         return _fit_table(measured, superposition, options, poisson_ratio)
     if storage is None or loss is None:
@@ -251,6 +261,9 @@ def _fit_table(
     if celsius is None:
         found = _native.fit_oscillation(omega, storage, loss, options)
         return replace(_fit(found, poisson_ratio), measured=Moduli(omega, storage, loss))
+    if (n_points := sum(columns[0].size for _, columns in isotherms)) > MOST_SHIFTED:
+        problem = f"{n_points} points at {len(isotherms)} temperatures: at most {MOST_SHIFTED} are shifted to a master curve"
+        raise ValueError(f"{problem}; ten frequencies per decade and isotherm are enough")
     found = _native.fit_isotherms(isotherms, celsius, superposition, options)
     fit = replace(_fit(found, poisson_ratio), temperature=found["temperature"])
     if len(isotherms) == 1:

@@ -277,6 +277,20 @@ def temperature(answer: Any, ax: Any) -> Any:
     return tidy(ax, "x [m]", "y [m]", (None, None))
 
 
+def gap(answer: Any, ax: Any) -> Any:
+    """Gap between body and elastomer; the contact stays white."""
+    if answer.gap.shape[0] == 1:
+        ax.plot(answer.gap_x, answer.gap[0])
+        return tidy(ax, "x [m]", "gap [m]", (None, None))
+    # A gap within the tolerance of the contact solver is none.
+    shown = np.ma.masked_less_equal(answer.gap, 1e-5 * answer.gap.max())
+    image = ax.pcolormesh(answer.gap_x, answer.gap_y, shown, shading="nearest", cmap=FIELD)
+    _coloured(ax, image, "gap [m]", float(answer.gap.max()))
+    if answer.mu is not None:
+        motion(ax)
+    return tidy(ax, "x [m]", "y [m]", (None, None))
+
+
 def single(answer: Any, ax: Any) -> Any:
     """Pressure on the half space, with the direction of motion; load along a line; pressure across a cylinder; a history."""
     known = answer._single()

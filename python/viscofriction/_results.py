@@ -188,6 +188,22 @@ class Answer(Compared):
         return self._field("pressure").T
 
     @property
+    def gap(self) -> NDArray[np.float64]:
+        """Gap [m] between body and elastomer at ``gap_y[i]``, ``gap_x[j]`` of a single scene on the half space: around the contact, where it is
+        0 within the tolerance of the contact solver, or of a period; of a cylinder one row along x."""
+        return self._field("gap").T
+
+    @property
+    def gap_x(self) -> NDArray[np.float64]:
+        """Where the gap is along the motion [m], relative to the lowest point."""
+        return self._axis(0, "gap")
+
+    @property
+    def gap_y(self) -> NDArray[np.float64]:
+        """Where the gap is across the motion [m], relative to the lowest point."""
+        return self._axis(1, "gap")
+
+    @property
     def x(self) -> NDArray[np.float64]:
         """Where the pressure is along the motion [m], relative to the lowest point."""
         return self._axis(0)
@@ -290,10 +306,11 @@ class Answer(Compared):
         field: NDArray[np.float64] = answer[name]
         return field
 
-    def _axis(self, axis: int) -> NDArray[np.float64]:
-        count = self._field("pressure").shape[axis]
-        answer = self._single()
-        return np.asarray(answer["origin"][axis] + answer["spacing"][axis] * np.arange(count))
+    def _axis(self, axis: int, field: Literal["pressure", "gap"] = "pressure") -> NDArray[np.float64]:
+        count = self._field(field).shape[axis]
+        prefix = "gap_" if field == "gap" else ""
+        origin, spacing = (self._single()[f"{prefix}{name}"][axis] for name in ("origin", "spacing"))
+        return np.asarray(origin + spacing * np.arange(count))
 
     def _one_or_all(self, name: str) -> Any:
         every = [answer[name] if answer else None for answer in self._answers]
@@ -358,12 +375,14 @@ class Answer(Compared):
         rows = [[source, f"{float(value):.2g}"] for source, value in of_friction.items() if not np.isnan(value)]
         return html_table("standard uncertainty of the friction coefficient", ["source", "value"], rows, []) if rows else ""
 
-    def plot(self, ax: Any = None, field: Literal["pressure", "temperature"] = "pressure") -> Any:
-        """Draws friction with its bars over what varies, or the pressure or the temperature rise of a single scene; returns the axes of
-        matplotlib."""
+    def plot(self, ax: Any = None, field: Literal["pressure", "gap", "temperature"] = "pressure") -> Any:
+        """Draws friction with its bars over what varies, or the pressure, the gap or the temperature rise of a single scene; returns the axes
+        of matplotlib."""
         from . import _plotting
 
-        return _plotting.temperature(self, _plotting.axes(ax)) if field == "temperature" else _plotting.plot(self, ax)
+        if field == "pressure":
+            return _plotting.plot(self, ax)
+        return (_plotting.gap if field == "gap" else _plotting.temperature)(self, _plotting.axes(ax))
 
 
 class SlidingAnswer(Answer):

@@ -244,8 +244,8 @@ def read_sweep(file: str | os.PathLike[str]) -> Sweep:
     try:
         text = path.read_bytes().decode("utf-8-sig")
         header, *rows = list(csv.reader(io.StringIO(text[: text.rfind("\n") + 1]))) or [[]]
-    except (UnicodeDecodeError, csv.Error) as error:
-        raise ValueError(f"{path} is not the table of a sweep: {error}") from None
+    except (UnicodeDecodeError, csv.Error):
+        header, rows = [], []
     if header[:3] != ["sweep", "point", "points"] or "check" not in header:
         raise ValueError(f"{path} is not the table of a sweep, whose columns begin with sweep, point, points")
     is_whole = [len(row) == len(header) and row[1].isdecimal() for row in rows]

@@ -59,8 +59,8 @@ pub mod periodic {
     };
     #[cfg(feature = "rough")]
     pub use crate::stationary::periodic::{
-        PeriodicEstimate, edge_for_bars, elements_for_bars, fewest_elements, indent,
-        indent_on_coarse_grid, largest_grid, memory, sensitivity, slide, steady,
+        PeriodicEstimate, edge_for_bars, elements_for_bars, fewest_elements, gap, gap_at_rest,
+        indent, indent_on_coarse_grid, largest_grid, memory, sensitivity, slide, steady,
         steady_on_coarse_grid,
     };
 }
@@ -74,6 +74,7 @@ struct ReadMe;
 pub use ::{indenters, numerics, rheology};
 pub use contact::{Contact, ContactOptions, ContactProblem, ContactState, Patch, solve_contact};
 pub use elements::footprint::Footprint;
+pub use elements::gap_field::GapField;
 pub use elements::grid::Grid;
 pub use elements::resolution::GridOptions;
 pub use error::BemError;

@@ -21,7 +21,7 @@ pub struct ShearStrengthRow {
 }
 
 /// Names by which the columns of a table of shear strengths are recognised, and the columns that it needs.
-static SHEAR: Vocabulary = Vocabulary {
+pub(crate) static SHEAR: Vocabulary = Vocabulary {
     names: "v and tau (shear strength), and perhaps T and standard error",
     known: &[
         (Velocity, None, "v velocity speed geschwindigkeit vitesse"),

@@ -19,7 +19,7 @@ pub struct StrainSweepOptions {
 }
 
 /// Names by which the columns of a strain sweep are recognised, and the columns that it needs.
-static SWEEP: Vocabulary = Vocabulary {
+pub(crate) static SWEEP: Vocabulary = Vocabulary {
     names: "strain with storage_factor and loss_factor, or with E' and E'' (or G' and G''), or with E' (or G') and tan delta",
     known: &KNOWN_NAMES,
     is_head: |columns| columns.len() > 1 && columns.contains(&Strain),

@@ -3,65 +3,13 @@
 from __future__ import annotations
 
 import argparse
-import hmac
 import os
 import secrets
 import socket
 import sys
 import webbrowser
-from collections.abc import Awaitable, Callable, MutableMapping
-from http.cookies import CookieError, SimpleCookie
 from pathlib import Path
 from typing import Any
-from urllib.parse import parse_qs
-
-Scope = MutableMapping[str, Any]
-Send = Callable[[Scope], Awaitable[None]]
-
-
-class Guard:
-    """Lets in who has the token, from the address that is printed or from the cookie that this leaves, and nobody else."""
-
-    def __init__(self, app: Any, token: str, port: int) -> None:
-        self.app, self.token, self.cookie = app, token, f"viscofriction-{port}"
-        # A page of elsewhere may give its own name to this address, and has another one then.
-        self.hosts = {f"127.0.0.1:{port}", f"localhost:{port}"}
-
-    async def __call__(self, scope: Scope, receive: Callable[[], Awaitable[Scope]], send: Send) -> None:
-        if scope["type"] == "lifespan":
-            await self.app(scope, receive, send)
-            return
-        headers = {name: value.decode("latin-1") for name, value in scope["headers"]}
-        is_here = headers.get(b"host") in self.hosts
-        if is_here and self._is_token(self._from_cookie(headers.get(b"cookie", ""))):
-            await self.app(scope, receive, send)
-        elif is_here and scope["type"] == "http" and self._is_token(_from_address(scope["query_string"])):
-            cookie = f"{self.cookie}={self.token}; HttpOnly; SameSite=Strict; Path=/"
-            await _answer(send, 303, [(b"location", b"/"), (b"set-cookie", cookie.encode())], b"")
-        elif scope["type"] == "http":
-            advice = b"Open the address that viscofriction-app has printed; it has the token."
-            await _answer(send, 403, [(b"content-type", b"text/plain")], advice)
-        else:
-            await send({"type": "websocket.close", "code": 1008})
-
-    def _is_token(self, given: str) -> bool:
-        return hmac.compare_digest(given.encode(), self.token.encode())
-
-    def _from_cookie(self, text: str) -> str:
-        try:
-            return SimpleCookie(text)[self.cookie].value
-        except (CookieError, KeyError):
-            return ""
-
-
-def _from_address(query: bytes) -> str:
-    return parse_qs(query.decode("latin-1")).get("token", [""])[0]
-
-
-async def _answer(send: Send, status: int, headers: list[tuple[bytes, bytes]], body: bytes) -> None:
-    await send({"type": "http.response.start", "status": status, "headers": headers})
-    await send({"type": "http.response.body", "body": body})
-
 
 def main() -> None:
     """Runs the program."""
@@ -88,6 +36,7 @@ def main() -> None:
         from nicegui import app, ui
     except ImportError:
         sys.exit("viscofriction-app needs the extra app: pip install 'viscofriction[app]'")
+    from ._guard import Guard
     from ._page import Page
     from ._work import Project
 

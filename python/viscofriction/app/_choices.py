@@ -8,6 +8,7 @@ import shlex
 import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, field, fields, replace
+from decimal import Decimal
 from itertools import product
 from pathlib import Path
 from pprint import pformat
@@ -29,6 +30,8 @@ TABLES = {".csv", ".dat", ".tsv", ".txt"}
 LARGEST_COUNT = 6
 #: Heights within the shortest wave that is kept of a map, unless another one is chosen: a first picture in seconds.
 HEIGHTS_PER_WAVE = 8
+#: Units in which lengths are chosen and shown, with their powers of ten.
+LENGTHS = {"mm": -3, "µm": -6, "m": 0}
 #: What a scene may have beside its material and its load.
 FAMILIES: tuple[Family, ...] = ("indenter", "interface", "heat", "strain")
 
@@ -39,11 +42,13 @@ class Choices:
 
     ``material``: A table of moduli, or a material file (TOML).
     ``tables``: Of "indenter", "interface", "heat" and "strain" the chosen kind with its keys, as in a scene; absent where nothing is.
+    ``thickness``: That of a layer on a rigid base [m]; None for a half space.
     ``force``: Normal force [N], of a cylinder per length, or of a periodic surface the mean pressure [Pa].
     ``temperatures``: Those of the curves; empty for a material without a shift law.
     ``cold_too``: With heat, the friction without it as well.
     ``band``: What the uncertainty of the material makes of the friction as well.
     ``measured``: A table of measured friction, which is drawn.
+    ``unit``: The unit in which lengths are chosen and shown.
     """
 
     material: str = ""
@@ -51,6 +56,7 @@ class Choices:
     vertical: Vertical | None = None
     reference_temperature: float | None = None
     tables: Mapping[str, Mapping[str, Mapping[str, Any]]] = field(default_factory=dict)
+    thickness: float | None = None
     force: float | None = None
     slowest: float | None = 1e-3
     fastest: float | None = 10.0
@@ -60,6 +66,7 @@ class Choices:
     band: bool = True
     cold_too: bool = True
     measured: str = ""
+    unit: str = "mm"
 
     def kind(self, family: str) -> str | None:
         """The chosen kind of a family, None where nothing is chosen."""
@@ -113,9 +120,14 @@ class Choices:
         known = json.loads(text)
         if not isinstance(known, dict) or not isinstance(known.get("tables", {}), dict):
             raise ValueError("the choices must be an object of JSON")
-        names = {one.name for one in fields(cls)}
+        names = {one.name for one in fields(cls)} - ({"unit"} if known.get("unit") not in LENGTHS else set())
         kept = {name: value for name, value in known.items() if name in names}
         return cls(**kept | {"temperatures": tuple(kept.get("temperatures", ()))})
+
+
+def shifted(number: float | None, power: int) -> float | None:
+    """A number times a power of ten with the same digits, which a product in floating point may change."""
+    return None if number is None else float(Decimal(repr(number)).scaleb(power))
 
 
 def fit(choices: Choices, folder: Path) -> Fit:
@@ -162,6 +174,8 @@ def check(choices: Choices, family: Family) -> None:
         if key.is_required and table.get(key.name) in (None, ""):
             path = ".".join(part for part in (family, kind, key.name) if part)
             raise ValueError(f"{path} is needed: {key.meaning}")
+    if family == "heat" and choices.is_periodic and table.get("duration") is None:
+        raise ValueError("heat.duration is needed: the time for which the surface has been sliding [s], because its mean temperature grows")
     _native.check_table({family: _table(choices, family)})
 
 
@@ -205,10 +219,12 @@ def scene(choices: Choices, name: str, *, heated: bool = True) -> dict[str, Any]
     material: dict[str, Any] = {"path": material_file(choices, name)}
     if choices.temperatures:
         material["temperature"] = choices.temperatures[0]
+    layer = {} if choices.thickness is None else {"layer": {"thickness": _positive("layer.thickness", choices.thickness)}}
     load = {choices.force_key: _positive(f"load.{choices.force_key}", choices.force), "velocity": speeds(choices)[0]}
     return {
         "indenter": _table(choices, "indenter"),
         "material": {"file": material},
+        **layer,
         **{family: _table(choices, family) for family in effects},
         "load": load,
         "solve": {"relative_error": _positive("solve.relative_error", choices.relative_error)},
@@ -289,7 +305,7 @@ def name_for(choices: Choices, folder: Path) -> str:
 
 def stored(choices: Choices, folder: Path) -> str:
     """What the folder keeps of a computation to know it again."""
-    kept = asdict(replace(choices, measured="")) | {"files": digests(choices, folder), "version": vf.__version__}
+    kept = asdict(replace(choices, measured="", unit="mm")) | {"files": digests(choices, folder), "version": vf.__version__}
     return json.dumps(kept, indent=1, ensure_ascii=False) + "\n"
 
 

@@ -18,7 +18,7 @@ import viscofriction as vf
 from .._fitting import Fit
 from .._forms import Family, Key, kinds
 from . import _choices, _curves
-from ._choices import FAMILIES, MAPS, TABLES, Choices
+from ._choices import FAMILIES, LENGTHS, MAPS, TABLES, Choices
 from ._work import Project
 
 #: Largest file that is dropped onto the page [bytes]; a larger one is put into the folder.
@@ -36,16 +36,8 @@ SPEEDS = (
     ("n_speeds", "load.velocity.count", "number of speeds"),
     ("relative_error", "solve.relative_error", "relative error of the computation"),
 )
-FIELDS: tuple[Literal["pressure", "temperature"], ...] = ("pressure", "temperature")
-STYLE = """
-body { font-family: system-ui, sans-serif } h1, h2 { font-size: 1.2rem; font-weight: 600; line-height: 1.4 }
-.both { display: grid; grid-template-columns: minmax(0, 1fr); gap: 1rem; width: 100%; align-items: start }
-@media (min-width: 1000px) { .both { grid-template-columns: 24rem minmax(0, 1fr) }
-  .both > :last-child { position: sticky; top: 5rem; max-height: calc(100vh - 6rem); overflow: auto; flex-wrap: nowrap } }
-.q-card, .q-uploader, .wide { width: 100% } .q-uploader { min-height: 0 } .q-uploader__list, .q-uploader__subtitle { display: none }
-.body--dark .js-plotly-plot text { fill: #ddd !important } img { max-width: 100% } pre, code { white-space: pre-wrap !important }
-table { font-size: 0.85rem; display: block; overflow: auto } td, th { padding: 0.1rem 0.5rem; text-align: right }
-"""
+FIELDS: tuple[Literal["pressure", "gap", "temperature"], ...] = ("pressure", "gap", "temperature")
+ELSEWHERE = "Motions, histories and superpositions of powers are not in these forms. The program and Python compute them, from the scene file of this page."
 
 
 def image(ax: Any, meaning: str) -> str:
@@ -70,13 +62,15 @@ class Page:
         self.fields: dict[str, Any] = {}
         self.marks: dict[Any, object] = {}
         self.seen: Any = None
-        ui.add_css(STYLE)
+        # Another page may choose another unit, and this one keeps that of its labels.
+        self.unit = project.choices.unit
+        ui.add_css(Path(__file__).with_name("page.css"))
         ui.colors(primary="#005a91")
         dark = ui.dark_mode(None)
         with ui.header().classes("items-center justify-between"):
             ui.html("<h1>Friction of rubber</h1>", sanitize=False)
-            colours = ui.select({None: "as the system", False: "light", True: "dark"}, label="colours").props("dark dense borderless")
-            colours.on_value_change(lambda event: dark.set_value(event.value))
+            schemes = {None: "as the system", False: "light", True: "dark"}
+            ui.select(schemes, label="colours", on_change=lambda event: dark.set_value(event.value)).props("dark dense borderless")
         with ui.element("main").classes("both"):
             with ui.column().classes("wide"):
                 self.material()
@@ -104,7 +98,9 @@ class Page:
         """Says an error beside the field that it names, or the one that it belongs to, and beside the button."""
         # A sentence begins with the key that is wrong, perhaps without those above it, and may end with other keys of its point.
         text = str(error)
-        places = {path: 0 if text.startswith(f"{path.rpartition('.')[2]}:") else text.find(path) for path in self.fields}
+        ends = {path: f"{path.rpartition('.')[2]}:" for path in self.fields}
+        # A path of one word may be any word of a sentence.
+        places = {path: 0 if text.startswith((end, path)) else text.find(path if "." in path else end) for path, end in ends.items()}
         named = sorted((at, -len(path), path) for path, at in places.items() if at >= 0)
         field = self.fields.get(named[0][2] if named else place)
         if field is not None:
@@ -127,10 +123,7 @@ class Page:
         try:
             found = await run.io_bound(work)
         except Exception as error:  # Whatever it is, the page says it, and stays.
-            if self.marks[place] is mark:
-                place.clear()
-                self.refuse(error, path)
-            return
+            found, tell = error, partial(self.refuse, place=path)
         if self.marks[place] is mark:
             place.clear()
             with place:
@@ -145,6 +138,13 @@ class Page:
     def number(self, path: str, label: str, value: float | None, change: Callable[[float | None], None]) -> Any:
         return self.field(path, ui.number(label, value=value, on_change=lambda event: change(event.value)).props("step=any"))
 
+    def length(self, path: str, label: str, value: float | None, change: Callable[[float | None], None]) -> Any:
+        """A number in the unit of lengths, which is [m] for everybody else."""
+        return self.number(path, f"{label} [{self.unit}]", self.in_unit(value), lambda shown: change(_choices.shifted(shown, LENGTHS[self.unit])))
+
+    def in_unit(self, length: float | None) -> float | None:
+        return _choices.shifted(length, -LENGTHS[self.unit])
+
     def field(self, path: str, field: Any) -> Any:
         """Keeps a field by the key that it shows; its problem stays until something else is chosen."""
         self.fields[path] = field.props("debounce=300").classes("wide").without_auto_validation()
@@ -153,8 +153,7 @@ class Page:
     def file(self, path: str, label: str, ends: set[str], value: str, change: Callable[[str], None]) -> None:
         """A file of the folder, or one that is dropped and kept there."""
         names = self.project.files(ends)
-        chooser = self.select(path, label, names, value if value in names else None, lambda name: change(name or ""))
-        chooser.props("clearable")
+        chooser = self.select(path, label, names, value if value in names else None, lambda name: change(name or "")).props("clearable")
 
         async def keep(event: events.UploadEventArguments) -> None:
             with tempfile.TemporaryDirectory(dir=self.project.folder, prefix=".dropped-") as folder:
@@ -178,6 +177,12 @@ class Page:
                 for name, label, words in (("vertical", "vertical shift", VERTICAL), ("deformation", "moduli", DEFORMATION)):
                     self.select(name, label, words, getattr(chosen, name), partial(self.choose_material, name))
             self.of_material = ui.column().classes("wide")
+            label = "thickness of a layer on a rigid base"
+            self.length("layer.thickness", label, chosen.thickness, partial(self.choose_one, "thickness"))
+
+    def choose_unit(self, unit: str) -> None:
+        self.choose(unit=unit)
+        ui.navigate.reload()
 
     def choose_one(self, name: str, value: Any) -> None:
         self.choose(**{name: value})
@@ -212,6 +217,7 @@ class Page:
         def choose(kind: str | None) -> None:
             self.choose(self.chosen.with_table(family, kind, GUESSED.get(kind or "", {})))
             fill()
+            self.look_at_surface()
 
         def fill() -> None:
             kind = self.chosen.kind(family)
@@ -219,22 +225,19 @@ class Page:
             form.clear()
             with form:
                 keys = () if kind is None else listed[kind].keys
-                rare = [key for key in keys if kind == "height-map" and key.name not in SHOWN]
+                rare = {key.name for key in keys if kind == "height-map"} - SHOWN
+                common, more = ui.column().classes("wide gap-1"), ui.expansion("more").classes("wide")
+                more.set_visibility(bool(rare))
                 for key in keys:
-                    if key not in rare:
+                    with more if key.name in rare else common:
                         self.key(family, kind or "", key)
-                if rare:
-                    with ui.expansion("more").classes("wide"):
-                        for key in rare:
-                            self.key(family, kind or "", key)
                 if family == "heat" and kind is not None:
-                    both = ui.switch("also without heat", value=self.chosen.cold_too)
-                    both.on_value_change(lambda event: self.choose_one("cold_too", event.value))
-            if family == "indenter":
-                self.look_at_surface()
+                    ui.switch("also without heat", value=self.chosen.cold_too, on_change=lambda event: self.choose_one("cold_too", event.value))
 
         with ui.card():
             raw(f"<h2>{TITLES[family]}</h2>")
+            if family == "indenter":
+                self.select("unit", "unit of lengths", list(LENGTHS), self.unit, self.choose_unit)
             self.select(family, "kind", options, self.chosen.kind(family), choose)
             form = ui.column().classes("wide gap-1")
             if family == "indenter":
@@ -244,7 +247,9 @@ class Page:
     def key(self, family: Family, kind: str, key: Key) -> None:
         """The field of a key."""
         path, value = ".".join(filter(None, (family, kind, key.name))), self.chosen.keys(family).get(key.name, key.default)
-        label = key.name.replace("_", " ") + (f" [{key.unit}]" if key.unit else "")
+        is_length, label = key.unit == "m", key.name.replace("_", " ")
+        number = self.length if is_length else self.number
+        label += f" [{key.unit}]" if key.unit and not is_length else ""
 
         def change(value: Any) -> None:
             if value == self.chosen.keys(family).get(key.name, key.default):
@@ -273,15 +278,13 @@ class Page:
                 change(None if None in ends else list(ends))
 
             for nth, axis in enumerate("xy"):
-                self.number(path if nth == 0 else f"{path}[1]", f"{label}, {axis}", ends[nth], partial(change_end, nth))
+                number(path if nth == 0 else f"{path}[1]", f"{axis}: {label}", ends[nth], partial(change_end, nth))
         else:
             whole = key.entry == "count"
-            self.number(path, label, value, lambda value: change(int(value) if whole and value is not None else value)).tooltip(key.meaning)
+            number(path, label, value, lambda value: change(int(value) if whole and value is not None else value)).tooltip(key.meaning)
 
     def look_at_surface(self) -> None:
         chosen, folder = self.chosen, self.project.folder
-        if not hasattr(self, "of_surface") or not hasattr(self, "force"):
-            return
         self.force.props(f'label="{chosen.force_label}"')
         self.of_surface.clear()
         if chosen.kind("indenter") != "height-map" or not chosen.keys("indenter").get("file"):
@@ -295,14 +298,14 @@ class Page:
             body, guessed, picture = found
             rough = body.roughness
             (rows, columns), (dx, dy) = body.heights.shape, body.spacing
-            lines = [f"{columns} × {rows} heights along x and y, {dx:.4g} m × {dy:.4g} m apart"]
-            lines += [f"Sq {rough.rms_height:.3g} m, Sa {rough.mean_deviation:.3g} m, Sdq {rough.rms_gradient:.3g}"]
-            lines += [f"Ssk {rough.skewness:.2g}, Sku {rough.kurtosis:.2g}"]
+            along, across, sq, sa = (f"{self.in_unit(one):.3g} {self.unit}" for one in (dx, dy, rough.rms_height, rough.mean_deviation))
+            lines = [f"{columns} × {rows} heights along x and y, {along} × {across} apart"]
+            lines += [f"Sq {sq}, Sa {sa}, Sdq {rough.rms_gradient:.3g}", f"Ssk {rough.skewness:.2g}, Sku {rough.kurtosis:.2g}"]
             new = {name: value for name, value in guessed.keys("indenter").items() if name not in chosen.keys("indenter")}
             self.project.choose(self.chosen.with_table("indenter", "height-map", guessed.keys("indenter")))
             for name, value in new.items():
                 field = self.fields[f"indenter.height-map.{name}"]
-                field.set_value(value)
+                field.set_value(self.in_unit(value) if isinstance(value, float) else value)
                 field.props('hint="this is a guess"')
             raw(paragraphs([*lines, *dict.fromkeys([*body.notes, *rough.warnings])]) + picture)
 
@@ -320,6 +323,7 @@ class Page:
             self.field("material.file.temperature", hot)
             ui.switch("band of the material", value=chosen.band, on_change=lambda event: self.choose_one("band", event.value))
             self.file("measured", "measured friction", TABLES, chosen.measured, self.choose_measured)
+            raw(paragraphs([ELSEWHERE]))
 
     def choose_temperatures(self, text: str) -> None:
         self.tried(lambda: self.choose(temperatures=_choices.temperatures(text or "")))
@@ -345,8 +349,7 @@ class Page:
                 self.table = ui.column().classes("wide")
         with ui.card():
             raw("<h2>The contact of a point</h2>")
-            chooser = ui.select({}, label="point, or click on one", on_change=lambda event: self.look_at_point(event.value))
-            self.point = chooser.classes("wide").style("scroll-margin-top: 4rem")
+            self.point = ui.select({}, label="point, or click on one", on_change=lambda event: self.look_at_point(event.value)).classes("wide point")
             self.of_point = ui.column().classes("wide")
 
     def compute(self) -> None:
@@ -395,9 +398,11 @@ class Page:
 
         def look() -> str:
             answer, title = computation.point(part, int(row))
-            fields = FIELDS if answer.largest_temperature_rise is not None else FIELDS[:1]
-            pictures = [image(answer.plot(_curves.new_axes(), field), f"{field} of the contact") for field in fields]
-            return f"<p>{html.escape(title)}</p>" + "".join(pictures) + answer._repr_html_()
+            fields = FIELDS if answer.largest_temperature_rise is not None else FIELDS[:2]
+            known = [field for field in fields if hasattr(answer, field) or hasattr(answer, f"line_{field}")]
+            lines = [title, *(f"{answer.method} has no {field} of the contact" for field in fields if field not in known)]
+            pictures = [image(answer.plot(_curves.new_axes(), field), f"{field} of the contact") for field in known]
+            return paragraphs(lines) + "".join(pictures) + answer._repr_html_()
 
         def tell(found: str) -> None:
             raw(found)

@@ -13,6 +13,7 @@ from typing import Literal
 
 import viscofriction as vf
 
+from .._fitting import LARGEST_TABLE
 from .._results import html_page
 from .._sweeping import Sweep
 from . import _choices, _curves
@@ -219,7 +220,10 @@ class Project:
 
     def measured(self) -> vf.MeasuredFriction | None:
         """The chosen table of friction. Raises ValueError with line and column."""
-        return vf.read_friction(self.folder / self.choices.measured) if self.choices.measured else None
+        path = self.folder / self.choices.measured
+        if path.is_file() and path.stat().st_size > LARGEST_TABLE:
+            raise ValueError(f"measured: a table of friction has at most {LARGEST_TABLE >> 20} MiB here, and {path.name} is larger")
+        return vf.read_friction(path) if self.choices.measured else None
 
     def sweeps(self) -> dict[str, Sweep]:
         """The points of the computation that is shown."""

@@ -83,6 +83,16 @@ impl Layout {
         rows.flat_map(move |row| columns.clone().map(move |column| [row, column]))
     }
 
+    /// The element in front of the mirrors, counted from the first one there, of which an element [row, column] of the footprint is an
+    /// image.
+    pub(crate) fn in_front(&self, element: [usize; 2]) -> [usize; 2] {
+        let first = self.first();
+        [0, 1].map(|axis| match element[axis] {
+            index if index < first[axis] => self.shape[axis] - 1 - index - first[axis],
+            index => index - first[axis],
+        })
+    }
+
     /// Number of different elements of the footprint that are images of an element in front of the mirrors, itself included.
     pub(crate) fn n_images_of(&self, element: [usize; 2]) -> usize {
         let along = |axis: usize| {

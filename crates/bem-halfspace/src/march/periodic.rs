@@ -31,7 +31,7 @@ use crate::substrate::base::check_unchanged_moduli;
 use crate::transform::plane_transform::ZERO;
 use crate::{
     Base, BemError, ContactOptions, ContactProblem, ContactState, Control, Convolution,
-    ConvolutionWorkspace, Elastomer, Grid, PressureField, solve_contact,
+    ConvolutionWorkspace, Elastomer, GapField, Grid, PressureField, solve_contact,
 };
 
 /// The state at the end of a step of a periodic surface.
@@ -60,6 +60,8 @@ pub struct PeriodicTransient {
     pub rows: Vec<PeriodicRow>,
     /// Pressure at the end, on the grid of the heights: its first element is at the origin.
     pub pressure: PressureField,
+    /// Gap at the end, on the same grid.
+    pub gap: GapField,
 }
 
 /// Presses a periodic surface into a material at rest and slides it over the sliding distance of the load, in steps of one element.
@@ -137,8 +139,16 @@ pub(crate) fn slide_with(
             ..state
         })
     });
+    let rows: Vec<PeriodicRow> = rows.collect::<Result<_, BemError>>()?;
+    // Every march has a step.
+    let depth = rows.last().map_or(0.0, |last| last.mean_depth);
     Ok(PeriodicTransient {
-        rows: rows.collect::<Result<_, BemError>>()?,
+        rows,
+        gap: GapField {
+            grid: *grid,
+            origin: [0.0; 2],
+            gap: march.take_gap(depth),
+        },
         pressure: PressureField {
             grid: *grid,
             origin: [0.0; 2],
@@ -272,6 +282,15 @@ impl<'a> PeriodicMarch<'a> {
         for field in self.history.chunks_exact_mut(n) {
             field.rotate_left(columns);
         }
+    }
+
+    /// Gap at the end of the last step, whose mean plane is at a `mean_depth` \[m], in the memory of the initial gap; the march ends.
+    fn take_gap(&mut self, mean_depth: f64) -> Vec<f64> {
+        let mut gap = std::mem::take(&mut self.initial_gap);
+        add_scaled(&mut gap, self.step.response(), &self.input);
+        let depth = mean_depth + self.mean_height;
+        gap.iter_mut().for_each(|gap| *gap -= depth);
+        gap
     }
 
     /// Solves the contact at the end of a step under a mean pressure \[Pa], and advances the history variables; distance and time of

@@ -11,6 +11,7 @@ mod cylinders;
 mod dissipated_energy;
 mod ends_of_the_speed_range;
 mod error_bars;
+mod gaps;
 mod hardness;
 mod heat;
 mod heat_of_contacts;

@@ -32,6 +32,7 @@ pub(super) fn read(
     memory.require_text(contents)?;
     let text = text_of(contents);
     let sheet = Sheet::of(&text)?;
+    check_names(&sheet)?;
     let found = read_rows(&text, &sheet, spacing);
     found.map_err(|error| match error {
         // Skipped lines above the rows suggest another format.
@@ -103,6 +104,19 @@ fn check_single_block(text: &str, sheet: &Sheet<'_>) -> Result<(), TopographyErr
         });
     let problem = format!(
         "a second block of heights begins{name}: a file of one channel is needed, without empty lines between its rows"
+    );
+    Err(TopographyError::Line { line, problem })
+}
+
+/// Refuses columns with names: those of a table of measurements or results.
+fn check_names(sheet: &Sheet<'_>) -> Result<(), TopographyError> {
+    let Some((line, names)) = sheet.names_of_columns() else {
+        return Ok(());
+    };
+    let [first, other] = names.map(super::text::shown);
+    let problem = format!(
+        "the columns have the names '{first}' and '{other}': this is a table of measurements or results, and columns of heights have no \
+         names"
     );
     Err(TopographyError::Line { line, problem })
 }

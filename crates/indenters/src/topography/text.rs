@@ -200,6 +200,19 @@ impl<'a> Sheet<'a> {
         })
     }
 
+    /// The first line above the rows that names their columns, and its first two names; `None` if there is none. Names that differ in digits
+    /// only, such as V1 and V2, number the columns of any matrix.
+    pub(super) fn names_of_columns(&self) -> Option<(usize, [&'a str; 2])> {
+        let stem = |name: &str| name.replace(|letter: char| letter.is_ascii_digit(), "");
+        self.preamble.iter().find_map(|&(line, text)| {
+            let names = self.notation.cells(text);
+            let is_name = |name: &&str| name.contains(char::is_alphabetic);
+            let are_names = names.len() == self.width() && names.iter().all(is_name);
+            let other = (names.iter().skip(1)).find(|name| stem(name) != stem(names[0]))?;
+            are_names.then_some((line, [names[0], *other]))
+        })
+    }
+
     /// Calls `visit` with the line number, the cells and the numbers of each row; missing numbers are NaN.
     ///
     /// # Errors

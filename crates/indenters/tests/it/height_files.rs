@@ -124,6 +124,22 @@ fn damaged_texts_are_refused_with_the_place() {
 }
 
 #[test]
+fn a_table_with_names_of_columns_is_no_height_map() {
+    let rows = "0.01,2.5,0.3\n0.1,2.9,0.4\n1.0,3.5,0.6\n10.0,4.4,0.9\n";
+    let moduli = "f,E',E''\nHz,MPa,MPa\n";
+    let friction = "v (mm/s),mu,standard error\n";
+    assert_refused([moduli, friction].map(|names| {
+        let reason = "line 1: the columns have the names";
+        (format!("{names}{rows}"), reason)
+    }));
+    // Names that number the columns are those of a matrix, and so are lines about the instrument.
+    for head in ["V1,V2,V3\n", "Profiler X,no. 7\n"] {
+        let found = read("csv", format!("{head}{rows}"), Some(SPACING));
+        assert_eq!(found.expect("a map").shape, [4, 3], "{head}");
+    }
+}
+
+#[test]
 fn other_formats_are_named_with_those_that_are_read() {
     for (contents, reason) in [
         (&b"VK4_\0\0\0\0"[..], "Keyence"),

@@ -13,6 +13,7 @@ use numerics::least_squares::ParameterRange;
 use numerics::{InvalidParameter, in_range, positive};
 
 pub use fit::{FrictionFit, FrictionFitting, FrictionMinimum};
+pub(crate) use read::FRICTION;
 pub(crate) use read::ROTATIONAL_UNITS;
 pub use read::{FrictionTable, FrictionTableOptions, friction_points};
 

@@ -35,7 +35,7 @@ pub struct FrictionTable {
 }
 
 /// Names by which the columns of a table of friction are recognised, and the columns that it needs.
-static FRICTION: Vocabulary = Vocabulary {
+pub(crate) static FRICTION: Vocabulary = Vocabulary {
     names: "v (or rpm) and mu (or friction force and normal force), and perhaps t, T, normal force, track radius and standard error",
     known: &KNOWN_NAMES,
     is_head: |columns| {

@@ -32,6 +32,7 @@ use crate::{Finding, MeasurementError};
 pub use flag::Flag;
 pub(crate) use noise::correlated_points;
 pub use note::Note;
+pub(crate) use read::CURVES;
 pub use read::{CurveFile, CurveOptions, indentation_curve};
 
 /// A measured curve in SI units, one value per point.

@@ -14,7 +14,7 @@ use crate::table::Quantity::{
 use crate::table::{Column, Half, Line, Meaning, Source, Table, Vocabulary, text_of};
 
 /// Names and columns of a table of force over depth.
-static CURVES: Vocabulary = Vocabulary {
+pub(crate) static CURVES: Vocabulary = Vocabulary {
     names: "t, force (or deflection) and depth (or tip position, displacement, piezo or height)",
     known: &KNOWN_NAMES,
     is_head: |columns| {

@@ -20,7 +20,7 @@ use crate::table::Quantity::{
 };
 use crate::table::{Column, Line, Meaning, Source, Table, text_of};
 use isotherms::{Group, IsothermRow, insert};
-use names::MODULI;
+pub(crate) use names::MODULI;
 pub use shifting::{Shifted, Shifting, master_curve};
 
 /// Measured moduli in SI units, converted to shear.

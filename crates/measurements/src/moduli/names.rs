@@ -8,7 +8,7 @@ use Quantity::{
 };
 
 /// Names by which the columns of a table of moduli are recognised, and the columns that it needs.
-pub(super) static MODULI: Vocabulary = Vocabulary {
+pub(crate) static MODULI: Vocabulary = Vocabulary {
     names: "f or ω with two of E', E'' and tan delta (or G' and G''), or with one of E', E'' and |E*| (or G', G'' and |G*|) and a \
             phase angle or tan delta, or t with E_relax (or G_relax) or J(t) (or D(t)), and perhaps T and Set",
     known: &KNOWN_NAMES,

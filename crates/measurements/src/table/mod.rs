@@ -15,11 +15,27 @@ use std::path::Path;
 use rheology::KELVIN_AT_ZERO_CELSIUS;
 
 use crate::MeasurementError;
+use crate::friction::FRICTION;
+use crate::indentation::CURVES;
+use crate::moduli::MODULI;
+use crate::shear::SHEAR;
+use crate::strain::SWEEP as STRAIN;
 use Quantity::{Frequency, Loss, Storage};
 use choice::{retain_first, retain_half};
 pub(crate) use columns::{Half, Quantity, Vocabulary};
 use columns::{half_of, split_underscores, split_unit};
 use layout::{Layout, is_comment, tagged};
+
+/// Number of lines by which the kind of a file is recognised. Chosen: it limits the time for long files.
+const LINES_OF_HEAD: usize = 100;
+/// Kinds of tables, each with its meaning.
+static KINDS: [(&Vocabulary, &str); 5] = [
+    (&MODULI, "moduli"),
+    (&FRICTION, "measured friction"),
+    (&SHEAR, "shear strengths"),
+    (&STRAIN, "factors of the moduli over the strain"),
+    (&CURVES, "depth and force"),
+];
 
 type Result<T, E = MeasurementError> = std::result::Result<T, E>;
 
@@ -159,23 +175,28 @@ impl<'a> Source<'a> {
     /// The columns of a line of names whose names are known, with the units in the names; their factors to SI are not known
     /// yet.
     fn columns<'b>(&self, line: &Line<'b>) -> Vec<Column<'b>> {
+        self.columns_by(self.vocabulary, line)
+    }
+
+    /// The columns of a line of names by the names of a vocabulary.
+    fn columns_by<'b>(&self, vocabulary: &Vocabulary, line: &Line<'b>) -> Vec<Column<'b>> {
         let names = self.layout.names(line.text).into_iter().enumerate();
         let columns = names.filter_map(|(place, name)| {
             if self.layout.number(name).is_some() {
                 return None;
             }
-            let meaning = |name| self.vocabulary.meaning(name);
+            let meaning = |name| vocabulary.meaning(name);
             let mut parts = split_unit(name);
             let known = parts.find_map(|(name, unit)| Some((meaning(name)?, unit)));
             // Behind an underscore only a unit of the quantity is one: force_max is no force.
             let with_unit = |(name, unit): (_, &'b str)| {
                 let found = meaning(name)?;
-                let is_unit = self.vocabulary.known[found.0].0.unit(unit).is_some();
+                let is_unit = vocabulary.known[found.0].0.unit(unit).is_some();
                 (is_unit && unit.starts_with(char::is_alphabetic)).then_some((found, unit))
             };
             let (found, unit) = known.or_else(|| split_underscores(name).find_map(with_unit))?;
             let (order, deformation) = found;
-            let quantity = self.vocabulary.known[order].0;
+            let quantity = vocabulary.known[order].0;
             // A name may be a unit, such as rpm.
             let is_unit = unit.is_empty() && quantity.unit("").is_none();
             let unit = if is_unit && quantity.unit(name).is_some() {
@@ -208,13 +229,45 @@ impl<'a> Source<'a> {
         self.wrong_line(self.lines.last().map_or(1, |line| line.number), problem)
     }
 
+    /// Resemblance to another kind of file, as the end of a message; empty if there is none.
+    fn resemblance(&self) -> String {
+        let first = || self.lines.iter().take(LINES_OF_HEAD);
+        let is_number = |cell: &&str| cell.is_empty() || self.layout.number(cell).is_some();
+        if first().all(|line| line.cells.iter().all(is_number)) {
+            return "; these are numbers without names, as of a height map".to_owned();
+        }
+        // A line of names is that of a sweep, or has all columns of another kind of table.
+        let kind = first().find_map(|line| {
+            if line.cells.starts_with(&["sweep", "point"]) {
+                return Some("results of a sweep");
+            }
+            let mut others =
+                (KINDS.iter()).filter(|(other, _)| !std::ptr::eq(*other, self.vocabulary));
+            let is_of = |vocabulary: &Vocabulary| {
+                let known = quantities(&self.columns_by(vocabulary, line));
+                let needed = (vocabulary.needed)(&known);
+                (vocabulary.is_head)(&known) && needed.iter().all(|one| known.contains(one))
+            };
+            others
+                .find(|(other, _)| is_of(other))
+                .map(|(_, kind)| *kind)
+        });
+        kind.map_or(String::new(), |kind| format!("; this is a table of {kind}"))
+    }
+
     /// List of the columns of a line, for messages.
     fn found(&self, line: &Line) -> String {
+        let is_control = |letter: char| letter.is_control() && !letter.is_whitespace();
+        let mut first = self.lines.iter().take(LINES_OF_HEAD);
+        if first.any(|line| line.text.contains(is_control)) {
+            return "the file is binary, as measured surfaces (x3p) and spreadsheets (xlsx) are, and no text".to_owned();
+        }
         let names = self.layout.names(line.text);
         let quoted = names.iter().map(|name| format!("'{}'", shown(name, 40)));
         let list = shown(&quoted.collect::<Vec<_>>().join(", "), 400);
         let separators = self.layout.separators();
-        format!("separated by {separators}, the columns are {list}")
+        let resemblance = self.resemblance();
+        format!("separated by {separators}, the columns are {list}{resemblance}")
     }
 
     /// Error for a text without a line of names, at the line that is most similar to one.

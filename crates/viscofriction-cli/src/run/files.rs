@@ -20,6 +20,7 @@ use crate::sweep::{labelled, labelled_in};
 pub(super) const NAMES: &str = "result.json report.html realisations.csv history.csv history.svg history.png history_over_time.svg history_over_time.png \
     motion.csv motion.svg motion.png motion_over_time.svg motion_over_time.png \
     pressure.csv pressure.npy pressure.svg pressure.png pressure_x.npy pressure_y.npy \
+    gap.csv gap.npy gap.svg gap.png gap_x.npy gap_y.npy \
     line_load.csv line_load.npy line_load.svg line_load.png \
     spectral_sensitivity.csv spectral_sensitivity.svg spectral_sensitivity.png \
     line_pressure.csv line_pressure.npy line_pressure.svg line_pressure.png \
@@ -59,6 +60,7 @@ pub(super) fn write(
     }
     let shown = shown(source, answer)?;
     write_pressure(answer, shown, (&out, &mut pictures))?;
+    write_gap(answer, shown, (&out, &mut pictures))?;
     write_temperature(answer, shown, (&out, &mut pictures))?;
     write_line(answer, (&out, &mut pictures))?;
     write_history(answer, (&out, &mut pictures))?;
@@ -108,6 +110,31 @@ fn write_pressure(
     out.write("pressure_x.npy", &to_npy(&x, &[x.len()]))?;
     out.write("pressure_y.npy", &to_npy(&y, &[y.len()]))?;
     pictures.push(("pressure", pictures::pressure(answer, field, shown)?));
+    Ok(())
+}
+
+/// Writes the gap around the contact as gap.csv and gap.npy, row-major with the shape (n_y, n_x), and its coordinates, and adds its
+/// picture; of a line contact it is one line along x.
+fn write_gap(
+    answer: &Answer,
+    shown: Shown,
+    (out, pictures): (&NewFiles<'_>, &mut Pictures),
+) -> Result<()> {
+    let Some(field) = &answer.fields.gap else {
+        return Ok(());
+    };
+    let places = (&field.grid, field.origin);
+    let [x, y] = write_field(("gap", "gap_m"), places, &field.gap, out)?;
+    out.write("gap_x.npy", &to_npy(&x, &[x.len()]))?;
+    out.write("gap_y.npy", &to_npy(&y, &[y.len()]))?;
+    let figure = if answer.is_per_length {
+        let along = x.iter().zip(&field.gap).map(|(x, gap)| [*x, *gap]);
+        pictures::curve("position x [m]", "gap [m]", along.collect())
+    } else {
+        let slides = answer.friction_coefficient.is_some();
+        pictures::gap(field, (shown, slides))
+    };
+    pictures.push(("gap", figure));
     Ok(())
 }
 

@@ -84,8 +84,11 @@ pub(crate) struct Timed<'a> {
 /// Runs the command: reads the scene, solves it, and reports the answer.
 pub(crate) fn run(options: &Run) -> Result<()> {
     let source = read_scene(&options.scene)?;
-    let problem =
+    let mut problem =
         problem_of(&source, options.method, read_input)?.or_max_memory(half_of_free_memory());
+    if options.out.is_some() {
+        problem = problem.with_gap();
+    }
     // Choose the method, and refuse derivatives that it cannot compute and an output folder that cannot be written, before the
     // computation.
     let plan = plan_of(&source, &problem)?;

@@ -1,7 +1,7 @@
 //! Pictures of one answer.
 
 use anyhow::{Context, Result};
-use viscofriction::bem_halfspace::Grid;
+use viscofriction::bem_halfspace::{GapField, Grid};
 use viscofriction::solve::TemperatureField;
 use viscofriction::{Answer, PressureField};
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Field, Figure, Line, Marker, Series, Shape};
@@ -56,6 +56,16 @@ pub(super) fn pressure(answer: &Answer, field: &PressureField, shown: Shown) -> 
         (pressure > 0.0).then(|| pressure.max(lowest))
     };
     Ok(map.figure(colours, drawn))
+}
+
+/// Map of the gap around the contact, or below a period; negative gaps are 0 within the tolerance of the contact solver.
+pub(super) fn gap(field: &GapField, (shown, slides): (Shown, bool)) -> Figure {
+    let map = Map::of(&field.grid, field.origin, (shown, slides));
+    let widest = field.gap.iter().copied().fold(0.0, f64::max);
+    // In full contact there is one colour, and its scale needs a length.
+    let widest = if widest > 0.0 { widest } else { 1.0 };
+    let colours = Axis::linear("gap [m]", [0.0, widest]);
+    map.figure(colours, |element| Some(field.gap[element].max(0.0)))
 }
 
 /// Map of the temperature rise of the surface, also outside the contact.

@@ -224,6 +224,9 @@ fn caption(name: &str) -> &'static str {
         "pressure" => {
             "Pressure over the contact. For a finite body the cross is the lowest point, and the arrow points along the motion."
         }
+        "gap" => {
+            "Gap between the body and the elastomer around the contact, where it is 0. The body moves to the right."
+        }
         "temperature" => {
             "Rise of the temperature of the surface above that of the surroundings. The body moves to the right."
         }

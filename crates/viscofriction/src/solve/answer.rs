@@ -1,5 +1,6 @@
 //! The answer of a method: quantities in SI units, each with its error.
 
+use bem_halfspace::GapField;
 use bem_halfspace::heat::DepthProfile;
 use bem_halfspace::slide::PressureField;
 use bem_halfspace::steady::SteadyOptions;
@@ -193,6 +194,12 @@ pub(crate) struct Grid {
 pub struct Fields {
     /// Pressure on the half space, \[Pa].
     pub pressure: Option<PressureField>,
+    /// Gap between body and elastomer around the contact, or below a period: h + u − d, \[m]; of a problem that
+    /// [asks](super::Problem::with_gap) for it, where the pressure is known.
+    ///
+    /// It is that of the finest grid, evaluated up to half an element behind the centres. In the contact it is 0 within the tolerance of
+    /// the contact solver. `None` if the body does not cover the box of the contact.
+    pub gap: Option<GapField>,
     /// Temperature rise of the surface of the elastomer.
     pub temperature: Option<TemperatureField>,
     /// Position \[m] and line load \[N/m] along the contact of the one-dimensional model.

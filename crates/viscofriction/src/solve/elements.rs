@@ -181,6 +181,7 @@ pub(crate) fn answer_from_periodic_transient(
         area_over_force: Some(row.area_fraction / rough.mean_pressure),
     };
     answer.fields.history = rows.iter().map(row).collect();
+    answer.fields.gap = Some(estimate.finest.gap);
     answer.under(estimate.finest.pressure)
 }
 
@@ -294,6 +295,7 @@ pub(crate) fn answer_from_slide(estimate: SlideEstimate) -> Result<Answer> {
         area_over_force: Some(row.contact_area / row.normal_force),
     };
     answer.fields.history = estimate.finest.rows.iter().map(row).collect();
+    answer.fields.gap = estimate.finest.gap;
     answer.fields.pressure = Some(estimate.finest.pressure);
     Ok(answer)
 }
@@ -325,6 +327,10 @@ pub(crate) fn answer_from_press(estimate: PressEstimate) -> Result<Answer> {
         grid: Some(grid_of_march(&estimate.options)?),
         ..common_answer(&estimate, Method::BemTransient, ends)
     };
+    answer.fields.gap = estimate
+        .finest
+        .gap
+        .filter(|_| estimate.finest.pressure.is_some());
     answer.fields.pressure = estimate.finest.pressure;
     Ok(answer)
 }

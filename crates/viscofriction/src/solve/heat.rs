@@ -300,7 +300,7 @@ impl AreaOfElements {
 }
 
 /// Pressure field of an answer; of a line contact with one column of elements. `None` if the answer has none.
-fn pressure_field(answer: &Answer) -> Result<Option<PressureField>> {
+pub(super) fn pressure_field(answer: &Answer) -> Result<Option<PressureField>> {
     let fields = &answer.fields;
     let [first, second] = match (&fields.pressure, &fields.line_pressure[..]) {
         (Some(pressure), _) => return Ok(Some(pressure.clone())),

@@ -13,6 +13,7 @@ mod elements;
 mod error;
 mod expansion;
 mod fixed_point;
+mod gap;
 pub(crate) mod half_space;
 mod heat;
 mod heights;
@@ -159,6 +160,7 @@ impl Found {
             .and_then(|answer| problem.with_shear(answer))
             .and_then(|answer| problem.with_bulk(answer))
             .and_then(Answer::finite)
+            .and_then(|answer| problem.add_gap(answer))
             .map(|answer| Answer {
                 warnings: warnings(problem, &answer),
                 ..answer

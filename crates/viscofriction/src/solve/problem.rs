@@ -64,6 +64,8 @@ pub struct Problem {
     realisations: Option<Realisations>,
     /// Length \[m] below which waves of the surface were removed; `None` if none were.
     shortest_wavelength: Option<f64>,
+    /// True if the answer has the gap between body and elastomer.
+    wants_gap: bool,
 }
 
 /// The source of the surfaces of a random body.
@@ -191,6 +193,7 @@ impl Problem {
             is_short_of_memory: Arc::default(),
             realisations,
             shortest_wavelength: None,
+            wants_gap: false,
         };
         if let Some(ambient) = ambient {
             let refused =
@@ -213,6 +216,18 @@ impl Problem {
     pub const fn with_accuracy(mut self, accuracy: Accuracy) -> Self {
         self.accuracy = accuracy;
         self
+    }
+
+    /// Asks for the [gap](super::answer::Fields::gap) between body and elastomer, which takes one more product with the kernel.
+    #[must_use]
+    pub const fn with_gap(mut self) -> Self {
+        self.wants_gap = true;
+        self
+    }
+
+    /// True if the answer has the gap between body and elastomer.
+    pub(super) const fn wants_gap(&self) -> bool {
+        self.wants_gap
     }
 
     /// Sets a memory limit, \[bytes], unless the scene gives one.
@@ -260,6 +275,7 @@ impl Problem {
         };
         let mut problem = Self::with_parts(&scene, with_surface, &of.folder, of.read)?;
         problem.accuracy = self.accuracy;
+        problem.wants_gap = self.wants_gap;
         if parts == 1 {
             problem.is_short_of_memory = Arc::clone(&self.is_short_of_memory);
         }

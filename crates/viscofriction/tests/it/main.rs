@@ -8,6 +8,7 @@ mod answers_agree;
 mod explained_omissions;
 #[cfg(feature = "fit")]
 mod friction_fits;
+mod gaps;
 mod heat;
 mod height_maps_of_numpy;
 mod histories;

@@ -34,7 +34,7 @@ fn solve(line: &str, folder: &Path) -> Result<Solved, (u8, String)> {
     let source = Source::new(&path, fs::read(&path).expect("a scene")).map_err(wrong)?;
     let method = method.transpose().expect("a method");
     let problem = problem_of(&source, method, read).map_err(wrong)?;
-    let problem = problem.or_max_memory(Some(MEMORY));
+    let problem = problem.or_max_memory(Some(MEMORY)).with_gap();
     let plan = plan_of(&source, &problem).map_err(wrong)?;
     let answer = plan
         .solve(&SilentProgress)

@@ -22,10 +22,11 @@ use rheology::{CreepSpectrum, ExponentialStep, Material as _};
 
 use crate::contact::{ContactBox, check_has_body};
 use crate::elements::bounds::Bounds;
+use crate::elements::gap_field::{GapField, surroundings};
 use crate::elements::pressure_field::PressureField;
 use crate::elements::resolution::Layout;
 use crate::substrate::base::check_unchanged_moduli;
-use crate::{BemError, Elastomer, GridOptions};
+use crate::{BemError, Elastomer, Grid, GridOptions};
 use history::MaterialHistory;
 pub use motion::{Motion, MotionRow};
 use schedule::ScheduledStep;
@@ -68,6 +69,8 @@ pub struct March<'a> {
     height_scale: f64,
     /// Mean slopes of the body, weighted with the pressure of the last step.
     slopes: MeanSlopes,
+    /// Depth of the lowest point in the last step, \[m].
+    depth: f64,
 }
 
 impl fmt::Debug for March<'_> {
@@ -169,6 +172,7 @@ impl<'a> March<'a> {
             contact_box: ContactBox::cut_from(&history.convolution, Bounds::single([0; 2]))?,
             history,
             slopes: MeanSlopes::default(),
+            depth: 0.0,
         };
         // Sample the heights of the body in units of the height scale, and place the first contact box around the lowest point.
         march.height_scale = march.find_height_scale()?;
@@ -230,6 +234,54 @@ impl<'a> March<'a> {
         };
         let loaded = self.loaded_elements().flat_map(images);
         PressureField::from_elements(&bounds, spacing, origin, loaded)
+    }
+
+    /// Gap around the contact at the end of the last step, within the footprint. `None` before the first step, and if the body does not
+    /// cover the box of the contact.
+    ///
+    /// # Errors
+    /// None after a step that succeeded.
+    pub fn gap(&self) -> Result<Option<GapField>, BemError> {
+        let Some(step) = self.steps_done.checked_sub(1) else {
+            return Ok(None);
+        };
+        // The gap is the initial gap plus the displacement by the load, which is stored per compliance once the step has been added to
+        // the history.
+        let first_row = self.schedule.steps[step].row;
+        let [rows, columns] = self.layout.folded_shape();
+        let increment = self.history.increment(first_row..first_row + rows);
+        let per_increment = match self.history.n_fields {
+            0 => 1.0,
+            _ => self.creep_step.response(),
+        };
+        let in_front = |element: [usize; 2]| {
+            let [row, column] = self.layout.in_front(element);
+            row * columns + column
+        };
+        let limits = Bounds {
+            lower: [0; 2],
+            upper: self.layout.shape,
+        };
+        let has_body = |element| self.initial_gap[in_front(element)].is_finite();
+        let Some(bounds) = surroundings(&self.contact_bounds(), &limits, has_body) else {
+            return Ok(None);
+        };
+        let elements =
+            (bounds.rows()).flat_map(|row| bounds.columns().map(move |column| [row, column]));
+        let gap = |element| {
+            let index = in_front(element);
+            let displaced = self.initial_gap[index] + per_increment * increment[index];
+            displaced * self.height_scale - self.depth
+        };
+        let spacing = self.options.spacing;
+        Ok(Some(GapField {
+            grid: Grid::new(bounds.shape(), spacing)?,
+            origin: [
+                self.x_in_elements(bounds.lower[0], self.sampled_offset) * spacing[0],
+                self.y_of_column(bounds.lower[1]),
+            ],
+            gap: elements.map(gap).collect(),
+        }))
     }
 
     /// Ends [rear, front] and [right, left] of the bounding box of the contact relative to the lowest point, \[m].
@@ -351,6 +403,7 @@ impl<'a> March<'a> {
         self.history
             .advance(&self.creep_step, self.rows_needed(self.steps_done));
         self.steps_done += 1;
+        self.depth = row.indentation_depth;
         Ok(row)
     }
 

@@ -10,6 +10,7 @@ use indenters::{Axisymmetric, Control, FlatPunch, PressingLoad, Surface, contact
 use numerics::{ErrorParts, Request, positive};
 use rheology::{Compressible, Elastic, Material as _};
 
+use crate::elements::gap_field::GapField;
 use crate::elements::pressure_field::PressureField;
 use crate::error::check_contact_elements;
 use crate::estimate::bars::{self, ContactEstimate, OnGrid, Resolution, Target};
@@ -73,6 +74,8 @@ pub struct PressSolution {
     pub iterations: usize,
     /// Pressure over the contact; `None` under a force on a material that creeps, where it depends on the history of the contact.
     pub pressure: Option<PressureField>,
+    /// Gap around the contact; `None` if the body does not cover the box of the contact.
+    pub gap: Option<GapField>,
 }
 
 /// A contact under a control that was constant, with its error bars.
@@ -303,6 +306,7 @@ impl Spring {
             n_contact: row.n_contact,
             iterations: row.iterations,
             pressure: self.has_pressure.then_some(pressure),
+            gap: march.gap()?,
         })
     }
 }

@@ -3,6 +3,7 @@
 use indenters::SlidingLoad;
 
 use crate::BemError;
+use crate::elements::gap_field::GapField;
 use crate::elements::pressure_field::PressureField;
 use crate::error::check_contact_elements;
 use crate::motions::slide::{March, MotionRow};
@@ -72,6 +73,8 @@ pub struct Transient {
     pub rows: Vec<SlideRow>,
     /// Pressure in the last step.
     pub pressure: PressureField,
+    /// Gap around the contact in the last step; `None` if the body does not cover the box of the contact.
+    pub gap: Option<GapField>,
     /// Number of elements of the half space whose displacement was followed.
     pub n_elements: usize,
 }
@@ -103,6 +106,7 @@ impl Transient {
             }
         }
         Ok(Self {
+            gap: march.gap()?,
             rows,
             pressure,
             n_elements: march.n_elements(),

@@ -31,6 +31,8 @@ mod equations;
 #[cfg(feature = "rough")]
 mod estimate;
 #[cfg(feature = "rough")]
+mod gap;
+#[cfg(feature = "rough")]
 pub(crate) mod grid_sizes;
 pub(crate) mod kernel;
 mod load;
@@ -59,6 +61,8 @@ use equations::Equations;
 pub use estimate::{
     PeriodicEstimate, indent, indent_on_coarse_grid, slide, steady, steady_on_coarse_grid,
 };
+#[cfg(feature = "rough")]
+pub use gap::{gap, gap_at_rest};
 #[cfg(feature = "rough")]
 pub use grid_sizes::{edge_for_bars, elements_for_bars, fewest_elements, largest_grid, memory};
 use kernel::Sliding;

@@ -364,7 +364,7 @@ mod tests {
     use numerics::Accuracy;
 
     use super::*;
-    use crate::{PeriodicTransient, PressureField};
+    use crate::{GapField, PeriodicTransient, PressureField};
 
     fn found((friction, dissipated): (f64, f64)) -> GridResult {
         GridResult {
@@ -412,6 +412,11 @@ mod tests {
                 origin: [0.0; 2],
                 pressure: Vec::new(),
             };
+            let gap = GapField {
+                grid: sampled.grid,
+                origin: [0.0; 2],
+                gap: Vec::new(),
+            };
             let rows = Vec::new();
             let lost = BemError::ContactNotConverged {
                 iterations: 1,
@@ -419,7 +424,12 @@ mod tests {
                 tolerance,
             };
             let known = frictions.next().ok_or(lost)?;
-            Ok((found(known), PeriodicTransient { rows, pressure }))
+            let state = PeriodicTransient {
+                rows,
+                pressure,
+                gap,
+            };
+            Ok((found(known), state))
         });
         let Err(BemError::NotReached { value, error, .. }) = refined else {
             panic!("{refined:?}");

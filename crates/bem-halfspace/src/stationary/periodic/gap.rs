@@ -1,0 +1,78 @@
+//! Gap below a periodic surface in contact, from its pressure.
+//!
+//! ```text
+//! gap = h + u − d,        d = mean of h + u over the elements with pressure
+//! ```
+//!
+//! Theory: docs/theory/stationary-half-space.md, "Periodic surfaces".
+
+use indenters::rough::PeriodicSurface;
+use numerics::positive;
+
+use crate::elements::gap_field::GapField;
+use crate::parallel::chunks::in_pool;
+use crate::stationary::periodic::kernel::{PeriodicKernel, Sliding};
+use crate::stationary::periodic::refinement::SampledSurface;
+use crate::{BemError, Elastomer, PressureField};
+
+/// Gap between a periodic surface and the elastomer over which it slides at a `velocity` \[m/s], from the pressure of the stationary
+/// state and on its grid.
+///
+/// # Errors
+/// As for [`steady`](super::steady), before anything is solved.
+pub fn gap(
+    surface: &PeriodicSurface,
+    elastomer: &dyn Elastomer,
+    velocity: f64,
+    pressure: &PressureField,
+) -> Result<GapField, BemError> {
+    on_grid(surface, &Sliding::new(elastomer, velocity)?, pressure)
+}
+
+/// Gap between a periodic surface and the elastomer into which it has been pressed for a `time` > 0 \[s], from the pressure of
+/// [`indent`](super::indent) and on its grid.
+///
+/// # Errors
+/// As for [`indent`](super::indent), before anything is solved.
+pub fn gap_at_rest(
+    surface: &PeriodicSurface,
+    elastomer: &dyn Elastomer,
+    time: f64,
+    pressure: &PressureField,
+) -> Result<GapField, BemError> {
+    let spring = Sliding::at_rest(elastomer, positive("time", time)?)?;
+    on_grid(surface, &spring, pressure)
+}
+
+/// Gap over a material at its speed.
+fn on_grid(
+    surface: &PeriodicSurface,
+    sliding: &Sliding,
+    field: &PressureField,
+) -> Result<GapField, BemError> {
+    let (grid, pressure) = (field.grid, &field.pressure);
+    let SampledSurface { heights, .. } = SampledSurface::new(surface, grid.shape())?;
+    let mut kernel = PeriodicKernel::new(sliding, &grid)?;
+    let gap = in_pool(grid.n_elements(), || {
+        let [mut gap, mut raised] = [0; 2].map(|_| vec![0.0; grid.n_elements()]);
+        kernel.displace(pressure, &mut gap);
+        kernel.shifted(&heights, &mut raised);
+        // Subtract the depth, which is the mean of height and displacement in the contact.
+        let (mut sum, mut count) = (0.0, 0.0);
+        for ((gap, height), pressure) in gap.iter_mut().zip(&raised).zip(pressure) {
+            *gap += height;
+            if *pressure > 0.0 {
+                sum += *gap;
+                count += 1.0;
+            }
+        }
+        let depth = sum / count;
+        gap.iter_mut().for_each(|gap| *gap -= depth);
+        gap
+    });
+    Ok(GapField {
+        grid,
+        origin: field.origin,
+        gap,
+    })
+}
