@@ -187,18 +187,7 @@ impl fmt::Display for Warning {
                 temperature,
                 highest,
                 is_by_wave,
-            } => {
-                let waves = match is_by_wave {
-                    true => "waves that are hotter have their moduli at this temperature, and ",
-                    false => "",
-                };
-                write!(
-                    out,
-                    "the hottest place of the contact has {temperature:.1} °C, and material and shear strength are known up to {} °C, so that \
-                     {waves}the temperature model spread is not known",
-                    Rounded(*highest)
-                )
-            }
+            } => write_hotter(out, *temperature, *highest, *is_by_wave),
             Self::SecondTemperature {
                 temperature,
                 friction_coefficient,
@@ -282,6 +271,25 @@ fn write_deep(out: &mut fmt::Formatter<'_>, indentation_depth: f64, length: &str
     write!(
         out,
         "the indentation depth {indentation_depth:.3e} m is more than a third of the {length}, where linear theory ends"
+    )
+}
+
+/// The sentence of [`Warning::HotterThanLaws`].
+fn write_hotter(
+    out: &mut fmt::Formatter<'_>,
+    temperature: f64,
+    highest: f64,
+    is_by_wave: bool,
+) -> fmt::Result {
+    let waves = match is_by_wave {
+        true => "waves that are hotter have their moduli at this temperature, and ",
+        false => "",
+    };
+    write!(
+        out,
+        "the hottest place of the contact has {temperature:.1} °C, and material and shear strength are known up to {} °C, so that {waves}the \
+         temperature model spread is not known",
+        Rounded(highest)
     )
 }
 
