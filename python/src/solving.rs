@@ -9,8 +9,8 @@ use pyo3::types::{PyDict, PyList};
 use viscofriction::numerics::SilentProgress;
 use viscofriction::scene::{Indenter, Layer, LoadPoint, Method, SceneError, Source};
 use viscofriction::solve::{
-    Budget, Parts, Sensitivity, body, body_of_heights, check_sensitivity,
-    check_spectral_sensitivity, half_space, spectral_sensitivity, with_fields, with_sensitivity,
+    Budget, Parts, Sensitivity, body, body_of_heights, check_derivatives, half_space,
+    spectral_sensitivity, with_fields, with_sensitivity,
 };
 use viscofriction::sweep::{Plan, SweepRow, Varied, Vary, each_once, header};
 use viscofriction::{
@@ -141,16 +141,10 @@ impl Loads<'_> {
         if !(self.sensitivity || self.spectral_sensitivity) {
             return Ok(());
         }
+        let by_numbers = self.sensitivity.then_some("sensitivity");
+        let by_moduli = self.spectral_sensitivity.then_some("spectral_sensitivity");
         let method = plan(problem)?.method();
-        if self.sensitivity {
-            let checked = check_sensitivity(problem, method);
-            checked.map_err(|error| error.or_without("sensitivity"))?;
-        }
-        if self.spectral_sensitivity {
-            let checked = check_spectral_sensitivity(problem, method);
-            checked.map_err(|error| error.or_without("spectral_sensitivity"))?;
-        }
-        Ok(())
+        Ok(check_derivatives(problem, method, by_numbers, by_moduli)?)
     }
 }
 

@@ -37,12 +37,12 @@ fn holds((finding, truth): (&Finding, &f64)) -> bool {
 
 #[test]
 fn intervals_hold_the_truth_in_95_of_100_curves_of_any_noise_and_few_are_flagged() {
-    intervals_hold(&cases(), 240, "intervals.txt");
+    intervals_hold(&cases(), 120, "intervals.txt");
 }
 
 #[test]
 fn intervals_hold_on_thin_samples() {
-    intervals_hold(&[thin()], 80, "intervals-thin.txt");
+    intervals_hold(&[thin()], 40, "intervals-thin.txt");
 }
 
 fn intervals_hold(cases: &[Case], few: usize, file: &str) {

@@ -12,10 +12,10 @@ use std::time::Instant;
 use anyhow::Result;
 use clap::Args;
 use serde::Serialize;
-use viscofriction::scene::{Method, SceneError, Source};
+use viscofriction::scene::{Method, Source};
 use viscofriction::solve::{
-    Answer, Omission, Plan, Problem, SolveError, check_sensitivity, check_spectral_sensitivity,
-    plan_of, problem_of, scene_of, spectral_sensitivity, with_fields, with_sensitivity,
+    Answer, Omission, Plan, Problem, SolveError, check_derivatives, plan_of, problem_of, scene_of,
+    spectral_sensitivity, with_fields, with_sensitivity,
 };
 use viscofriction::{Progress, WrongInput};
 
@@ -57,21 +57,6 @@ pub(crate) struct Run {
     overwrite: bool,
 }
 
-impl Run {
-    /// Rejects requested derivatives that the method does not have.
-    fn check_derivatives(&self, problem: &Problem, method: Method) -> Result<(), SceneError> {
-        if self.sensitivity {
-            let checked = check_sensitivity(problem, method);
-            checked.map_err(|error| error.or_without("--sensitivity"))?;
-        }
-        if self.spectral_sensitivity {
-            let checked = check_spectral_sensitivity(problem, method);
-            checked.map_err(|error| error.or_without("--spectral-sensitivity"))?;
-        }
-        Ok(())
-    }
-}
-
 /// An answer with its computing time.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub(crate) struct Timed<'a> {
@@ -92,7 +77,11 @@ pub(crate) fn run(options: &Run) -> Result<()> {
     // Choose the method, and refuse derivatives that it cannot compute and an output folder that cannot be written, before the
     // computation.
     let plan = plan_of(&source, &problem)?;
-    let offered = options.check_derivatives(&problem, plan.method());
+    let by_numbers = options.sensitivity.then_some("--sensitivity");
+    let by_moduli = options
+        .spectral_sensitivity
+        .then_some("--spectral-sensitivity");
+    let offered = check_derivatives(&problem, plan.method(), by_numbers, by_moduli);
     offered.map_err(|error| source.locate(&error))?;
     let open = |out: &PathBuf| OutputFolder::new(out, options.overwrite, files::NAMES);
     let out = options.out.as_ref().map(open).transpose()?;

@@ -58,8 +58,7 @@ impl SceneError {
     }
 
     /// The same error, which also says that `option` may be left out.
-    #[must_use]
-    pub fn or_without(self, option: &str) -> Self {
+    pub(crate) fn or_without(self, option: &str) -> Self {
         match self {
             Self::At { key, problem } => Self::at(key, format!("{problem}, or leave {option} out")),
             other => other,

@@ -60,6 +60,7 @@ pub(super) fn solve(first: Plan, watch: &dyn Progress) -> Result<Answer> {
         found.answer.warnings.push(Warning::HotterThanLaws {
             temperature: hottest,
             highest: temperature.highest,
+            is_by_wave: below.is_some(),
         });
     }
     let second = found.second.as_ref().map(|hot| Warning::SecondTemperature {

@@ -59,8 +59,8 @@ pub use realisations::{Ensemble, Realisation, Scatter};
 pub use road::{CutOff, cut_offs};
 pub(crate) use sensitivity::{AnswerChange, check_uncertainties, relative_change};
 pub use sensitivity::{
-    Budget, ByFrequency, Sensitivity, Source, SpectralSensitivity, check_sensitivity,
-    check_spectral_sensitivity, sampled, spectral_sensitivity, with_sensitivity,
+    Budget, ByFrequency, Sensitivity, Source, SpectralSensitivity, check_derivatives, sampled,
+    spectral_sensitivity, with_sensitivity,
 };
 pub use shared_memory::share_memory;
 pub use warning::Warning;

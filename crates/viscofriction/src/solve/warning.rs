@@ -60,6 +60,8 @@ pub enum Warning {
         temperature: f64,
         /// Highest temperature of the laws, \[°C].
         highest: f64,
+        /// True below a periodic surface, where each wave has the temperature of its depth.
+        is_by_wave: bool,
     },
     /// The friction heats the contact to one of two temperatures; the answer is that of the lower one.
     SecondTemperature {
@@ -184,12 +186,8 @@ impl fmt::Display for Warning {
             Self::HotterThanLaws {
                 temperature,
                 highest,
-            } => write!(
-                out,
-                "the hottest place of the contact has {temperature:.1} °C, and material and shear strength are known up to {} °C, so that the \
-                 temperature model spread is not known",
-                Rounded(*highest)
-            ),
+                is_by_wave,
+            } => write_hotter(out, *temperature, *highest, *is_by_wave),
             Self::SecondTemperature {
                 temperature,
                 friction_coefficient,
@@ -273,6 +271,25 @@ fn write_deep(out: &mut fmt::Formatter<'_>, indentation_depth: f64, length: &str
     write!(
         out,
         "the indentation depth {indentation_depth:.3e} m is more than a third of the {length}, where linear theory ends"
+    )
+}
+
+/// The sentence of [`Warning::HotterThanLaws`].
+fn write_hotter(
+    out: &mut fmt::Formatter<'_>,
+    temperature: f64,
+    highest: f64,
+    is_by_wave: bool,
+) -> fmt::Result {
+    let waves = match is_by_wave {
+        true => "waves that are hotter have their moduli at this temperature, and ",
+        false => "",
+    };
+    write!(
+        out,
+        "the hottest place of the contact has {temperature:.1} °C, and material and shear strength are known up to {} °C, so that {waves}the \
+         temperature model spread is not known",
+        Rounded(highest)
     )
 }
 

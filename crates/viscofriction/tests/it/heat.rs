@@ -313,6 +313,26 @@ fn one_wave_in_full_contact_has_the_temperature_of_its_depth() {
     }
 }
 
+/// Where the surface is hotter than the laws of the material, the waves there have their moduli at the highest temperature, which a
+/// warning says.
+#[test]
+fn waves_hotter_than_the_laws_are_told() {
+    let folder = Folder::new("heat-beyond-laws");
+    let height = |place: i32| format!("{:e}", -1e-4 * (PI * f64::from(place) / 16.0).cos());
+    let line: Vec<String> = (0..32).map(height).collect();
+    folder.write("wave.csv", vec![line.join(","); 8].join("\n"));
+    let answer = folder.answer(format!(
+        "[indenter.height-map]\nfile = \"wave.csv\"\nspacing = [3.125e-5, 3.125e-5]\nedges = \"periodic\"\n[interface.constant]\n\
+         shear_strength = 1e5\n[material.prony]\nequilibrium_modulus = 1e6\nbranches = [{{ modulus = 4e6, relaxation_time = 8e-4 }}]\nshift = \
+         {{ temperature = 20.0, temperature_range = [-20.0, 50.0], law = {{ wlf = [8.86, 101.6] }} }}\n{HEAT}duration = 0.06\n[load]\n\
+         mean_pressure = 2e7\nvelocity = 1.0\n[solve]\nrelative_error = 0.1\n"
+    ));
+    assert!(number(&answer, "effective_temperature") < 50.0, "{answer}");
+    let told =
+        "known up to 50 °C, so that waves that are hotter have their moduli at this temperature";
+    assert!(answer["warnings"].to_string().contains(told), "{answer}");
+}
+
 /// Requires that a scene is refused with these words.
 #[track_caller]
 fn assert_refused(text: &str, words: &str) {

@@ -30,9 +30,8 @@ use differences::Values;
 pub(crate) use parameters::check_uncertainties;
 pub(crate) use parameters::{Number, Numbers};
 pub use sampling::sampled;
-pub use spectral::{
-    ByFrequency, SpectralSensitivity, check_spectral_sensitivity, spectral_sensitivity,
-};
+use spectral::check_spectral_sensitivity;
+pub use spectral::{ByFrequency, SpectralSensitivity, spectral_sensitivity};
 
 /// Largest relative error of an answer that finite differences still differentiate. Chosen: closed forms and the stationary
 /// one-dimensional model reach it.
@@ -168,11 +167,30 @@ fn answer_with_derivatives(
     Some(plan.solve(watch))
 }
 
-/// Rejects a problem whose answer by a method has no derivatives, before it is solved.
+/// Rejects a problem whose answer by a method has no derivatives of a kind that is requested, before it is solved.
+///
+/// `by_numbers` and `by_moduli` are the names of the options that request the derivatives of [`with_sensitivity`] and of
+/// [`spectral_sensitivity`], for the message; `None` if they are not requested.
 ///
 /// # Errors
-/// [`SceneError`] at the key to change.
-pub fn check_sensitivity(problem: &Problem, method: Method) -> std::result::Result<(), SceneError> {
+/// [`SceneError`] at the key to change; it says that the option may be left out.
+pub fn check_derivatives(
+    problem: &Problem,
+    method: Method,
+    by_numbers: Option<&str>,
+    by_moduli: Option<&str>,
+) -> std::result::Result<(), SceneError> {
+    if let Some(option) = by_numbers {
+        check_sensitivity(problem, method).map_err(|error| error.or_without(option))?;
+    }
+    if let Some(option) = by_moduli {
+        check_spectral_sensitivity(problem, method).map_err(|error| error.or_without(option))?;
+    }
+    Ok(())
+}
+
+/// Rejects a problem whose answer by a method has no derivatives by the numbers of its scene.
+fn check_sensitivity(problem: &Problem, method: Method) -> std::result::Result<(), SceneError> {
     let none = || {
         SceneError::at(
             "solve.method",

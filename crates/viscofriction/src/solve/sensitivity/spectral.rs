@@ -109,11 +109,8 @@ fn check_given_moduli(problem: &Problem) -> std::result::Result<(), SceneError> 
     Ok(())
 }
 
-/// Rejects a problem whose answer by a method has no derivatives by the modulus at each frequency, before it is solved.
-///
-/// # Errors
-/// [`SceneError`] at the key to change.
-pub fn check_spectral_sensitivity(
+/// Rejects a problem whose answer by a method has no derivatives by the modulus at each frequency.
+pub(super) fn check_spectral_sensitivity(
     problem: &Problem,
     method: Method,
 ) -> std::result::Result<(), SceneError> {
