@@ -8,13 +8,13 @@ use numerics::{ErrorParts, Estimate, Quantity, Refined};
 
 use crate::{Control, MovingLoad, Stage};
 
-/// Factors on the relative remaining changes per cycle in the test for a limit cycle: those of friction coefficient,
-/// tangential force, normal force, depth and contact area. Chosen: a quantity of a single step may still change by ten times the
-/// tolerance, because only the mean over a cycle is required to that. The area, which follows from forces and depth, decides nothing.
-const LIMIT_CYCLE_WEIGHTS: [f64; 5] = [1.0, 0.1, 0.1, 0.1, 0.0];
-/// Factor on the relative remaining change of the history variables in the test for a limit cycle. Chosen: equal to that of the
-/// forces.
-const HISTORY_WEIGHT: f64 = 0.1;
+/// Factor on the relative remaining change per cycle of quantities of a single step and of the history variables, in the test for
+/// a limit cycle. Chosen: they may still change by ten times the tolerance, because only the mean friction over a cycle is required
+/// to that (case of `evidence tuning`).
+const STEP_WEIGHT: f64 = 0.1;
+/// Factors on the relative remaining changes of friction coefficient, tangential force, normal force, depth and contact area. The
+/// area, which follows from forces and depth, decides nothing.
+const LIMIT_CYCLE_WEIGHTS: [f64; 5] = [1.0, STEP_WEIGHT, STEP_WEIGHT, STEP_WEIGHT, 0.0];
 /// Number of elements along the contact on which nothing is known of the friction. On N elements its relative error is at least
 /// the cube of the ratio of this number to N: 3 % on 6.5 elements and 0.2 % on 16 (docs/theory/transient-half-space.md, "Linear
 /// loads").
@@ -194,7 +194,7 @@ impl MotionRecord {
         if self.steps.iter().all(|step| step.normal_force <= 0.0) {
             return f64::INFINITY;
         }
-        let history = HISTORY_WEIGHT * slowness * self.history_change;
+        let history = STEP_WEIGHT * slowness * self.history_change;
         let changes = self.remaining_changes.iter();
         let weighted = changes.zip(self.scales()).zip(LIMIT_CYCLE_WEIGHTS);
         weighted

@@ -18,9 +18,6 @@ const MAX_NODES: usize = 243;
 /// Number of last coefficients whose largest absolute value estimates the truncation error: two may vanish by the symmetry of a
 /// function, three do not. Chosen (case of `evidence tuning`).
 const TAIL_TERMS: usize = 3;
-/// Ratio to the tolerance below which coefficients are dropped. Derived: a hundred of them together are within the tolerance. It
-/// has a case of `evidence tuning`.
-const DROPPED_FRACTION: f64 = 0.01;
 
 /// Chebyshev series of two functions of x from −1 to 1.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,7 +46,8 @@ impl ChebyshevPair {
             values = (0..n).map(value).collect::<Result<_, E>>()?;
             let series = Self::through_values(&values);
             if series.tail <= tolerance || n >= MAX_NODES {
-                return Ok(series.without_small_terms(DROPPED_FRACTION * tolerance));
+                // All of the dropped coefficients together are within the tolerance.
+                return Ok(series.without_small_terms(tolerance / n as f64));
             }
             n *= NODE_GROWTH;
         }

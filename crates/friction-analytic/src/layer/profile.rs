@@ -35,8 +35,8 @@ const MAX_TAIL: f64 = 1e-6 / ERROR_OVER_TAIL;
 /// The test `the_profile_is_known_within_its_error` compares it with single contacts.
 const ERROR_OVER_TAIL: f64 = 20.0;
 /// Upper bound of the relative error of a radius by the small terms that the series skip; the error of the truncated tail is
-/// added to it. Derived: up to a hundred dropped terms of either of two series add up to its tolerance, [`SERIES_TOLERANCE`].
-const LEFT_OUT_TERMS_ERROR: f64 = 2e-8;
+/// added to it. Derived: the dropped terms of either of two series add up to its tolerance.
+const LEFT_OUT_TERMS_ERROR: f64 = 2.0 * SERIES_TOLERANCE;
 /// Upper bound of the ratio of the contact radius on a layer to that on the half space at the same depth. Derived: it is largest
 /// on a film, on which the profile c r^p has the height (1 + p/2) d at the contact boundary. The ratio [(1 + p/2) √π Γ(p/2 +
 /// 1)/Γ(p/2 + 1/2)]^(1/p) falls with p, from 2.7 at p = 1/2. A larger bound costs wave numbers that are not needed.
@@ -48,7 +48,7 @@ const SEARCH_GROWTH: f64 = 1.25;
 /// equations grows like the cube of the radius (case of `evidence tuning`).
 const DEPTH_MARGIN: f64 = 1.02;
 /// Largest parameter σ of a [`GradedMap`]. Derived: with it, x ↦ y is linear to 2e-3, the relative size 1/(6 σ²) of the next
-/// term. It decides the number of coefficients, not the radii. It has a case of `evidence tuning`.
+/// term. It decides the number of coefficients, not the radii.
 const MAX_SIGMA: f64 = 10.0;
 /// Grading exponents of the maps that are tried one after the other. The first is a plain map; the second is needed for bodies of
 /// several powers, such as r + r^1.3. Chosen (case of `evidence tuning`); the tail decides which is taken.

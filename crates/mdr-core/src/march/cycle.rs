@@ -16,11 +16,6 @@ use crate::history::SUM_ROUNDING;
 /// Largest number of cycles in the search for the limit cycle. Chosen to limit the time: after them the search ends with
 /// [`MdrError::NotPeriodic`]. A cycle that is found does not depend on it.
 const MAX_CYCLES: usize = 400;
-/// Deviation from the expected residual, relative to the residual before the step, at which the next step covers as many cycles
-/// as the last one. It is the product of `fac` and the tolerance in the step size control of Hairer, Nørsett & Wanner 1993, Solving
-/// Ordinary Differential Equations I, (II.4.13), of first order and without limits on the factor. Chosen; from 0.2 to 10 nothing
-/// changes (case of `evidence tuning`).
-const TARGET_DEVIATION: f64 = 0.4;
 
 /// Finds the limit cycle to the tolerance of the problem, from the amplitudes of the resolution before if there is one; `None` if the
 /// contact went beyond the sampled heights.
@@ -65,10 +60,11 @@ pub(super) fn find_limit_cycle(
                 return Ok(Some(MotionRecord { n_cycles, ..record }));
             }
 
-            // Cover more cycles by the next step if this one did what was expected, fewer if not. A step over the reciprocal of
-            // the rounding error is the full Newton step.
-            search.cycles_per_step = (TARGET_DEVIATION / deviation * search.cycles_per_step)
-                .clamp(1.0, f64::EPSILON.recip());
+            // Cover more cycles by the next step if this one did what was expected, fewer if not, as in the step size control of
+            // Hairer, Nørsett & Wanner 1993, Solving Ordinary Differential Equations I, (II.4.13), of first order. A step over the
+            // reciprocal of the rounding error is the full Newton step.
+            search.cycles_per_step =
+                (search.cycles_per_step / deviation).clamp(1.0, f64::EPSILON.recip());
         }
         search.newton_step(&contact_history);
         before = Some(record);

@@ -8,7 +8,7 @@ use rheology::Material;
 
 use super::SteadySliding;
 use super::depth::{depth_of_load, refined_depth};
-use super::sweep::{SweepSums, sweep};
+use super::sweep::{ROUGH_TOLERANCE, SweepSums, sweep};
 use super::track::{check_length, sweep_until_periodic};
 use crate::MdrError;
 use crate::branches::{Foundation, FreeSurface};
@@ -22,12 +22,6 @@ const STATE_ROUNDING: f64 = 256.0 * f64::EPSILON;
 /// times as large as estimated (test `bars_hold_for_other_pieces_of_the_same_line`). Error bars grow in proportion to it (case of
 /// `evidence tuning`).
 const TAIL_SAFETY_FACTOR: f64 = 6.0;
-/// Ratio of the first tolerance of the polynomials to the relative error asked for. If the error is missed, the tolerance is
-/// reduced and the state solved again. Chosen (case of `evidence tuning`).
-const FIRST_TOLERANCE_FRACTION: f64 = 0.1;
-/// Tolerance of the polynomials, in depths, in the first search for a depth and in the check of kinks. Chosen: a second search at
-/// the final tolerance follows (case of `evidence tuning`).
-const SEARCH_TOLERANCE: f64 = 1e-3;
 /// Smallest tolerance of the polynomials, in depths. Chosen: 45 units in the last place, below which polynomials would follow
 /// rounding. An error that is too large even with it is [`MdrError::NotConverged`].
 const MIN_TOLERANCE: f64 = 1e-14;
@@ -82,7 +76,8 @@ impl<'a> LineProblem<'a> {
         quantity: &'static str,
         sought: fn(&SteadySliding) -> Estimate,
     ) -> Result<SteadySliding, MdrError> {
-        let mut tolerance = FIRST_TOLERANCE_FRACTION * relative_error;
+        // Begin with the tolerance whose error bar is about the error asked for.
+        let mut tolerance = relative_error / TAIL_SAFETY_FACTOR;
         loop {
             // Solve, and return a state with the requested error.
             let state = self.state(control, tolerance)?;
@@ -114,8 +109,8 @@ impl<'a> LineProblem<'a> {
         if kinks.is_empty() {
             return Ok(());
         }
-        let depth = self.depth(control, SEARCH_TOLERANCE);
-        let in_contact = match depth.and_then(|depth| self.solve(depth, SEARCH_TOLERANCE)) {
+        let depth = self.depth(control, ROUGH_TOLERANCE);
+        let in_contact = match depth.and_then(|depth| self.solve(depth, ROUGH_TOLERANCE)) {
             Ok(sweep) => kinks.iter().find(|kink| kink.is_in(&sweep.contacts)),
             // No depth is large enough: behind the kink the line rises by any depth within the rounding of positions.
             Err(MdrError::NonFinite {
@@ -153,7 +148,7 @@ impl<'a> LineProblem<'a> {
     fn depth_of_force(&self, force: f64, tolerance: f64) -> Result<f64, MdrError> {
         let target = 0.25 * positive("normal_force", force)?;
         // Most of the search needs only a rough line with few polynomials; the last steps use the tolerance asked for.
-        let search_tolerance = tolerance.max(SEARCH_TOLERANCE);
+        let search_tolerance = tolerance.max(ROUGH_TOLERANCE);
         let start = depth_of_load(|depth| self.quarter_force(depth, search_tolerance), target)?;
         refined_depth(|depth| self.quarter_force(depth, tolerance), target, start)
     }
@@ -171,7 +166,7 @@ impl<'a> LineProblem<'a> {
             Control::NormalForce(normal_force) => MdrError::ForceBeyondEdge {
                 position,
                 available: height,
-                carried_force: 4.0 * self.quarter_force(height, SEARCH_TOLERANCE)?,
+                carried_force: 4.0 * self.quarter_force(height, ROUGH_TOLERANCE)?,
                 normal_force,
             },
             Control::IndentationDepth(indentation_depth) => MdrError::DepthBeyondEdge {

@@ -14,14 +14,14 @@ use crate::elements::grid::MIN_COARSEST_EDGE;
 use crate::estimate::refinement_limits::{MARCH_ORDER, MARCH_WORK_EXPONENT};
 use crate::march::n_history_variables;
 use crate::motions::any_motion::refine_motion;
+use crate::stationary::periodic::grid_sizes::FIRST_ELEMENTS_PER_WAVE;
 use crate::stationary::periodic::refinement::MIN_CONTACT_ELEMENTS;
 use crate::{BemError, Elastomer};
 use moving_surface::MovingSurface;
 
-/// Number of elements per shortest wave for the first error estimate. Its coarsest grid has three eighths as many, so that eight
-/// are the fewest that resolve the wave there. Twice as many make the bar 0.63 times as wide and take 8 times as long. It has a
-/// case of `evidence tuning`.
-const ELEMENTS_PER_SHORTEST_WAVE: usize = 8;
+/// Number of elements per shortest wave for the first error estimate. Derived: half as many, on its coarser grid, are those on the
+/// first grid of a stationary contact.
+const ELEMENTS_PER_SHORTEST_WAVE: usize = 2 * FIRST_ELEMENTS_PER_WAVE;
 /// Relative tolerance of the contact of a step. Its product with the root mean square slope is part of the error of the friction. Chosen;
 /// from 1e-9 to 1e-7 no answer changes by more than 1e-7 of its bar (case of `evidence tuning`).
 const CONTACT_TOLERANCE: f64 = 1e-8;

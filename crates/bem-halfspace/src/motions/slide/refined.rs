@@ -6,7 +6,7 @@
 //! Theory: docs/theory/transient-half-space.md, "Finite sliding distance" and "Grid".
 
 use indenters::{Control, SlidingLoad, Surface};
-use numerics::{Accuracy, ErrorParts, Request};
+use numerics::{Accuracy, ErrorParts, ITERATION_SHARE, Request};
 use rheology::{CreepSpectrum, Material as _};
 
 use crate::estimate::bars::{self, ContactEstimate, OnGrid, Resolution, Target, peak_has_limit};
@@ -25,7 +25,8 @@ use crate::{BemError, ContactOptions, Elastomer, GridOptions};
 /// twice as many a march takes 2.8 times as long (case of `evidence tuning`).
 const FLOW_CONTACT_LENGTHS: f64 = 24.0;
 /// Largest relative change of the friction coefficient over the second half of a march that is extrapolated to the stationary
-/// state. Chosen; with 0.01 a march is refused, from 0.05 to 1 only times change (case of `evidence tuning`).
+/// state. Also the relative error that is assumed where a number of elements is asked for. Chosen; with 0.01 a march is refused,
+/// from 0.05 to 1 only times change (case of `evidence tuning`).
 const MAX_DRIFT: f64 = 0.05;
 /// Number of memory lengths v λ that [`FLOW_CONTACT_LENGTHS`] is extended by, for the velocity v and the largest retardation time
 /// λ. A march ends earlier if the friction has settled, and fails with [`BemError::NotStationary`] otherwise. Chosen; from 1.2 to
@@ -38,9 +39,6 @@ const MIN_DISTANCE_FOR_WHOLE_ELEMENTS: f64 = 2.0 / 3.0;
 /// Longest march to the stationary state, in contact lengths. Chosen to limit the time, which grows in proportion to it: a longer
 /// march is refused with [`BemError::MemoryTooLong`].
 const MAX_CONTACT_LENGTHS: f64 = 500.0;
-/// Ratio of the largest relative change of the friction coefficient at which a march counts as stationary to the relative error
-/// asked for. Chosen; from 0.01 to 1 only times change, with 10 a bar is 2.5 times as wide (case of `evidence tuning`).
-const CHANGE_OVER_ERROR: f64 = 0.1;
 
 /// State at the end of a march with error bars: after the sliding distance, or in the stationary state.
 pub type SlideEstimate = ContactEstimate<Transient, GridOptions>;
@@ -343,11 +341,9 @@ impl<'a> PlannedSlide<'a> {
             });
         }
         // Otherwise march until the friction has settled over a distance that is longer than contact and memory.
+        let accuracy = self.request.accuracy;
         let stationary = StationaryOptions {
-            tolerance: match self.request.accuracy {
-                Accuracy::RelativeError(error) => CHANGE_OVER_ERROR * error,
-                Accuracy::Elements(_) => CHANGE_OVER_ERROR * MAX_DRIFT,
-            },
+            tolerance: ITERATION_SHARE * accuracy.relative_error().unwrap_or(MAX_DRIFT),
             over_distance: 2.0 * self.plan.length() + memory,
         };
         let end = slide_until_stationary(march, load, &stationary, report)?;

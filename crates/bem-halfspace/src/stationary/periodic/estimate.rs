@@ -5,13 +5,13 @@ use numerics::{Estimate, Request, positive};
 
 use crate::march::periodic::{PeriodicTransient, Steps, slide_with};
 use crate::parallel::reductions::mean;
+use crate::stationary::FIRST_TOLERANCE;
 use crate::stationary::periodic::contact::PeriodicContact;
 use crate::stationary::periodic::grid_sizes::first_shape;
 use crate::stationary::periodic::kernel::Sliding;
 use crate::stationary::periodic::perimeter_error::area_fraction;
 use crate::stationary::periodic::refinement::{
-    AREA_RATE, FIRST_ORDER_RATE, FIRST_TOLERANCE, FRICTION_RATE, GridResult, RefinementGoal,
-    SampledSurface, refine,
+    AREA_RATE, FIRST_ORDER_RATE, FRICTION_RATE, GridResult, RefinementGoal, SampledSurface, refine,
 };
 use crate::stationary::periodic::subgrid_gaps::SubgridGapBound;
 use crate::stationary::periodic::{

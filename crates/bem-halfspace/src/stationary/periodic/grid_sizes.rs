@@ -15,7 +15,7 @@ use crate::transform::fast_length::fast_length;
 
 /// Number of elements per shortest wave along an axis on the first grid. Chosen (case of `evidence tuning`);
 /// docs/theory/rough-surfaces.md has how often bars hold with four.
-const FIRST_ELEMENTS_PER_WAVE: usize = 4;
+pub(crate) const FIRST_ELEMENTS_PER_WAVE: usize = 4;
 /// Largest number of elements of the last of three grids that begin with [`FIRST_ELEMENTS_PER_WAVE`]: 2048². Chosen to limit the
 /// time.
 ///

@@ -18,9 +18,6 @@ use crate::elements::area::{self, EXCESS_PER_EDGE};
 /// Measured on 821 contacts, with four to 16 elements per shortest wave on the coarsest of three grids. Two differ by more than
 /// this error and the changes on refinement together, and 93 by more than the changes alone. It has a case of `evidence tuning`.
 const REMAINING_FRACTION: f64 = 0.15;
-/// Largest displacement of the boundary of grooves by other waves, in elements, up to which the boundary counts as straight.
-/// Chosen as half an element, which no row of elements shows. It has a case of `evidence tuning`.
-const MAX_WAVINESS: f64 = 0.5;
 
 /// Fraction of the period in contact, with the error of its perimeter correction.
 pub(crate) fn area_fraction(grid: &Grid, pressure: &[f64], surface: &PeriodicSurface) -> Estimate {
@@ -36,7 +33,7 @@ pub(crate) fn area_fraction(grid: &Grid, pressure: &[f64], surface: &PeriodicSur
 /// Direction of the lines of unidirectional roughness: the numbers [a, b] of elements along x and y, without a common factor,
 /// that a line passes (head of this file).
 ///
-/// `None` if other waves displace the contact boundary by more than [`MAX_WAVINESS`].
+/// `None` if other waves displace the contact boundary by more than half an element, so that it passes other elements.
 fn groove_direction(surface: &PeriodicSurface, grid: &Grid) -> Option<[usize; 2]> {
     // The grooves are the waves with the direction of the steepest one.
     let slope = |wave: &Wave| {
@@ -54,7 +51,7 @@ fn groove_direction(surface: &PeriodicSurface, grid: &Grid) -> Option<[usize; 2]
     let with_waves = |waves: Vec<Wave>| PeriodicSurface::new(surface.period(), waves);
     let other_height = with_waves(others).map_or(0.0, |others| others.rms_height());
     let [dx, dy] = grid.spacing();
-    if other_height > MAX_WAVINESS * dx.max(dy) * with_waves(along).ok()?.rms_slope() {
+    if other_height > 0.5 * dx.max(dy) * with_waves(along).ok()?.rms_slope() {
         return None;
     }
     let [rows, columns] = grid.shape();

@@ -12,6 +12,7 @@ use numerics::{
 
 use crate::elements::grid::MAX_ELEMENTS;
 use crate::estimate::bars::reached_or_error;
+use crate::stationary::FIRST_TOLERANCE;
 use crate::stationary::periodic::grid_sizes::{FINEST_OVER_COARSEST, MAX_USUAL_GRID, first_shape};
 use crate::stationary::periodic::subgrid_gaps::SubgridGapBound;
 use crate::stationary::periodic::{PeriodicControl, PeriodicEstimate, check_surface};
@@ -48,9 +49,6 @@ const MIN_ERROR_OVER_DIFFERENCE: f64 = 0.25;
 /// set decides the friction, and two grids may agree by chance. Chosen; from 0 to 30 no digit of an answer changes (case of
 /// `evidence tuning`).
 pub(crate) const MIN_CONTACT_ELEMENTS: usize = 30;
-/// Relative tolerance of the contact on the first grid, halved on each of the next, whatever error is asked for. Chosen; from
-/// 1e-7 to 1e-4 no answer changes by more than 3 % of its bar (case of `evidence tuning`).
-pub(super) const FIRST_TOLERANCE: f64 = 1e-5;
 /// Largest product of the number of elements and the number of steps of a march, about half an hour of one thread. Chosen to
 /// limit the time: a larger march fails with [`BemError::GridTooLarge`].
 const MAX_ELEMENT_STEPS: f64 = 2e9;

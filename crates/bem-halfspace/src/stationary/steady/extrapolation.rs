@@ -28,12 +28,10 @@ pub(super) const CREEPING_ORDERS: [f64; 2] = [2.0, 2.5];
 /// Measured on 60 random scenes under the profiles r, r^1.5, r² and r⁴: all of 104 error estimates hold with this value, as they
 /// do without higher orders. The median error is 0.6 of that without them.
 pub(super) const ACCEPTED_ERROR_RATIO: f64 = 0.5;
-/// Factor on the change of a limit by the last refinement but one, in the error of the limit; the last change has the factor 1.
-/// Chosen; from 0 to 0.5 nothing changes, with 1 an answer takes up to 1.9 times as long (case of `evidence tuning`).
-const EARLIER_CHANGE_WEIGHT: f64 = 0.5;
-/// Factor on the change of a limit by the last elimination in the error of the limit. Chosen; from 0 to 0.25 nothing changes,
-/// with 1 a bar is 2.2 times as wide (case of `evidence tuning`).
-const ELIMINATION_WEIGHT: f64 = 0.25;
+
+/// Ratio of the errors of second order on two successive grids, 1/√2². The second order is the highest that an elimination leaves
+/// ([`next_order`]).
+const SECOND_ORDER_RATIO: f64 = 0.5;
 
 /// Extrapolates values on grids of which each has √2 times as many elements along a length as the one before.
 ///
@@ -101,13 +99,15 @@ fn estimate_limit(limits: &[f64], eliminated: &[f64]) -> Option<Estimate> {
     let [.., earlier, before, last] = limits else {
         return None;
     };
+    // The earlier change counts as far as an error of second order would have left of it on the last grid. The elimination goes over
+    // two refinements.
     let changes = (last - before)
         .abs()
-        .max(EARLIER_CHANGE_WEIGHT * (before - earlier).abs());
+        .max(SECOND_ORDER_RATIO * (before - earlier).abs());
     let elimination = (last - eliminated.last()?).abs();
     Some(Estimate::new(
         *last,
-        changes + ELIMINATION_WEIGHT * elimination,
+        changes + SECOND_ORDER_RATIO * SECOND_ORDER_RATIO * elimination,
     ))
 }
 

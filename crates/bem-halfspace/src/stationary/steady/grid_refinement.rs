@@ -23,7 +23,7 @@ use crate::stationary::steady::extrapolation::{
     ACCEPTED_ERROR_RATIO, CREEPING_ORDERS, HIDDEN_EDGE_ORDERS, OBSERVED_ORDERS,
     change_at_observed_order, extrapolate,
 };
-use crate::stationary::steady::loading::Loading;
+use crate::stationary::steady::loading::{Loading, MIN_TOLERANCE};
 use crate::stationary::steady::solution::{SteadyEstimate, SteadySliding};
 use crate::stationary::steady::{Reuse, SteadyOptions, solve};
 
@@ -83,9 +83,6 @@ const CYCLING_SPACING_FACTORS: [f64; 2] = [0.99, 0.98];
 /// contact. Chosen; from 1e-4 to 1e-2 only times change, by up to a fifth (case of `evidence tuning`). In plane strain the constant
 /// potential of the whole strip, which is absorbed in the depth, leaves more rounding error than a smaller one allows.
 const RESIDUAL_SHARE: f64 = 1e-4;
-/// Smallest tolerance of a contact, relative to the depth scale. Chosen above the rounding error of the transforms, below
-/// which a residual has no meaning (case of `evidence tuning`).
-const MIN_TOLERANCE: f64 = 1e-12;
 /// Ratio of the error of the friction to the mean slope below which the friction of an elastic material counts as known. Chosen:
 /// its friction is 0, and the tolerances of the contacts and the rounding of sums leave about as much. With a smaller ratio such
 /// a refinement would go on to the limit of unknowns.

@@ -31,23 +31,15 @@ use crate::{BemError, Elastomer, Footprint};
 /// Number of elements of the coarsest grid along half the contact of a cylinder on an elastic half space. Chosen; from 2 to 12
 /// bars are 0.05 to 3.8 times as wide (case of `evidence tuning`).
 const COARSEST_PER_HALF_LENGTH: f64 = 4.0;
-/// Distance of the rear of the footprint behind the lowest point, in half lengths of the contact of a cylinder on an elastic half
-/// space. No contact reaches further back than the elastic one, at 1. Chosen; from 1 to 4 no answer changes by more than 1e-8 of
-/// its bar (case of `evidence tuning`).
-const FOOTPRINT_REAR: f64 = 2.0;
-/// Distance of the front of the footprint ahead of the lowest point on a material without memory. The unit is half the contact
-/// length of a cylinder on an elastic half space. Chosen; from 1 to 5 no answer changes by more than 2e-8 of its bar, because a
-/// footprint that is reached grows (case of `evidence tuning`).
-const FOOTPRINT_FRONT: f64 = 2.5;
+/// Distance of both ends of the footprint from the lowest point, on a material without memory, in half lengths of the contact of a
+/// cylinder on an elastic half space. No contact reaches further back than the elastic one, at 1. Chosen; from 1 to 4 no answer
+/// changes by more than 2e-8 of its bar (case of `evidence tuning`).
+const FOOTPRINT_OVER_HALF_LENGTH: f64 = 2.5;
 /// Shift of the front of the footprint per e-fold of the memory length, in half lengths of the contact on an elastic half space.
 /// The distance ahead at which the surface still rises grows with the logarithm of the memory length. Chosen; from 0.1 to 2 no
-/// answer changes by more than 1e-8 of its bar (case of `evidence tuning`).
+/// answer changes by more than 1e-8 of its bar (case of `evidence tuning`). Without it a cylinder on a Kelvin–Voigt solid of long
+/// memory touches outside its footprint.
 const FOOTPRINT_FRONT_PER_LOG_MEMORY: f64 = 0.5;
-
-/// Convergence order that is assumed under a smooth profile on a given number of elements. It is higher than that of bodies,
-/// whose contact boundary follows the elements. Chosen on random scenes: docs/calibration.md has how often the bars hold. It has
-/// a case of `evidence tuning`.
-const PROFILE_ORDER: f64 = 1.2;
 
 /// Largest number of unknown pressures in plane strain. Chosen to limit the time, since systems of this size are solved directly:
 /// refinement ends before a larger one.
@@ -121,8 +113,7 @@ pub fn steady_line<'w>(
 
     // Solve on all grids that the error estimate for this number of elements needs.
     let loading = &problem.loading;
-    let mut resolution = resolution(request, loading.control, problem.has_peak);
-    resolution.goal.order = PROFILE_ORDER;
+    let resolution = resolution(request, loading.control, problem.has_peak);
     let solve = |elements: usize, _: &dyn Fn(f64)| {
         let spacing = 2.0 * half_length / elements as f64;
         let options = SteadyOptions::new([spacing, strip.length], plan.footprint);
@@ -153,10 +144,13 @@ fn line_scale(
     let scale = profile_scale(profile, &creep, load.require_normal_force()?)?;
     let half_length = scale.half_length;
     let log_memory = (creep.memory_length() / half_length).ln_1p();
-    let front = FOOTPRINT_FRONT + FOOTPRINT_FRONT_PER_LOG_MEMORY * log_memory;
+    let front = FOOTPRINT_OVER_HALF_LENGTH + FOOTPRINT_FRONT_PER_LOG_MEMORY * log_memory;
     Ok(LineScale {
         half_length,
-        footprint: [-FOOTPRINT_REAR * half_length, front * half_length],
+        footprint: [
+            -FOOTPRINT_OVER_HALF_LENGTH * half_length,
+            front * half_length,
+        ],
     })
 }
 

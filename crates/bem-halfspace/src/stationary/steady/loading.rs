@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 use indenters::{Control, SlidingLoad, Surface};
 use numerics::{in_range, positive};
 
-use crate::estimate::plan::{NEGLIGIBLE_KINKS, kinks};
+use crate::estimate::plan::{NEGLIGIBLE_FRACTION, kinks};
 use crate::stationary::steady::contact_scale::{depth_scale, mean_height, profile_scale};
 use crate::stationary::steady::sliding_creep::{ElementCreep, SlidingCreep};
 use crate::{BemError, Elastomer, Footprint};
@@ -48,10 +48,9 @@ pub(super) struct Loading {
     pub(super) may_have_patches: bool,
 }
 
-/// Ratio of the length of a strip along y to the sum of the lengths of its footprint and of its memory along x. The relative
-/// difference from an infinite strip is of the order of the inverse square of this ratio, 1e-10. Chosen; from 1e4 to 1e6 no
-/// answer changes by more than 3e-6 of its bar (case of `evidence tuning`).
-const STRIP_LENGTH_RATIO: f64 = 1e5;
+/// Smallest tolerance of a contact, relative to the depth scale. Chosen above the rounding error of the transforms, below
+/// which a residual has no meaning (case of `evidence tuning`).
+pub(super) const MIN_TOLERANCE: f64 = 1e-12;
 
 impl Loading {
     /// The loading of a body. Under a force, D is about the depth at which it is carried; at a depth, D is that depth.
@@ -81,7 +80,7 @@ impl Loading {
             }
         };
         Ok(Self {
-            has_edges: kinks(surface, depth_scale, footprint)? > NEGLIGIBLE_KINKS,
+            has_edges: kinks(surface, depth_scale, footprint)? > NEGLIGIBLE_FRACTION,
             may_have_patches: surface.as_axisymmetric().is_none(),
             creep,
             depth_scale,
@@ -103,9 +102,12 @@ impl Loading {
     ) -> Result<Self, BemError> {
         let creep = SlidingCreep::for_load(elastomer, load)?;
         let force = load.require_normal_force()?;
-        // Choose a strip so long that its ends have no influence on the contact. It carries the force per length times its length.
+        // Choose a strip so long that its ends have no influence on the contact: the relative difference from an infinite strip is
+        // about the inverse square of the ratio of its length to those of its footprint and of its memory. It carries the force per
+        // length times its length.
+        let length_ratio = MIN_TOLERANCE.sqrt().recip();
         let depth_scale = profile_scale(profile, &creep, force)?.depth_scale;
-        let length = STRIP_LENGTH_RATIO * (front - rear + creep.memory_length());
+        let length = length_ratio * (front - rear + creep.memory_length());
         let strip = positive("length of a strip", length)?;
         let force = positive("force on a strip", force * strip)?;
         Ok(Self {

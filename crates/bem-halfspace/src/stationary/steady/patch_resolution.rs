@@ -5,11 +5,8 @@
 use crate::BemError;
 use crate::elements::bounds::Bounds;
 use crate::error::check_contact_elements;
+use crate::estimate::plan::NEGLIGIBLE_FRACTION;
 
-/// Fraction of the total load that a patch must carry to be checked for its resolution. The error estimates of a contact contain
-/// the effect of smaller patches. Chosen; from 0 to 1 no digit of an answer changes: it decides which grids are refused as too
-/// coarse (case of `evidence tuning`).
-const NEGLIGIBLE_LOAD_FRACTION: f64 = 0.01;
 /// Smallest number of elements across the sliding direction in the widest row of a patch. Chosen: on one to three of them,
 /// several grids may agree by chance. It has a case of `evidence tuning`.
 pub(super) const MIN_ELEMENTS_ACROSS: usize = 4;
@@ -26,7 +23,7 @@ pub(super) fn check_patches(loaded: &[Loaded], bounds: &Bounds) -> Result<(), Be
     for patch in connected_patches(loaded, bounds) {
         // Skip patches with a negligible load.
         let load: f64 = patch.iter().map(|(_, load)| load).sum();
-        if load < NEGLIGIBLE_LOAD_FRACTION * total {
+        if load < NEGLIGIBLE_FRACTION * total {
             continue;
         }
         // Count the loaded elements of the patch in each row and column. It needs enough rows, and enough elements in its widest row.

@@ -56,9 +56,6 @@ const ROWS_PER_SIDE: usize = 5;
 /// Length, in Δx, below which a panel next to a singularity on its own line is not divided further. Chosen as 2⁻²⁶, the square
 /// root of the rounding error; with 1e-12 no answer changes by more than 1e-10 of its bar.
 const MIN_PANEL_LENGTH: f64 = 1.0 / (1_u64 << 26) as f64;
-/// Smallest distance ahead of the load, in Δx, at which the recursion along rows starts. Chosen; from 4 to 64 no answer changes
-/// by more than 2e-10 of its bar (case of `evidence tuning`).
-const MIN_START_DISTANCE: f64 = 16.0;
 
 /// An interval along x, with lengths in Δx.
 #[derive(Debug, Clone, Copy)]
@@ -128,9 +125,11 @@ impl RetardedPotential {
             }
         });
 
-        // The recursion starts far enough ahead of the load, from the integral over everything further ahead or once around the track.
+        // The recursion starts so far ahead of the load that all rows of its rules are ahead of it, from the integral over everything
+        // further ahead or once around the track.
+        let min_distance = 2.0 * ROWS_PER_SIDE as f64;
         let rows_ahead = match creep.track {
-            None => (MIN_START_DISTANCE - first).max(0.0).ceil(),
+            None => (min_distance - first).max(0.0).ceil(),
             Some(_) => 0.0,
         };
         let position = first + 1.0 + rows_ahead;

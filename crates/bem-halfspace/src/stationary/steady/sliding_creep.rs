@@ -27,9 +27,9 @@ use crate::substrate::base::check_no_wave_shift;
 use crate::{Base, BemError, Elastomer};
 
 /// Rate Δx/(v λ) of the retardation element that replaces the free flow of a layer on a rigid base, whose influence radius is
-/// finite. It is so small that 1 − e^(−rate s) equals rate·s to rounding for any distance s that occurs. Chosen; from 1e-200 to
-/// 1e-30 no digit of an answer changes (case of `evidence tuning`).
-pub(super) const FLOW_AS_RETARDATION_RATE: f64 = 1e-100;
+/// finite. Derived: 1 − e^(−rate s) equals rate·s to rounding for all distances s up to 1/ε, in Δx, beyond which positions
+/// are not exact.
+pub(super) const FLOW_AS_RETARDATION_RATE: f64 = f64::EPSILON * f64::EPSILON;
 
 /// The creep of a material on its base at a sliding speed, on a track if there is one.
 #[derive(Debug, Clone)]
