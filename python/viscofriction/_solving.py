@@ -60,9 +60,10 @@ def slide(
     the length after which the body comes back to the same place. With an ``interface`` the friction is the sum of hysteresis and
     shear in the contact; with ``heat`` the temperature of the contact is computed, and material and shear strength are those at
     this temperature, by the material's ``shift`` law; with ``strain`` the moduli are those at the strain of the contact.
-    ``relative_error`` is asked of the friction coefficient, 1e-3 unless given, with ``strain`` 1e-2; ``elements`` is a fixed resolution in its place. With ``sensitivity`` the answer has its derivatives by all numbers of the
-    scene, too, and with ``spectral_sensitivity`` those by the storage and the loss modulus at each frequency; a ``HeightMap`` has no
-    such numbers, and with ``heat`` or ``strain`` there are no derivatives. ``progress`` is called with how many loads are done and how many there
+    ``relative_error`` is asked of the friction coefficient, 1e-3 unless given, with ``strain`` 1e-2; ``elements`` is a fixed resolution
+    in its place. With ``sensitivity`` the answer has its derivatives by all numbers of the scene, too, and with ``spectral_sensitivity``
+    those by the storage and the loss modulus at each frequency, unless it has ``heat`` or ``strain``; a ``HeightMap`` has no such
+    numbers. ``progress`` is called with how many loads are done and how many there
     are; True shows a bar of tqdm.
 
     Raises ValueError for wrong input and NotReached where there is no answer.

@@ -85,8 +85,7 @@ class Computation:
         sweep = self.sweeps()[part]
         text = ", ".join(f"{key.rsplit('.', 1)[-1]} {sweep[key][row]:g}" for key in sweep.keys)
         scene = _choices.at_point(self.folder, part, sweep, row)
-        # With heat or strain there are no derivatives.
-        return vf.solve(scene, sensitivity=self.choices.band and not {"heat", "strain"} & scene.keys()), text
+        return vf.solve(scene, sensitivity=self.choices.band), text
 
     def sweeps(self) -> dict[str, Sweep]:
         """The points that are in the files, by the names of the parts."""

@@ -8,7 +8,7 @@ use rheology::Material;
 
 use super::SteadySliding;
 use super::depth::{depth_of_load, refined_depth};
-use super::sweep::{ROUGH_TOLERANCE, SweepSums, sweep};
+use super::sweep::{COARSE_TOLERANCE, SweepSums, sweep};
 use super::track::{check_length, sweep_until_periodic};
 use crate::MdrError;
 use crate::branches::{Foundation, FreeSurface};
@@ -109,8 +109,8 @@ impl<'a> LineProblem<'a> {
         if kinks.is_empty() {
             return Ok(());
         }
-        let depth = self.depth(control, ROUGH_TOLERANCE);
-        let in_contact = match depth.and_then(|depth| self.solve(depth, ROUGH_TOLERANCE)) {
+        let depth = self.depth(control, COARSE_TOLERANCE);
+        let in_contact = match depth.and_then(|depth| self.solve(depth, COARSE_TOLERANCE)) {
             Ok(sweep) => kinks.iter().find(|kink| kink.is_in(&sweep.contacts)),
             // No depth is large enough: behind the kink the line rises by any depth within the rounding of positions.
             Err(MdrError::NonFinite {
@@ -148,7 +148,7 @@ impl<'a> LineProblem<'a> {
     fn depth_of_force(&self, force: f64, tolerance: f64) -> Result<f64, MdrError> {
         let target = 0.25 * positive("normal_force", force)?;
         // Most of the search needs only a rough line with few polynomials; the last steps use the tolerance asked for.
-        let search_tolerance = tolerance.max(ROUGH_TOLERANCE);
+        let search_tolerance = tolerance.max(COARSE_TOLERANCE);
         let start = depth_of_load(|depth| self.quarter_force(depth, search_tolerance), target)?;
         refined_depth(|depth| self.quarter_force(depth, tolerance), target, start)
     }
@@ -166,7 +166,7 @@ impl<'a> LineProblem<'a> {
             Control::NormalForce(normal_force) => MdrError::ForceBeyondEdge {
                 position,
                 available: height,
-                carried_force: 4.0 * self.quarter_force(height, ROUGH_TOLERANCE)?,
+                carried_force: 4.0 * self.quarter_force(height, COARSE_TOLERANCE)?,
                 normal_force,
             },
             Control::IndentationDepth(indentation_depth) => MdrError::DepthBeyondEdge {

@@ -13,7 +13,7 @@ use crate::line::{Piece, Profile, Segment};
 /// Relative tolerance of what no number of an answer depends on: the polynomials, in depths, in the first search for a depth and in
 /// the check of kinks, and the deviation from its chord of the load between two positions of the returned list. Chosen; from 1e-5
 /// to 0.1 no digit of an answer changes (case of `evidence tuning`).
-pub(super) const ROUGH_TOLERANCE: f64 = 1e-3;
+pub(super) const COARSE_TOLERANCE: f64 = 1e-3;
 /// Number of positions in a segment at which the signs of load and gap are checked. Chosen: a contact or gap between two of them
 /// may be overlooked. The positions are Chebyshev points, so that twice as many find contacts half as long in the middle of a
 /// segment.
@@ -312,7 +312,7 @@ fn samples() -> impl Iterator<Item = f64> {
     (1..=N_SEGMENT_SAMPLES).map(move |k| -(angle * k as f64).cos())
 }
 
-/// Positions in [−1, 1] with the values of a function, between which it is linear to [`ROUGH_TOLERANCE`].
+/// Positions in [−1, 1] with the values of a function, between which it is linear to [`COARSE_TOLERANCE`].
 fn straight_parts(value: impl Fn(f64) -> f64) -> impl Iterator<Item = [f64; 2]> {
     let at = |t: f64| [t, value(t)];
     let mut points = vec![at(-1.0)];
@@ -323,7 +323,8 @@ fn straight_parts(value: impl Fn(f64) -> f64) -> impl Iterator<Item = [f64; 2]> 
         let middle = at(0.5 * (from[0] + to[0]));
         let mean = 0.5 * (from[1] + to[1]);
         let scale = middle[1].abs().max(mean.abs());
-        if to[0] - from[0] > MIN_LAYER_WIDTH && (middle[1] - mean).abs() > ROUGH_TOLERANCE * scale {
+        if to[0] - from[0] > MIN_LAYER_WIDTH && (middle[1] - mean).abs() > COARSE_TOLERANCE * scale
+        {
             ahead.push(middle);
         } else {
             points.push(to);

@@ -76,7 +76,7 @@ fn a_report_is_one_page_that_needs_no_other_file() {
     let pictures = page
         .descendants()
         .filter(|node| node.has_tag_name("figure"));
-    assert_eq!(pictures.count(), 2, "pressure and frequencies");
+    assert_eq!(pictures.count(), 3, "pressure, gap and frequencies");
     // Maps are images inside the page.
     let is_inside = |link: &str| link.starts_with('#') || link.starts_with("data:");
     let mut attributes = page.descendants().flat_map(|node| node.attributes());
