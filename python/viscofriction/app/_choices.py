@@ -46,7 +46,7 @@ class Choices:
     ``force``: Normal force [N], of a cylinder per length, or of a periodic surface the mean pressure [Pa].
     ``temperatures``: Those of the curves; empty for a material without a shift law.
     ``cold_too``: With heat, the friction without it as well.
-    ``band``: What the uncertainty of the material makes of the friction as well.
+    ``band``: What the uncertainty of the material makes of the friction as well; in curves without heat and strain, with which it takes long.
     ``measured``: A table of measured friction, which is drawn.
     ``unit``: The unit in which lengths are chosen and shown.
     """
@@ -242,6 +242,11 @@ def parts(choices: Choices, name: str) -> dict[str, dict[str, Any]]:
     return {name: scene(choices, name)} | cold
 
 
+def with_band(choices: Choices, part: Mapping[str, Any]) -> bool:
+    """Whether a scene of a computation is solved with the band of its material."""
+    return choices.band and not {"heat", "strain"} & part.keys()
+
+
 def scene_text(table: Mapping[str, Any]) -> str:
     """The scene file of a scene."""
     return _native.toml_text(dict(table))
@@ -252,10 +257,10 @@ def command(choices: Choices, name: str) -> str:
     # A list has two values and more.
     several = {key: ",".join(map(repr, values)) for key, values in vary(choices).items()}
     varied = [f"--vary {key}={values if ',' in values else f'{values}:{values}:1'}" for key, values in several.items()]
-    sensitivity = ["--sensitivity"] * choices.band
-    measured = ["--measured", shlex.quote(choices.measured)] if choices.measured else []
-    options = " ".join([*varied, *sensitivity, *measured])
-    lines = [f"viscofriction sweep {part}.toml {options} --resume --out {part}.csv" for part in parts(choices, name)]
+    measured, lines = ["--measured", shlex.quote(choices.measured)] if choices.measured else [], []
+    for part, table in parts(choices, name).items():
+        band = ["--sensitivity"] * with_band(choices, table)
+        lines += [" ".join([f"viscofriction sweep {part}.toml", *varied, *band, *measured, f"--resume --out {part}.csv"])]
     if choices.is_fitted:
         given = [f"--{option.replace('_', '-')} {value}" for option, value in choices.of_fit.items()]
         words = ["viscofriction fit-material", shlex.quote(choices.material), *given, f"--out {name}-fit"]
@@ -265,18 +270,16 @@ def command(choices: Choices, name: str) -> str:
 
 def python(choices: Choices, name: str) -> str:
     """A program in Python that computes the same in the folder."""
-    lines = ["from pathlib import Path", "", "import viscofriction as vf", ""]
+    lines = ["import viscofriction as vf", ""]
     if choices.is_fitted:
         given = "".join(f", {option}={value!r}" for option, value in choices.of_fit.items())
-        lines += [f"fit = vf.fit_material({choices.material!r}{given})"]
+        lines = ["from pathlib import Path", "", *lines, f"fit = vf.fit_material({choices.material!r}{given})"]
         lines += [f"Path({material_file(choices, name)!r}).write_text(fit.material.to_toml(), encoding='utf-8')", ""]
-    else:
-        del lines[:2]
     lines += [f"vary = {pformat(vary(choices), sort_dicts=False)}"]
     for part, table in parts(choices, name).items():
         lines += ["", f"scene = {pformat(table, sort_dicts=False)}"]
-        lines += [f"sweep = vf.sweep(scene, vary, sensitivity={choices.band}, out={part + '.csv'!r}, resume=True)"]
-        lines += [f"sweep.plot().figure.savefig({part + '.png'!r})"]
+        sweep = f"sweep = vf.sweep(scene, vary, sensitivity={with_band(choices, table)}, out={part + '.csv'!r}, resume=True)"
+        lines += [sweep, f"sweep.plot().figure.savefig({part + '.png'!r})"]
     return "\n".join(lines) + "\n"
 
 

@@ -85,7 +85,7 @@ class Computation:
         sweep = self.sweeps()[part]
         text = ", ".join(f"{key.rsplit('.', 1)[-1]} {sweep[key][row]:g}" for key in sweep.keys)
         scene = _choices.at_point(self.folder, part, sweep, row)
-        return vf.solve(scene, sensitivity=self.choices.band), text
+        return vf.solve(scene, sensitivity=_choices.with_band(self.choices, scene)), text
 
     def sweeps(self) -> dict[str, Sweep]:
         """The points that are in the files, by the names of the parts."""
@@ -134,7 +134,7 @@ class Computation:
             vf.sweep(
                 self.folder / f"{part}.toml",
                 _choices.vary(self.choices),
-                sensitivity=self.choices.band,
+                sensitivity=_choices.with_band(self.choices, _choices.parts(self.choices, self.name)[part]),
                 out=self.table(part),
                 resume=True,
                 progress=count,

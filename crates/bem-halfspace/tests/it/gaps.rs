@@ -3,19 +3,15 @@
 use std::f64::consts::PI;
 
 use bem_halfspace::indenters::Cylinder;
-use bem_halfspace::periodic;
 use bem_halfspace::slide::{PressureField, slide_on_grid};
 use bem_halfspace::steady::{SteadyOptions, gap, line_gap};
 use bem_halfspace::{
-    Accuracy, Control, Footprint, GapField, Layer, PeriodicLoad, PressingLoad, indent, steady,
-    steady_line, steady_on_grid,
+    Accuracy, Control, Footprint, GapField, PressingLoad, indent, steady, steady_line,
+    steady_on_grid,
 };
 use indenters::FlatPunch;
-use indenters::rough::SelfAffine;
 
-use crate::support::{
-    after, elastic, every_kind_of_material, paraboloid, prony, squares, under_force,
-};
+use crate::support::{after, elastic, every_kind_of_material, paraboloid, squares, under_force};
 
 /// Distance of the centre from the lowest point \[m], and gap \[m], of each element.
 fn by_distance(field: &GapField) -> impl Iterator<Item = (f64, f64)> {
@@ -64,7 +60,12 @@ fn check(field: &GapField, closed: impl Fn(f64) -> f64, radius: f64, error: f64)
 
 /// Gaps are at most the tolerance where there is pressure, and at least minus the tolerance elsewhere; some are greater.
 #[track_caller]
-fn check_complementary(name: &str, field: &GapField, pressure: &PressureField, tolerance: f64) {
+pub(crate) fn check_complementary(
+    name: &str,
+    field: &GapField,
+    pressure: &PressureField,
+    tolerance: f64,
+) {
     let [_, columns] = field.grid.shape();
     let [dx, dy] = field.grid.spacing();
     let mut n_loaded = 0;
@@ -160,49 +161,6 @@ fn on_any_material_it_is_complementary_to_the_pressure() {
         let field = marched.gap.expect("a field");
         check_complementary(name, &field, &marched.pressure, 1e-6);
     }
-}
-
-#[test]
-fn below_a_periodic_surface_its_mean_is_the_distance_of_the_mean_planes() {
-    let surface = SelfAffine {
-        period: [1.0; 2],
-        hurst_exponent: 0.8,
-        rms_slope: 0.2,
-        longest_wavelength: 0.5,
-        shortest_wavelength: 0.1,
-        roll_off_wavelength: 0.5,
-        seed: 4,
-    };
-    let surface = surface.surface().expect("a surface");
-    let rubber = prony([0.3, 0.0], &[(3.0, 0.4)]);
-    let load = PeriodicLoad::new(0.02, 0.3).expect("a load");
-    let elements = Accuracy::Elements(128);
-    let found = periodic::steady(&surface, &rubber, &load, elements).expect("a state");
-    let state = found.finest;
-    let field = periodic::gap(&surface, &rubber, 0.3, &state.pressure).expect("a gap");
-    check_complementary("sliding", &field, &state.pressure, 1e-7);
-    let mean = |field: &GapField| field.gap.iter().sum::<f64>() / field.gap.len() as f64;
-    let distance = -state.mean_depth;
-    assert!(
-        (mean(&field) - distance).abs() <= 1e-7,
-        "{} {distance}",
-        mean(&field)
-    );
-    // On the way from rest to the stationary state.
-    let marched = load.after(0.5).expect("a distance");
-    let marched = periodic::slide(&surface, &rubber, &marched, elements);
-    let state = marched.expect("a march").finest;
-    check_complementary("march", &state.gap, &state.pressure, 1e-6);
-    let distance = -state.rows[state.rows.len() - 1].mean_depth;
-    let mean_gap = mean(&state.gap);
-    assert!((mean_gap - distance).abs() <= 1e-7, "{mean_gap} {distance}");
-    // On a layer at rest the mean pressure compresses the material.
-    let layer = Layer::new(&rubber, 0.3).expect("a layer");
-    let pressed = periodic::indent(&surface, &layer, 0.02, 2.0, elements)
-        .expect("a state")
-        .finest;
-    let field = periodic::gap_at_rest(&surface, &layer, 2.0, &pressed.pressure).expect("a gap");
-    check_complementary("layer", &field, &pressed.pressure, 3e-7);
 }
 
 #[test]

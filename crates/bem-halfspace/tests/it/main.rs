@@ -25,6 +25,8 @@ mod mirrors;
 mod motions;
 mod nested_grids;
 mod periodic_contact;
+#[cfg(feature = "rough")]
+mod periodic_gaps;
 mod periodic_march;
 #[cfg(feature = "rough")]
 mod periodic_motions;

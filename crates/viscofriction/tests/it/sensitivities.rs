@@ -572,13 +572,13 @@ fn derivatives_follow_the_temperature_that_friction_causes() {
 fn derivatives_follow_the_strain_that_the_contact_causes() {
     let scene = |force: f64| {
         format!(
-            "indenter.sphere.radius = 5e-3\n\
+            "indenter.cylinder.radius = 5e-3\n\
              material.standard-solid = {{ equilibrium_modulus = 1e6, maxwell_modulus = 1e7, viscosity = 1e4 }}\n\
              strain.kraus = {{ critical_strain = 0.02, storage_ratio = 0.2, loss_peak_ratio = 1.3 }}\n\
-             load = {{ normal_force = {force}, velocity = 0.1 }}\nsolve.elements = 24"
+             load = {{ normal_force = {force}, velocity = 0.1 }}\nsolve.elements = 96"
         )
     };
-    let (_, known) = answered(&scene(2.0));
+    let (_, known) = answered(&scene(400.0));
     let known = known.expect("derivatives");
     let friction = |parameter: &str| {
         let derivatives = &of(&known, parameter).derivatives;
@@ -586,13 +586,13 @@ fn derivatives_follow_the_strain_that_the_contact_causes() {
             .of("friction_coefficient")
             .expect("a derivative")
     };
-    let [lower, upper] = [1.9, 2.1].map(|force| solved(&scene(force)));
+    let [lower, upper] = [380.0, 420.0].map(|force| solved(&scene(force)));
     for quantity in ["friction_coefficient", "contact_area", "strain"] {
         let log = |answer: &Answer| {
             let known = Quantity::named(quantity).and_then(|of| (of.of)(answer));
             known.expect("a quantity").value.ln()
         };
-        let expected = (log(&upper) - log(&lower)) / (2.1_f64 / 1.9).ln();
+        let expected = (log(&upper) - log(&lower)) / (420.0_f64 / 380.0).ln();
         let by_load = of(&known, "load.normal_force").derivatives.of(quantity);
         let by_load = by_load.expect("a derivative");
         // The fixed point of an answer is found to a part of its error.

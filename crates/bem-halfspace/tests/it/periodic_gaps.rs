@@ -1,0 +1,51 @@
+//! The gap below a periodic surface is complementary to the pressure, and its mean the distance of the mean planes.
+
+use bem_halfspace::periodic;
+use bem_halfspace::{Accuracy, GapField, Layer, PeriodicLoad};
+use indenters::rough::SelfAffine;
+
+use crate::gaps::check_complementary;
+use crate::support::prony;
+
+#[test]
+fn below_a_periodic_surface_its_mean_is_the_distance_of_the_mean_planes() {
+    let surface = SelfAffine {
+        period: [1.0; 2],
+        hurst_exponent: 0.8,
+        rms_slope: 0.2,
+        longest_wavelength: 0.5,
+        shortest_wavelength: 0.1,
+        roll_off_wavelength: 0.5,
+        seed: 4,
+    };
+    let surface = surface.surface().expect("a surface");
+    let rubber = prony([0.3, 0.0], &[(3.0, 0.4)]);
+    let load = PeriodicLoad::new(0.02, 0.3).expect("a load");
+    let elements = Accuracy::Elements(128);
+    let found = periodic::steady(&surface, &rubber, &load, elements).expect("a state");
+    let state = found.finest;
+    let field = periodic::gap(&surface, &rubber, 0.3, &state.pressure).expect("a gap");
+    check_complementary("sliding", &field, &state.pressure, 1e-7);
+    let mean = |field: &GapField| field.gap.iter().sum::<f64>() / field.gap.len() as f64;
+    let distance = -state.mean_depth;
+    assert!(
+        (mean(&field) - distance).abs() <= 1e-7,
+        "{} {distance}",
+        mean(&field)
+    );
+    // On the way from rest to the stationary state.
+    let marched = load.after(0.5).expect("a distance");
+    let marched = periodic::slide(&surface, &rubber, &marched, elements);
+    let state = marched.expect("a march").finest;
+    check_complementary("march", &state.gap, &state.pressure, 1e-6);
+    let distance = -state.rows[state.rows.len() - 1].mean_depth;
+    let mean_gap = mean(&state.gap);
+    assert!((mean_gap - distance).abs() <= 1e-7, "{mean_gap} {distance}");
+    // On a layer at rest the mean pressure compresses the material.
+    let layer = Layer::new(&rubber, 0.3).expect("a layer");
+    let pressed = periodic::indent(&surface, &layer, 0.02, 2.0, elements)
+        .expect("a state")
+        .finest;
+    let field = periodic::gap_at_rest(&surface, &layer, 2.0, &pressed.pressure).expect("a gap");
+    check_complementary("layer", &field, &pressed.pressure, 3e-7);
+}
