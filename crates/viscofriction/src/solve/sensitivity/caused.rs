@@ -32,7 +32,7 @@ use crate::solve::shear::plan_again;
 /// Number of elements along the contact of a body for the differences. Chosen: solutions for slightly different numbers of a scene have
 /// nearly the same errors on a given number of elements, so that their logarithms differ by the right amount within some parts in 1000.
 const DIFFERENCE_ELEMENTS: usize = 24;
-/// The same for a line contact, whose elements cost less.
+/// Number of elements along a line contact for the differences. Chosen: one row of elements costs less than a square of them.
 const DIFFERENCE_ELEMENTS_OF_LINE: usize = 96;
 /// Largest number of elements along the contact of a body whose shape needs more.
 const MAX_DIFFERENCE_ELEMENTS: usize = 16 * DIFFERENCE_ELEMENTS;
