@@ -30,7 +30,7 @@ fn hertz(distance: f64, radius: f64) -> f64 {
     radius * radius / PI * (root + (ratio * ratio - 2.0) * ratio.recip().acos())
 }
 
-/// The same outside the contact of a cylinder of radius 1.
+/// Gap outside the contact of a cylinder of radius 1 on an elastic half space.
 fn line_hertz(distance: f64, half_width: f64) -> f64 {
     let ratio = distance / half_width;
     let root = (ratio * ratio - 1.0).sqrt();

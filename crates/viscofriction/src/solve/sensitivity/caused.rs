@@ -105,7 +105,8 @@ pub(super) fn derivatives(
     })
 }
 
-/// Number of elements of the finer solutions: that of the scene, at least twice the smallest number with which a problem is solved.
+/// Number of elements of the finer solutions: that of the scene, but at least [`DIFFERENCE_ELEMENTS`] or [`DIFFERENCE_ELEMENTS_OF_LINE`],
+/// and along a period twice the smallest number with an error bar.
 fn elements(problem: &Problem) -> usize {
     let fewest = match problem.body() {
         Body::Periodic(surface) => 2 * periodic::edge_for_bars(surface),
@@ -273,11 +274,10 @@ impl<'a> Contact<'a> {
             here: Point::default(),
             by_cause: Vec::new(),
         };
-        // Take the distribution of the temperature from a solution with the same elements.
+        // Take the distribution of the temperature from a solution with the same elements, so that it differs little from the caused one.
         let values: Vec<f64> = contact.causes.iter().map(|(_, value)| *value).collect();
-        let first = contact.problem_at(problem, &values)?;
         if contact.near.temperature_by_depth.is_some() {
-            contact.near = contact.answer(&first)?;
+            contact.near = contact.answer(&contact.problem_at(problem, &values)?)?;
         }
         contact.here = contact.point(&contact.problem_at(problem, &values)?, 0.0)?;
         // Let each value follow the ones before it, from the last to the first.
