@@ -61,7 +61,8 @@ pub(super) fn derivatives(
     let mut elements = elements(problem);
     let [solutions, coarse_solutions] = loop {
         let resolutions = [Resolution::fine(elements), Resolution::coarse(elements)];
-        let [fine, coarse] = resolutions.map(|one| Contact::new((numbers, problem), answer, one));
+        let [fine, coarse] =
+            resolutions.map(|one| ContactOnElements::new((numbers, problem), answer, one));
         match (fine, coarse) {
             (Err(SolveError::HalfSpace(error)), _) | (_, Err(SolveError::HalfSpace(error)))
                 if is_too_coarse(&error) && elements < MAX_DIFFERENCE_ELEMENTS =>
@@ -213,7 +214,7 @@ impl Cause {
 }
 
 /// Solutions near an answer with a given number of elements, at given temperature and strain.
-struct Contact<'a> {
+struct ContactOnElements<'a> {
     numbers: &'a Numbers<'a>,
     problem: &'a Problem,
     resolution: Resolution,
@@ -222,14 +223,14 @@ struct Contact<'a> {
     /// An answer whose temperature has the distribution over the depth at which all are solved.
     near: Answer,
     /// The solution without a change.
-    here: Point,
+    here: Solution,
     /// Slopes over each of `causes`, in which those after it follow.
     by_cause: Vec<Slope>,
 }
 
 /// Solution of a problem.
 #[derive(Clone, Default)]
-struct Point {
+struct Solution {
     /// What is changed, as a difference from the answer.
     position: f64,
     /// Logarithms of the absolute values of the quantities that are not zero.
@@ -250,7 +251,7 @@ struct Slope {
     difference: f64,
 }
 
-impl<'a> Contact<'a> {
+impl<'a> ContactOnElements<'a> {
     /// Solves at the temperature and the strain of an answer, and near them.
     fn new(
         (numbers, problem): (&'a Numbers<'a>, &'a Problem),
@@ -271,7 +272,7 @@ impl<'a> Contact<'a> {
                 .filter_map(value)
                 .collect(),
             near,
-            here: Point::default(),
+            here: Solution::default(),
             by_cause: Vec::new(),
         };
         // Take the distribution of the temperature from a solution with the same elements, so that it differs little from the caused one.
@@ -348,11 +349,11 @@ impl<'a> Contact<'a> {
     }
 
     /// Solution of a problem in which something is changed by `position`.
-    fn point(&self, problem: &Problem, position: f64) -> Result<Point> {
+    fn point(&self, problem: &Problem, position: f64) -> Result<Solution> {
         let answer = self.answer(problem)?;
         let log = |value: f64| (value != 0.0).then(|| value.abs().ln());
         let causes = self.causes.iter();
-        Ok(Point {
+        Ok(Solution {
             position,
             logs: ByQuantity::new(|quantity| log((quantity.of)(&answer)?.value)),
             caused: causes
@@ -406,7 +407,7 @@ impl<'a> Contact<'a> {
 
 impl Slope {
     /// Slope between two points.
-    fn between([from, to]: [&Point; 2]) -> Self {
+    fn between([from, to]: [&Solution; 2]) -> Self {
         let over = |change: f64| change / (to.position - from.position);
         let caused = from.caused.iter().zip(&to.caused);
         Self {
