@@ -70,6 +70,35 @@ const REFERENCE_ERRORS: [f64; 3] = [0.02, 0.004, 0.004];
 /// Power P over p₀² a³/(2η) (ω a η/G)² of the same source, with the largest pressure p₀ and ω = v/a.
 const POWER_OF_HERTZ: f64 = 0.4034;
 
+/// The power of the material is stated twice as large as the pressure dissipates. A quarter of the heat of the bulk is then its error, also
+/// beside a shear of a hundred times that power.
+#[test]
+fn power_that_is_not_resolved_is_an_error_of_the_bulk_alone() {
+    let field = hertz(24);
+    let velocity = 2.0 * DIFFUSIVITY / RADIUS;
+    let (modulus, time) = (1e6, 0.5 * RADIUS / velocity);
+    let material = solid(modulus, time);
+    let dissipated = POWER_OF_HERTZ * LARGEST_PRESSURE.powi(2) * RADIUS.powi(3) * time
+        / (2.0 * modulus)
+        * (velocity / RADIUS).powi(2);
+    let relative_error = |shear_power: f64| {
+        let contact = SlidingContact {
+            pressure: &field,
+            material: &material,
+            factors: ModulusFactors::NONE,
+            wave_shift: None,
+            velocity,
+            shear_power,
+            bulk_power: 2.0 * dissipated,
+        };
+        let mean = heated(&contact, ContactKind::Body).mean;
+        mean.error / mean.value
+    };
+    let [of_bulk, of_both] = [0.0, 200.0 * dissipated].map(relative_error);
+    assert!(of_bulk > 0.2, "{of_bulk}");
+    assert!(of_both < 0.1 * of_bulk, "{of_both} beside {of_bulk}");
+}
+
 #[test]
 fn the_bulk_under_a_hertzian_pressure_has_the_temperature_of_point_sources() {
     for n in [24, 48] {
