@@ -52,9 +52,10 @@ pub(super) const DEPTHS_OF_POWER: DepthRule = DepthRule {
     negligible_share: 0.01,
 };
 /// Depths for the product of power and squared strain. Derived, and the negligible share chosen: the trapezoidal rule of (qz)⁵ e^(−4qz)
-/// over ln z has the relative error 2 |Γ(5 + 2πi/0.4)|/Γ(5) = 1e-6, and above the smallest depth lies 3e-6 of the integral.
+/// over ln z has the relative error 2 |Γ(5 + 2πi/0.3)|/Γ(5) = 1e-9, and above the smallest depth lies 3e-6 of the integral of the
+/// shortest wave of the grid.
 pub(super) const DEPTHS_OF_STRAIN: DepthRule = DepthRule {
-    log_step: 0.4,
+    log_step: 0.3,
     smallest: 0.05,
     with_strain: true,
     negligible_share: 1e-3,
@@ -77,6 +78,8 @@ pub(super) struct BulkHeat {
     log_step: f64,
     /// The depths, from the surface downwards.
     planes: Vec<Plane>,
+    /// Power per area of all waves, \[W/m²], integrated over the depth in closed form.
+    power: f64,
 }
 
 /// A contact whose bulk is heated: its pressure on one period, and the material that passes below it.
@@ -155,6 +158,7 @@ impl BulkHeat {
             shape,
             log_step: rule.log_step,
             planes,
+            power: filters.power,
         })
     }
 
@@ -175,13 +179,8 @@ impl BulkHeat {
 
     /// Power per area, \[W/m²], and the same with each part multiplied by the squared equivalent strain where it is dissipated.
     pub(super) fn power_and_weighted_strain(&self) -> [f64; 2] {
-        let [mut power, mut weighted] = [0.0; 2];
-        for plane in &self.planes {
-            let thickness = plane.depth * self.log_step;
-            power += thickness * plane.power[0].re;
-            weighted += thickness * plane.power_times_strain;
-        }
-        [power, weighted]
+        let weighted = |plane: &Plane| plane.depth * self.log_step * plane.power_times_strain;
+        [self.power, self.planes.iter().map(weighted).sum()]
     }
 
     /// Depths \[m] with the power per area that is dissipated about each of them, \[W/m²]; the sum of the powers is the integral over
@@ -276,6 +275,8 @@ struct Filters {
     is_by_row: bool,
     /// Filters to fields whose squares add up to the power per volume.
     branches: Vec<Filter>,
+    /// Power per area of all waves, \[W/m²].
+    power: f64,
     /// Equivalent strain; `None` if it is not wanted.
     strain: Option<Filter>,
 }
@@ -298,16 +299,18 @@ impl Filters {
             Ok(Complex::new(storage, -wave.q_x.signum() * loss) * wave.modulus_factor)
         };
         let moduli: Vec<Complex<f64>> = of_filters.iter().map(modulus).collect::<Result<_, _>>()?;
-        // Power of each wave number along x, or of each wave, up to the factor of the filter.
+        // Power per area of each wave number along x, or of each wave, up to the square of the filter: the squares of the components of
+        // the stress add up to 4 (qz)² e^(−2qz), whose integral over the depth is 1/q.
         let is_by_row = contact.wave_shift.is_none();
         let rows = wave_numbers(shape[0], step_x);
         let mut powers = vec![0.0; if is_by_row { rows.len() } else { waves.len() }];
         for (column, waves) in waves.chunks_exact(rows.len()).enumerate() {
             let q_y = signed_offset(column, shape[1]) as f64 * step_y;
             let first = if is_by_row { 0 } else { column * rows.len() };
-            for ((power, wave), q_x) in powers[first..].iter_mut().zip(waves).zip(&rows) {
+            let of_rows = powers[first..].iter_mut().zip(waves).zip(&rows);
+            for (row, ((power, wave), q_x)) in of_rows.enumerate() {
                 let q = q_x.hypot(q_y);
-                if q > 0.0 {
+                if q > 0.0 && is_resolved([row, column], shape) {
                     *power += wave.norm_sqr() / q;
                 }
             }
@@ -345,9 +348,14 @@ impl Filters {
             within_reach(of_filters.iter().zip(&moduli).map(of_wave).collect())
         };
         let branches: Vec<Filter> = branches.chain([dashpot]).map(filter).collect();
+        let power_of = |filter: &Filter| -> f64 {
+            let terms = filter.iter().zip(&powers);
+            terms.map(|(value, power)| value.norm_sqr() * power).sum()
+        };
         let strain = |modulus: &Complex<f64>| modulus.inv() * (0.5 * (2.0_f64 / 3.0).sqrt());
         Ok(Self {
             is_by_row,
+            power: branches.iter().map(power_of).sum(),
             branches: combined(&branches, &powers, rule.negligible_share),
             strain: Some(within_reach(moduli.iter().map(strain).collect())),
         })
@@ -393,6 +401,12 @@ fn combined(branches: &[Filter], powers: &[f64], negligible_share: f64) -> Vec<F
         (0..powers.len()).map(value).collect()
     };
     order.into_iter().map(component).collect()
+}
+
+/// Whether a wave is below the limit of resolution of a grid, where it has a direction. Its numbers are those of the transform, or without
+/// their signs.
+fn is_resolved(numbers: [usize; 2], shape: [usize; 2]) -> bool {
+    (0..2).all(|axis| 2 * numbers[axis] != shape[axis] || shape[axis] == 1)
 }
 
 /// Wave numbers of a period of `n` elements in the order of a transform; `step` is that of the longest wave, \[rad/m].
@@ -462,9 +476,6 @@ impl Plane {
             elements
         });
         // Stress of each wave at this depth with its direction and the index of its filter coefficient; a wave at the limit of resolution has no direction.
-        let is_limit = |axis: usize, index: isize| {
-            2 * index.unsigned_abs() == self.shape[axis] && self.shape[axis] > 1
-        };
         let at_depth = |[from, row, column]: [isize; 3]| {
             let [x, y] = [steps[0] * row as f64, steps[1] * column as f64];
             let q = (x * x + y * y).sqrt();
@@ -476,8 +487,8 @@ impl Plane {
             } else {
                 index
             };
-            let is_still = q == 0.0 || is_limit(0, row) || is_limit(1, column);
-            if is_still {
+            let numbers = [row, column].map(isize::unsigned_abs);
+            if q == 0.0 || !is_resolved(numbers, self.shape) {
                 return (ZERO, [0.0; 2], along);
             }
             let decay = q * self.depth * (-q * self.depth).exp();

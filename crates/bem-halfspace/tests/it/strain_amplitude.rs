@@ -86,7 +86,7 @@ fn one_wave_strains_by_half_its_slope() {
         let ComplexModulus { storage, loss } = modulus(factors, 2.0 * PI / PERIOD);
         let slope = amplitude / (2.0 * storage.hypot(loss)) / SQRT_2;
         let found = amplitude_of(&[amplitude], factors);
-        assert_close(factors, found.value, 0.5 * slope, 3e-6);
+        assert_close(factors, found.value, 0.5 * slope, 1e-9);
         assert!(found.error < 2e-3 * found.value, "{found}");
     }
 }

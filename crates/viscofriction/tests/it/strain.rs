@@ -90,7 +90,7 @@ fn one_wave_in_full_contact_has_its_closed_form() {
     ));
     let q = 2.0 * PI / period;
     let strain = amplitude * q / 8.0_f64.sqrt();
-    assert_close("strain", number(&answer, "strain"), strain, 1e-4);
+    assert_close("strain", number(&answer, "strain"), strain, 1e-8);
     let omega = q * 0.05 * 0.02;
     let loss = 4e6 * omega / (1.0 + omega * omega) * factors(strain)[1];
     let friction = loss * (q * amplitude).powi(2) / pressure;
@@ -98,7 +98,7 @@ fn one_wave_in_full_contact_has_its_closed_form() {
         "friction",
         number(&answer, "friction_coefficient"),
         friction,
-        1e-4,
+        1e-8,
     );
     let error = number(&answer, "friction_coefficient_error");
     assert!(error < 0.01 * friction, "{answer}");
