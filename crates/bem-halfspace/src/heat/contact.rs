@@ -74,6 +74,13 @@ const ERROR_OVER_POWER_ERROR: f64 = 0.5;
 /// pressure that falls to zero like a root.
 const ERROR_OVER_DIFFERENCE: f64 = 0.547;
 
+/// Range of the exponents n with which the temperature by a given power of the shear falls with the contact area, T ∝ A^(−n), without the
+/// mean over a period. Derived: T ∝ P/(ka) for the contact radius a and Pe ≪ 1, T ∝ P √(Da/v)/(ka²) for Pe ≫ 1.
+const AREA_EXPONENTS: [f64; 2] = [0.5, 0.75];
+/// Range of the exponents n with which this temperature falls with the width a of line contacts, T ∝ a^(−n). Derived: the logarithm of
+/// the width at Pe ≪ 1, T ∝ 1/√a at Pe ≫ 1.
+const WIDTH_EXPONENTS: [f64; 2] = [0.0, 0.5];
+
 /// A contact that slides along +x in its stationary state.
 #[derive(Debug, Clone, Copy)]
 pub struct SlidingContact<'a> {
@@ -89,6 +96,10 @@ pub struct SlidingContact<'a> {
     pub velocity: f64,
     /// Power ≥ 0 of the shear of the interface, which is uniform in the contact, \[W]; per length of a line contact, \[W/m].
     pub shear_power: f64,
+    /// Contact area A with its error, \[m²], or the width of a line contact, \[m], if it is known better than from the elements in
+    /// contact. The temperature by shear is then corrected for the difference, and its bars contain the error of A, to which the power of
+    /// the shear is proportional. With `None` the area is that of the elements, without an error.
+    pub contact_area: Option<Estimate>,
     /// Power ≥ 0 dissipated in the bulk, \[W] or \[W/m]. It is F_h v with the tangential force F_h of hysteresis.
     pub bulk_power: f64,
 }
@@ -111,13 +122,13 @@ pub enum ContactKind {
 struct Solution {
     temperature: Vec<f64>,
     averages: Averages,
-    /// Errors of the averages by waves that the grid of the bulk does not resolve.
+    /// Errors of the averages by waves that the grid of the bulk does not resolve, and by the contact area.
     unresolved: Averages,
     /// Error of the largest temperature because the maximum is between centres of elements.
     sampling_error: f64,
     /// Temperature below the surface of a period that dissipates there.
     by_depth: Option<DepthProfile>,
-    /// Error of its mean by waves that the grid of the bulk does not resolve.
+    /// Error of its mean by both.
     unresolved_by_depth: f64,
 }
 
@@ -155,17 +166,19 @@ impl SlidingContact<'_> {
         positive("largest pressure", largest)?;
         wake_length(&self.pressure.grid, conductor, self.velocity)?;
         let share = counterface.elastomer_share()?;
-        let heated = Heated {
-            contact: *self,
-            conductor,
-            share,
-            kind,
-        };
         // Solve with elements of twice the edges, too; the difference is the error.
         let is_loaded = |pressure: &f64| if *pressure > 0.0 { 1.0 } else { 0.0 };
         let loaded = PressureField {
             pressure: self.pressure.pressure.iter().map(is_loaded).collect(),
             ..self.pressure.clone()
+        };
+        let elements = loaded.pressure.iter().sum::<f64>() * kind.area_of_element(&loaded.grid);
+        let heated = Heated {
+            contact: *self,
+            conductor,
+            share,
+            kind,
+            area: AreaCorrection::new(elements, self.contact_area, kind)?,
         };
         let half = [self.pressure, &loaded].map(|field| divided(field, 2, kind));
         let [half, half_loaded] = half;
@@ -363,6 +376,55 @@ struct Heated<'a> {
     /// Share of the elastomer of the heat of the interface.
     share: f64,
     kind: ContactKind,
+    area: AreaCorrection,
+}
+
+/// Correction of the temperature by shear for the difference between the area of the elements in contact and the contact area.
+#[derive(Clone, Copy)]
+struct AreaCorrection {
+    /// Factor of the temperature, without its mean over a period.
+    factor: f64,
+    /// Relative error of this factor by the range of the exponents.
+    exponent_error: f64,
+    /// Relative error of the temperature at a shear strength by that of the contact area, without its mean over a period.
+    local_error: f64,
+    /// Relative error of the contact area, and of the mean temperature of a period, which is proportional to the power.
+    area_error: f64,
+}
+
+impl AreaCorrection {
+    /// The correction for the area of the `elements` in contact, \[m²], or their width, \[m].
+    fn new(
+        elements: f64,
+        contact_area: Option<Estimate>,
+        kind: ContactKind,
+    ) -> Result<Self, BemError> {
+        let area = contact_area.unwrap_or(Estimate::exact(elements));
+        positive("contact area", area.value)?;
+        let [slow, fast] = match kind {
+            ContactKind::Line => WIDTH_EXPONENTS,
+            ContactKind::Body | ContactKind::Period { .. } => AREA_EXPONENTS,
+        };
+        let log_ratio = (elements / area.value).ln();
+        let area_error = area.relative_error();
+        Ok(Self {
+            factor: (0.5 * (slow + fast) * log_ratio).exp(),
+            exponent_error: 0.5 * (fast - slow) * log_ratio.abs(),
+            // T ∝ P A^(−n), with the power P ∝ A.
+            local_error: (1.0 - slow) * area_error,
+            area_error,
+        })
+    }
+
+    /// Relative error of a temperature by shear, of which `mean` is the part of its mean over a period.
+    fn relative_error(&self, temperature: f64, mean: f64) -> f64 {
+        if temperature <= 0.0 {
+            return 0.0;
+        }
+        let local = (temperature - mean) / temperature;
+        local.abs() * (self.local_error + self.exponent_error)
+            + (mean / temperature) * self.area_error
+    }
 }
 
 /// A field on a grid around the contact, with the pressure in the middle of it.
@@ -391,13 +453,13 @@ impl Heated<'_> {
         let shear_flux = self.contact.shear_power / (area * sum_of(contact));
         let flux: Vec<f64> = contact.iter().map(|part| part * shear_flux).collect();
         let absorbed = self.share * self.contact.shear_power;
-        let mut temperature = vec![0.0; grid.n_elements()];
+        let mut by_shear = vec![0.0; grid.n_elements()];
         if absorbed > 0.0 {
-            temperature = self.rise(grid, [(&SourceDepth::Surface, &*flux)], self.share)?;
+            by_shear = self.rise_by_shear(grid, &flux, self.share)?;
         }
         // The bulk is heated around the contact, where the shear of the interface changes the temperature, too.
         let mut by_bulk = vec![0.0; grid.n_elements()];
-        let [mut around_the_contact, mut power] = [0.0, self.contact.shear_power];
+        let [mut shear_around, mut bulk_around, mut power] = [0.0, 0.0, self.contact.shear_power];
         let mut around = None;
         if self.contact.bulk_power > 0.0 {
             let found = self.surroundings(pressure)?;
@@ -416,19 +478,20 @@ impl Heated<'_> {
             let absorbed_flux = absorbed_flux.resampled(coarse, origin).pressure;
             let mut of_shear = vec![0.0; coarse.n_elements()];
             if absorbed > 0.0 {
-                of_shear = self.rise(coarse, [(&SourceDepth::Surface, &*absorbed_flux)], 1.0)?;
+                of_shear = self.rise_by_shear(coarse, &absorbed_flux, 1.0)?;
             }
-            let rises = found.rise.iter().zip(&of_shear);
-            let weighted = rises
-                .zip(&found.power)
-                .map(|((bulk, shear), power)| (bulk + shear) * power);
-            around_the_contact = weighted.sum::<f64>() * self.kind.area_of_element(coarse);
+            let weighted = |rises: &[f64]| {
+                let products = rises.iter().zip(&found.power);
+                let sum: f64 = products.map(|(rise, power)| rise * power).sum();
+                sum * self.kind.area_of_element(coarse)
+            };
+            [shear_around, bulk_around] = [weighted(&of_shear), weighted(&found.rise)];
             power += sum_of(&found.power) * self.kind.area_of_element(coarse);
             around = Some((found, absorbed_flux));
         }
-        for (rise, by_bulk) in temperature.iter_mut().zip(&by_bulk) {
-            *rise += by_bulk;
-        }
+        let temperature: Vec<f64> = (by_shear.iter().zip(&by_bulk))
+            .map(|(shear, bulk)| shear + bulk)
+            .collect();
         let hottest = (0..temperature.len())
             .filter(|element| contact[*element] > 0.0)
             .max_by(|left, right| temperature[*left].total_cmp(&temperature[*right]));
@@ -442,7 +505,7 @@ impl Heated<'_> {
                 unresolved_by_depth: 0.0,
             });
         };
-        let averages_of = |rises: &[f64]| {
+        let averages_of = |rises: &[f64], around_the_contact: f64| {
             let in_contact = rises.iter().zip(contact);
             let of_contact: f64 = in_contact.map(|(rise, part)| rise * part).sum();
             let weighted = around_the_contact + of_contact * shear_flux * area;
@@ -452,14 +515,18 @@ impl Heated<'_> {
                 power_weighted_mean: if power > 0.0 { weighted / power } else { 0.0 },
             }
         };
-        let averages = averages_of(&temperature);
+        let averages = averages_of(&temperature, shear_around + bulk_around);
+        // The contact area is an error of the heat of the interface.
+        let of_shear = averages_of(&by_shear, shear_around);
+        let area_error = (self.area).relative_error(of_shear.mean, self.mean_of_period(&by_shear));
         // Waves that are not resolved are an error of the heat of the bulk, and of the places where it is dissipated.
         let relative_error = (around.as_ref()).map_or(0.0, |(found, _)| found.relative_error);
-        let of_bulk = averages_of(&by_bulk);
+        let of_bulk = averages_of(&by_bulk, shear_around + bulk_around);
+        let error = |bulk: f64, shear: f64| relative_error * bulk.abs() + area_error * shear.abs();
         let unresolved = Averages {
-            largest: relative_error * of_bulk.largest.abs(),
-            mean: relative_error * of_bulk.mean.abs(),
-            power_weighted_mean: relative_error * of_bulk.power_weighted_mean.abs(),
+            largest: error(of_bulk.largest, of_shear.largest),
+            mean: error(of_bulk.mean, of_shear.mean),
+            power_weighted_mean: error(of_bulk.power_weighted_mean, of_shear.power_weighted_mean),
         };
         let by_depth = around.and_then(|(around, absorbed_flux)| {
             self.depth_profile(&around, &absorbed_flux, averages.mean)
@@ -499,6 +566,24 @@ impl Heated<'_> {
             conductivity: self.conductor.conductivity(),
         };
         heat.profile(contact)
+    }
+
+    /// Mean of a temperature over a period; 0 for other contacts, which heat the half space around them alone.
+    fn mean_of_period(&self, rises: &[f64]) -> f64 {
+        match self.kind {
+            ContactKind::Period { .. } => rises.iter().sum::<f64>() / rises.len() as f64,
+            ContactKind::Body | ContactKind::Line => 0.0,
+        }
+    }
+
+    /// Temperature rise \[K] on a grid by `share` times the flux of the interface \[W/m²] into its elements, corrected for the contact area.
+    fn rise_by_shear(&self, grid: &Grid, flux: &[f64], share: f64) -> Result<Vec<f64>, BemError> {
+        let mut rises = self.rise(grid, [(&SourceDepth::Surface, flux)], share)?;
+        let mean = self.mean_of_period(&rises);
+        for rise in &mut rises {
+            *rise = mean + self.area.factor * (*rise - mean);
+        }
+        Ok(rises)
     }
 
     /// Temperature rise \[K] on a grid by `share` times the fluxes \[W/m²] at some depths.

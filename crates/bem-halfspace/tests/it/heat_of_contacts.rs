@@ -89,6 +89,7 @@ fn power_that_is_not_resolved_is_an_error_of_the_bulk_alone() {
             wave_shift: None,
             velocity,
             shear_power,
+            contact_area: None,
             bulk_power: 2.0 * dissipated,
         };
         let mean = heated(&contact, ContactKind::Body).mean;
@@ -118,6 +119,7 @@ fn the_bulk_under_a_hertzian_pressure_has_the_temperature_of_point_sources() {
                 wave_shift: None,
                 velocity,
                 shear_power: 0.0,
+                contact_area: None,
                 bulk_power,
             };
             let found = heated(&contact, ContactKind::Body);
@@ -182,6 +184,7 @@ fn one_wave_in_full_contact_has_its_closed_form() {
             wave_shift: (time_factor < 1.0).then_some(&shift),
             velocity,
             shear_power: 0.0,
+            contact_area: None,
             bulk_power: flux * period * period,
         };
         let duration = 1e4;
@@ -226,6 +229,7 @@ fn a_wrong_power_widens_the_bars() {
             wave_shift: None,
             velocity,
             shear_power: 0.0,
+            contact_area: None,
             bulk_power,
         };
         heated(&contact, ContactKind::Body).mean
@@ -254,6 +258,7 @@ fn both_sources_add_up_and_a_conductor_takes_the_shear() {
             wave_shift: None,
             velocity,
             shear_power,
+            contact_area: None,
             bulk_power,
         };
         contact
@@ -299,6 +304,7 @@ fn shear_alone_heats_a_disc_like_a_given_flux() {
         wave_shift: None,
         velocity,
         shear_power: 1e-3,
+        contact_area: None,
         bulk_power: 0.0,
     };
     let found = heated(&contact, ContactKind::Body);
@@ -312,6 +318,84 @@ fn shear_alone_heats_a_disc_like_a_given_flux() {
             "{found}, not {expected}"
         );
     }
+}
+
+/// The elements in contact cover the disc coarsely, and the temperature is that of the disc. The power of the shear is proportional to the
+/// area, so that an area whose error is a tenth holds a disc that is larger by a tenth.
+#[test]
+fn a_known_area_corrects_the_temperature_of_coarse_elements() {
+    let material = Viscous::new(1e4).expect("a material");
+    let area = PI * RADIUS.powi(2);
+    let [mut farthest, mut farthest_of_elements] = [0.0_f64; 2];
+    for n in [6, 8, 12, 18] {
+        let field = hertz(n);
+        // Péclet number and k T/(q a) of the mean temperature, with the flux q: docs/theory/heat.md.
+        for (peclet_number, exact) in [(0.5, 0.66334), (1.0, 0.55542), (10.0, 0.21284)] {
+            let mean = |contact_area: Option<Estimate>, radius: f64| {
+                let contact = SlidingContact {
+                    pressure: &field,
+                    material: &material,
+                    factors: ModulusFactors::NONE,
+                    wave_shift: None,
+                    velocity: 2.0 * DIFFUSIVITY * peclet_number / RADIUS,
+                    shear_power: area,
+                    contact_area,
+                    bulk_power: 0.0,
+                };
+                heated(&contact, ContactKind::Body).mean * (CONDUCTIVITY / radius)
+            };
+            let corrected = mean(Some(Estimate::exact(area)), RADIUS);
+            assert!(
+                (corrected.value - exact).abs() <= corrected.error,
+                "{n} elements, Pe = {peclet_number}: {corrected}, not {exact}"
+            );
+            farthest = farthest.max((corrected.value / exact - 1.0).abs());
+            let of_elements = mean(None, RADIUS);
+            farthest_of_elements =
+                farthest_of_elements.max((of_elements.value / exact - 1.0).abs());
+            let uncertain = mean(Some(Estimate::new(area, 0.1 * area)), RADIUS);
+            let added = (uncertain.error - corrected.error) / corrected.value;
+            // The temperature of slow discs grows with the root of the area, that of fast ones with its fourth root.
+            let larger = 1.1_f64.sqrt() - 1.0;
+            assert!((larger..0.06).contains(&added), "{added}");
+        }
+    }
+    assert!(
+        farthest < 0.5 * farthest_of_elements,
+        "{farthest}, and {farthest_of_elements} without the area"
+    );
+}
+
+/// The mean temperature of a period is that of the whole power, whatever the area.
+#[test]
+fn the_mean_temperature_of_a_period_follows_the_power_alone() {
+    let material = Viscous::new(1e4).expect("a material");
+    let field = hertz(16);
+    let mean = |contact_area: Option<Estimate>| {
+        let contact = SlidingContact {
+            pressure: &field,
+            material: &material,
+            factors: ModulusFactors::NONE,
+            wave_shift: None,
+            velocity: 20.0 * DIFFUSIVITY / RADIUS,
+            shear_power: 1e-3,
+            contact_area,
+            bulk_power: 0.0,
+        };
+        let rise = heated(&contact, ContactKind::Period { duration: 100.0 });
+        let n = rise.temperature.len() as f64;
+        [rise.temperature.iter().sum::<f64>() / n, rise.mean.value]
+    };
+    let [of_period, of_contact] = mean(None);
+    let area = 2.0 * PI * RADIUS.powi(2);
+    let [of_period_at_area, of_contact_at_area] = mean(Some(Estimate::exact(area)));
+    assert!(
+        (of_period_at_area / of_period - 1.0).abs() < 1e-12,
+        "{of_period_at_area}, not {of_period}"
+    );
+    // The contact is hotter than the period by a flash that falls with the area.
+    let ratio = (of_contact_at_area - of_period) / (of_contact - of_period);
+    assert!((0.59..0.71).contains(&ratio), "{ratio}");
 }
 
 /// A long contact of a body with a straight front is a line contact in its middle.
@@ -342,6 +426,7 @@ fn a_line_contact_has_the_temperature_of_a_long_body() {
         wave_shift: None,
         velocity,
         shear_power: power,
+        contact_area: None,
         bulk_power: power,
     };
     let line = heated(&contact(&line, 1.0), ContactKind::Line);
@@ -366,6 +451,7 @@ fn impossible_contacts_are_refused() {
         wave_shift: None,
         velocity: 1.0,
         shear_power: 1.0,
+        contact_area: None,
         bulk_power: 1.0,
     };
     for (wrong, name) in [
@@ -396,6 +482,13 @@ fn impossible_contacts_are_refused() {
                 ..contact
             },
             "power of the bulk",
+        ),
+        (
+            SlidingContact {
+                contact_area: Some(Estimate::exact(-1.0)),
+                ..contact
+            },
+            "contact area",
         ),
     ] {
         let refused = wrong.temperature(&rubber(), Counterface::Insulating, ContactKind::Body);

@@ -72,6 +72,7 @@ fn amplitude_of(amplitudes: &[f64], factors: ModulusFactors) -> Estimate {
         wave_shift: None,
         velocity: VELOCITY,
         shear_power: 0.0,
+        contact_area: None,
         bulk_power: power * pressure.grid.element_area() * pressure.pressure.len() as f64,
     };
     let kind = ContactKind::Period { duration: 1.0 };
@@ -161,6 +162,7 @@ fn friction_is_the_dissipated_power() {
                 wave_shift: None,
                 velocity: VELOCITY,
                 shear_power: 0.0,
+                contact_area: None,
                 bulk_power: power,
             };
             let amplitude = contact.strain_amplitude(kind).expect("an amplitude");
@@ -258,6 +260,7 @@ fn the_strain_of_hertz_follows_from_its_stress_field() {
             wave_shift: None,
             velocity: VELOCITY,
             shear_power: 0.0,
+            contact_area: None,
             bulk_power: 1.643 * viscosity * (VELOCITY * largest / modulus).powi(2) * radius / 2.0,
         };
         let found = contact.strain_amplitude(ContactKind::Body);

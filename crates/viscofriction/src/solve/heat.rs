@@ -206,14 +206,14 @@ impl Problem {
             friction.unwrap_or(Estimate::exact(0.0)) * (answer.normal_force.value * velocity)
         };
         let [shear, bulk] = [answer.friction_from_shear, answer.hysteresis()].map(power_of);
-        let area = AreaOfElements::of(&pressure, &answer);
         let contact = SlidingContact {
             pressure: &pressure,
             material: self.material(),
             factors: self.modulus_factors(),
             wave_shift: self.wave_shift(),
             velocity,
-            shear_power: shear.value * area.correction,
+            shear_power: shear.value,
+            contact_area: answer.contact_area.filter(|area| area.value > 0.0),
             bulk_power: bulk.value,
         };
         let duration = self.heating().and_then(|heating| heating.duration);
@@ -239,13 +239,9 @@ impl Problem {
         let found = contact
             .temperature(&heating.conductor, heating.counterface, kind)
             .map_err(|error| heating.at_key(&error))?;
-        // The temperature is proportional to the dissipated power.
-        let power = shear + bulk;
-        let relative_error = if power.value > 0.0 {
-            power.error / power.value + area.relative_error
-        } else {
-            0.0
-        };
+        // The temperature is proportional to the dissipated power. Its bars contain the error of the contact area, and so that of the shear.
+        let power = shear.value + bulk.value;
+        let relative_error = if power > 0.0 { bulk.error / power } else { 0.0 };
         let widened = |rise: Estimate| rise.widened(relative_error * rise.value.abs());
         answer.largest_temperature_rise = Some(widened(found.largest));
         answer.mean_temperature_rise = Some(widened(found.mean));
@@ -259,43 +255,6 @@ impl Problem {
             rise: found.temperature,
         });
         Ok(answer)
-    }
-}
-
-/// Range of the exponents n with which the temperature by a given power of the shear falls with the contact area, T ∝ A^(−n): of slow
-/// and of fast contacts of bodies. Derived: T ∝ P/(ka) for the contact radius a and Pe ≪ 1, T ∝ P √(Da/v)/(ka²) for Pe ≫ 1.
-const AREA_EXPONENTS: [f64; 2] = [0.5, 0.75];
-/// Range of the exponents n with which this temperature falls with the width a of line contacts, T ∝ a^(−n). Derived: the logarithm of the width at Pe ≪ 1, T ∝ 1/√a at Pe ≫ 1.
-const WIDTH_EXPONENTS: [f64; 2] = [0.0, 0.5];
-
-/// Correction of a temperature by shear for the difference between the area of the elements in contact and the contact area.
-struct AreaOfElements {
-    /// Factor on the temperature.
-    correction: f64,
-    /// Relative error of the corrected temperature by that of the area and of the exponent.
-    relative_error: f64,
-}
-
-impl AreaOfElements {
-    fn of(pressure: &PressureField, answer: &Answer) -> Self {
-        let Some(area) = answer.contact_area.filter(|area| area.value > 0.0) else {
-            return Self {
-                correction: 1.0,
-                relative_error: 0.0,
-            };
-        };
-        let loaded = pressure.pressure.iter().filter(|pressure| **pressure > 0.0);
-        let (area_of_element, [slow, fast]) = if answer.is_per_length {
-            (pressure.grid.spacing()[0], WIDTH_EXPONENTS)
-        } else {
-            (pressure.grid.element_area(), AREA_EXPONENTS)
-        };
-        let ratio = loaded.count() as f64 * area_of_element / area.value;
-        let [mean, spread] = [0.5 * (slow + fast), 0.5 * (fast - slow)];
-        Self {
-            correction: ratio.powf(mean),
-            relative_error: fast * area.error / area.value + spread * ratio.ln().abs(),
-        }
     }
 }
 

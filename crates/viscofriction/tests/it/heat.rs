@@ -39,16 +39,17 @@ fn assert_within_bars(name: &str, [one, other]: [&Value; 2]) {
     );
 }
 
-/// An elastic ball is heated by its shear alone, uniformly on the disc of Hertz: 0.55542 and 0.73244 of q a/k at the Péclet number 1.
+/// An elastic paraboloid is heated by its shear alone, uniformly on the disc of Hertz: 0.55542 and 0.73244 of q a/k at the Péclet number 1.
 #[test]
-fn the_shear_of_an_elastic_ball_heats_a_disc() {
+fn the_shear_of_an_elastic_paraboloid_heats_a_disc() {
     let folder = Folder::new("heat-disc");
     let (radius, force, modulus) = (5e-3, 1.0, 1e6);
     let contact_radius = (3.0_f64 * force * radius / (16.0 * modulus)).cbrt();
     let velocity = 2.0 * 1.2e-7 / contact_radius;
     let answer = folder.answer(format!(
-        "[indenter.sphere]\nradius = {radius}\n[material.elastic]\nshear_modulus = {modulus}\n[load]\nnormal_force = {force}\nvelocity = \
-         {velocity}\n[solve]\nrelative_error = 5e-3\n{SHEAR}{HEAT}"
+        "[indenter.paraboloid]\ncurvature = {}\n[material.elastic]\nshear_modulus = {modulus}\n[load]\nnormal_force = {force}\nvelocity = \
+         {velocity}\n[solve]\nrelative_error = 5e-3\n{SHEAR}{HEAT}",
+        0.5 / radius
     ));
     let scale = 5e5 * velocity * contact_radius / 0.25;
     for (name, expected) in [("mean", 0.55542), ("largest", 0.73244)] {
