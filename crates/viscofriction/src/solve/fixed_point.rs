@@ -7,12 +7,11 @@
 //!
 //! Theory: docs/theory/heat.md, "Back on the material", and docs/theory/strain.md, "The fixed point".
 
-use bem_halfspace::periodic;
 use numerics::{ErrorParts, Estimate, Progress};
 
 use super::answer::{Answer, Fields};
-use super::body::Body;
 use super::error::{Result, SolveError};
+use super::period_grids::PeriodGrids;
 use super::plan::Plan;
 use super::problem::Problem;
 use super::shear::plan_again;
@@ -224,11 +223,14 @@ impl FixedPoint<'_> {
 
     /// Accuracy of the solutions of the search.
     pub(super) fn search_accuracy(&self) -> Accuracy {
-        match (self.problem.accuracy(), self.problem.body()) {
-            (Accuracy::RelativeError(_), Body::Periodic(surface)) => {
-                Accuracy::Elements(periodic::edge_for_bars(surface))
+        match (
+            self.problem.accuracy(),
+            PeriodGrids::of(self.problem).take(),
+        ) {
+            (Accuracy::RelativeError(_), Some(coarsest)) => coarsest,
+            (Accuracy::RelativeError(asked), None) => {
+                Accuracy::RelativeError(asked.max(SEARCH_ERROR))
             }
-            (Accuracy::RelativeError(asked), _) => Accuracy::RelativeError(asked.max(SEARCH_ERROR)),
             (elements @ Accuracy::Elements(_), _) => elements,
         }
     }
@@ -384,17 +386,21 @@ impl FixedPoint<'_> {
             Accuracy::RelativeError(asked) => Some(asked),
             Accuracy::Elements(_) => None,
         };
-        let mut accuracy = self.problem.accuracy();
+        // Coarse grids of a periodic surface suffice for a friction that is mostly shear.
+        let is_mostly_shear = asked.is_some() && found.answer.is_mostly_shear();
+        let mut grids = PeriodGrids::of(self.problem);
+        let coarsest = grids.take().filter(|_| is_mostly_shear);
+        let mut accuracy = coarsest.unwrap_or(self.problem.accuracy());
         let mut response = response([neighbour.point(), found.point()]);
         let mut value = self.within(found.value + response * found.excess());
+        let mut shape = found.answer.clone();
         let mut before: Option<State> = None;
         let mut least = f64::INFINITY;
         let mut stalled = 0;
         let mut solutions = 0;
         loop {
             solutions += 1;
-            let shape = before.as_ref().unwrap_or(found);
-            let state = self.state(value, Some(&shape.answer), accuracy)?;
+            let state = self.state(value, Some(&shape), accuracy)?;
             // Two solutions at the requested accuracy tell the response better than those of the search.
             let increase = value - self.of.smallest();
             let distance = SLOPE_DISTANCE * TOLERANCE * increase;
@@ -426,6 +432,7 @@ impl FixedPoint<'_> {
             };
             let by_correction = largest_slope(slopes_from, |answer| answer.friction_coefficient)
                 .map_or(0.0, |slope| slope * correction.abs());
+            shape.clone_from(&numbers.answer);
             before = Some(numbers);
             let Some(asked) = asked else {
                 // With given elements the value is corrected until that changes little.
@@ -452,10 +459,19 @@ impl FixedPoint<'_> {
             value = self.within(value + correction);
             // A distribution that has not settled is solved for again, and not more finely.
             let is_settling = response * difference > 0.5 * known.error;
-            if others > AIMED_SHARE * allowed
-                && !is_settling
-                && let Accuracy::RelativeError(request) = accuracy
-            {
+            let is_refined = others > AIMED_SHARE * allowed && !is_settling;
+            if is_refined && let Accuracy::Elements(_) = accuracy {
+                grids.leave_out_if_short_of(others / allowed);
+                let Some(finer) = grids.take() else {
+                    let missed = self.of.not_reached(asked, friction, known);
+                    return Ok((answer, Some(Box::new(missed))));
+                };
+                accuracy = finer;
+                // Changes from grid to grid are neither slopes over the value nor lack of progress.
+                before = None;
+                least = f64::INFINITY;
+            }
+            if is_refined && let Accuracy::RelativeError(request) = accuracy {
                 let is_in_vain = others > MIN_PROGRESS * least;
                 least = least.min(others);
                 let ratio = if is_in_vain {

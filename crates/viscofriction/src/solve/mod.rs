@@ -24,6 +24,7 @@ mod memory;
 mod modulus_error;
 mod omission;
 mod parts;
+mod period_grids;
 mod plan;
 mod problem;
 mod realisations;
