@@ -84,6 +84,38 @@ fn the_sum_has_the_requested_error() {
     }
 }
 
+/// Of a rough surface, coarse grids suffice for a friction that is mostly shear, within their bars; hysteresis has its own grids.
+#[test]
+fn mostly_shear_needs_fewer_elements() {
+    let folder = Folder::new("shear-coarse");
+    let scene = |strength: Option<f64>, solve: &str| {
+        let interface = strength.map_or(String::new(), |strength| {
+            format!("[interface.constant]\nshear_strength = {strength}\n")
+        });
+        folder.answer(format!(
+            "[indenter.self-affine]\nperiod = [1e-2, 1e-2]\nhurst_exponent = 0.8\nrms_slope = 0.2\nlongest_wavelength = 5e-3\n\
+             shortest_wavelength = 6.25e-4\nseed = 7\n[material.prony]\nequilibrium_modulus = 1e6\nbranches = [{{ modulus = 1e7, \
+             relaxation_time = 1e-3 }}]\n[load]\nmean_pressure = 2e5\nvelocity = 0.1\n[solve]\n{solve}\n{interface}"
+        ))
+    };
+    let of = |answer: &Value, key: &str| number(answer, key);
+    let [coarse, fine] =
+        ["relative_error = 0.05", "elements = 512"].map(|solve| scene(Some(1e6), solve));
+    let off = of(&coarse, "friction_coefficient") - of(&fine, "friction_coefficient");
+    let bars = of(&coarse, "friction_coefficient_error") + of(&fine, "friction_coefficient_error");
+    assert!(off.abs() <= bars, "{off}, and bars {bars}");
+    let [alone, beside] =
+        [None, Some(1e3)].map(|strength| scene(strength, "relative_error = 0.05"));
+    let elements = |answer: &Value| of(answer, "unknowns") / of(answer, "area_fraction");
+    assert!(
+        elements(&coarse) < 0.3 * elements(&alone),
+        "{} and {} elements",
+        elements(&coarse),
+        elements(&alone)
+    );
+    assert_eq!(beside["unknowns"], alone["unknowns"], "little shear");
+}
+
 /// The derivatives of the sum are those of its parts, by the shear strength as by numbers that both parts depend on.
 #[test]
 fn derivatives_of_the_sum_are_slopes_between_answers() {
