@@ -18,6 +18,7 @@
 //!
 //! Theory: docs/theory/stationary-half-space.md, "Periodic surfaces".
 
+mod complement;
 mod elimination;
 
 use numerics::transforms::Real as _;
@@ -34,7 +35,8 @@ use crate::stationary::periodic::kernel::{PeriodicKernel, Sliding};
 use crate::{BemError, Grid};
 
 /// Largest number of GCR steps on one active set if the basis has to be truncated to fit into memory. Chosen to limit the time.
-/// Beyond it the equations are solved directly if they are few enough; otherwise the search continues with the pressure so far.
+/// Beyond it the equations are solved directly if they are few enough, or for the gaps of fewer open elements; otherwise the search
+/// continues with the pressure so far.
 const MAX_STEPS_IF_TRUNCATED: usize = 80;
 /// Largest number of GCR steps if the whole basis fits into memory. Chosen.
 ///
@@ -94,8 +96,29 @@ pub(super) struct Equations {
     pub(super) self_influence: f64,
     /// Largest cost of a direct solve so far, in GCR steps; active sets that cost less are solved directly.
     largest_direct_cost: f64,
+    /// True if the iteration over the gaps of the open elements was the last one to converge.
+    converged_by_open_gaps: bool,
     /// Operator applications on this grid so far.
     pub(super) products: usize,
+}
+
+/// Gaps on the active set that count as closed, in the unit of the packed gaps.
+struct AllowedGaps {
+    /// Largest root mean square.
+    rms: f64,
+    /// Largest gap, which is allowed whatever the root mean square is.
+    max: f64,
+}
+
+impl AllowedGaps {
+    /// Whether gaps with the root mean square `rms` are allowed.
+    fn contain(&self, rms: f64, gaps: &[f32]) -> bool {
+        let largest = || {
+            gaps.iter()
+                .fold(0.0, |top, gap| larger(top, f64::from(gap.abs())))
+        };
+        rms <= self.rms || rms <= self.max && largest() <= self.max
+    }
 }
 
 impl Equations {
@@ -128,6 +151,7 @@ impl Equations {
             image: field(),
             self_influence,
             largest_direct_cost: 0.0,
+            converged_by_open_gaps: false,
             products: 0,
         })
     }
@@ -193,13 +217,9 @@ impl Equations {
             self.pressure.fill(-self.unit / self.self_influence);
             return;
         }
-        let [rms, max] = [rms, max].map(|length| length / self.unit);
-        let is_converged = |residual: f64, gap: &[f32]| {
-            let largest = || {
-                gap.iter()
-                    .fold(0.0, |top, gap| larger(top, f64::from(gap.abs())))
-            };
-            residual <= rms || residual <= max && largest() <= max
+        let allowed = AllowedGaps {
+            rms: rms / self.unit,
+            max: max / self.unit,
         };
 
         // Iterate by GCR, unless a direct solve costs less than all iterations so far. If a direct solve is possible, the iteration
@@ -230,28 +250,52 @@ impl Equations {
                 truncation_depth: max_directions - 1,
             };
 
-            // Run GCR.
-            let mut gap = std::mem::take(&mut self.gap);
-            let mut added = copies(0.0, gap.len());
-            gcr(&mut added, &mut gap, limits, |state, direction, image| {
-                let residual = self.rms(state.residual_square.sqrt());
-                let goes_on = !is_converged(residual, state.residual);
-                if goes_on {
-                    self.find_direction(state.source, direction, image);
-                }
-                goes_on
-            });
-            self.gap = gap;
-            let unit = self.unit / self.self_influence;
-            for (pressure, added) in self.pressure.iter_mut().zip(added) {
-                *pressure += unit * f64::from(added);
+            // If the pressures do not converge with a truncated basis, the gaps of a few open elements may. What converged last comes
+            // first.
+            let has_alternative =
+                !can_be_direct && max_directions < MAX_STEPS && self.has_few_open_elements();
+            let gaps_come_first = has_alternative && self.converged_by_open_gaps;
+            if gaps_come_first {
+                self.iterate_open_gaps(&allowed, basis_floats);
+            }
+            if !self.are_allowed(&allowed) {
+                self.iterate_pressures(&allowed, limits);
+                self.converged_by_open_gaps = false;
+            }
+            if has_alternative && !gaps_come_first && !self.are_allowed(&allowed) {
+                self.iterate_open_gaps(&allowed, basis_floats);
+                self.converged_by_open_gaps = self.are_allowed(&allowed);
             }
         }
 
         // If the iteration has not converged, close the remaining gaps by a direct solve.
-        if can_be_direct && !is_converged(self.rms(norm(&self.gap)), &self.gap) {
+        if can_be_direct && !self.are_allowed(&allowed) {
             self.largest_direct_cost = self.largest_direct_cost.max(direct_cost);
             self.solve_directly();
+        }
+    }
+
+    /// Whether the gaps on the active set are allowed.
+    fn are_allowed(&self, allowed: &AllowedGaps) -> bool {
+        allowed.contain(self.rms(norm(&self.gap)), &self.gap)
+    }
+
+    /// Iterates by GCR until the gaps are allowed, or to the limits. The unknowns are the pressures on the active set.
+    fn iterate_pressures(&mut self, allowed: &AllowedGaps, limits: GcrLimits) {
+        let mut gap = std::mem::take(&mut self.gap);
+        let mut added = copies(0.0, gap.len());
+        gcr(&mut added, &mut gap, limits, |state, direction, image| {
+            let residual = self.rms(state.residual_square.sqrt());
+            let goes_on = !allowed.contain(residual, state.residual);
+            if goes_on {
+                self.find_direction(state.source, direction, image);
+            }
+            goes_on
+        });
+        self.gap = gap;
+        let unit = self.unit / self.self_influence;
+        for (pressure, added) in self.pressure.iter_mut().zip(added) {
+            *pressure += unit * f64::from(added);
         }
     }
 

@@ -5,13 +5,10 @@
 //! gaps. The gaps of the open elements are those that leave no pressure there. The mean pressure, on which the gaps do not
 //! depend, is one more unknown.
 
-use numerics::transforms::Real as _;
-
 use super::{Equations, unit_response};
 use crate::contact::active_set::Run;
 use crate::dense;
-use crate::parallel::reductions::{add_scaled, mean};
-use crate::parallel::row_blocks::copies;
+use crate::parallel::reductions::mean;
 use crate::stationary::periodic::kernel::PeriodicKernel;
 
 impl Equations {
@@ -21,12 +18,12 @@ impl Equations {
     }
 
     /// Number of active elements.
-    fn n_contact(&self) -> f64 {
+    pub(super) fn n_contact(&self) -> f64 {
         self.active.len() as f64
     }
 
     /// Number of elements outside the active set.
-    fn n_open(&self) -> f64 {
+    pub(super) fn n_open(&self) -> f64 {
         self.scattered.len() as f64 - self.n_contact()
     }
 
@@ -38,17 +35,9 @@ impl Equations {
         } else {
             self.solve_complement()
         };
-        let Some(loads) = found else {
-            return;
-        };
-        let unit = self.unit / self.self_influence;
-        for (pressure, load) in self.pressure.iter_mut().zip(&loads) {
-            *pressure += unit * load;
+        if let Some(loads) = found {
+            self.add_loads(loads);
         }
-        let added: Vec<f32> = loads.into_iter().map(f32::rounded).collect();
-        let mut image = copies(0.0, added.len());
-        self.apply_influence(&added, &mut image);
-        add_scaled(&mut self.gap, 1.0, &image);
     }
 
     /// The packed pressures that close the gaps, in their unit, from the dense influence matrix of the active set; `None` if that is
@@ -120,7 +109,7 @@ impl Equations {
     }
 
     /// Writes the pressures without mean, in their unit, that displace the whole grid by a `field` less its mean; in double precision.
-    fn apply_exact_inverse(&mut self, field: &[f64], loads: &mut [f64]) {
+    pub(super) fn apply_exact_inverse(&mut self, field: &[f64], loads: &mut [f64]) {
         self.products += 1;
         self.kernel.invert(field, loads);
         let own = self.self_influence;
