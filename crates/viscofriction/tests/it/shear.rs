@@ -84,7 +84,7 @@ fn the_sum_has_the_requested_error() {
     }
 }
 
-/// Of a rough surface, coarse grids suffice for a friction that is mostly shear, within their bars; hysteresis has its own grids.
+/// Coarse grids of a rough surface suffice for a friction that is mostly shear, within their bars; hysteresis has its own grids.
 #[test]
 fn mostly_shear_needs_fewer_elements() {
     let folder = Folder::new("shear-coarse");
