@@ -459,28 +459,28 @@ impl FixedPoint<'_> {
             value = self.within(value + correction);
             // A distribution that has not settled is solved for again, and not more finely.
             let is_settling = response * difference > 0.5 * known.error;
-            let is_refined = others > AIMED_SHARE * allowed && !is_settling;
-            if is_refined && let Accuracy::Elements(_) = accuracy {
-                grids.leave_out_if_short_of(others / allowed);
-                let Some(finer) = grids.take() else {
-                    let missed = self.of.not_reached(asked, friction, known);
-                    return Ok((answer, Some(Box::new(missed))));
-                };
-                accuracy = finer;
-                // Changes from grid to grid are neither slopes over the value nor lack of progress.
-                before = None;
-                least = f64::INFINITY;
+            if others <= AIMED_SHARE * allowed || is_settling {
+                continue;
             }
-            if is_refined && let Accuracy::RelativeError(request) = accuracy {
-                let is_in_vain = others > MIN_PROGRESS * least;
-                least = least.min(others);
-                let ratio = if is_in_vain {
-                    MIN_REQUEST_RATIO
-                } else {
-                    (AIMED_SHARE * allowed / others).max(MIN_REQUEST_RATIO)
-                };
-                accuracy = Accuracy::RelativeError(request * ratio);
-            }
+            accuracy = match accuracy {
+                Accuracy::Elements(_) => {
+                    // Changes from grid to grid are neither slopes over the value nor lack of progress.
+                    before = None;
+                    let without_correction = Estimate::new(friction.value, others);
+                    grids.leave_out_if_too_coarse(without_correction, allowed);
+                    grids.take().unwrap_or(self.problem.accuracy())
+                }
+                Accuracy::RelativeError(request) => {
+                    let is_in_vain = others > MIN_PROGRESS * least;
+                    least = least.min(others);
+                    let ratio = if is_in_vain {
+                        MIN_REQUEST_RATIO
+                    } else {
+                        (AIMED_SHARE * allowed / others).max(MIN_REQUEST_RATIO)
+                    };
+                    Accuracy::RelativeError(request * ratio)
+                }
+            };
         }
     }
 

@@ -10,6 +10,7 @@
 use std::iter::successors;
 
 use bem_halfspace::periodic;
+use numerics::Estimate;
 
 use super::answer::Answer;
 use super::body::Body;
@@ -57,12 +58,19 @@ impl PeriodGrids {
         self.edges.pop().map(Accuracy::Elements)
     }
 
-    /// Leaves out the finer grids if an error that is too large by the factor `excess` would be too large on all of them.
-    pub(super) fn leave_out_if_short_of(&mut self, excess: f64) {
+    /// Leaves out the finer grids if the error of the `friction` would exceed the `allowed` one on all of them.
+    pub(super) fn leave_out_if_too_coarse(&mut self, friction: Estimate, allowed: f64) {
         let halvings = f64::from(u32::try_from(self.edges.len()).unwrap_or(u32::MAX));
-        if excess * ERROR_RATIO.powf(halvings) > 1.0 {
-            self.edges.clear();
+        // The bars of few elements in contact reach to 0, and those of the next grid need not.
+        let has_few_elements = friction.error >= friction.value.abs();
+        if !has_few_elements && friction.error * ERROR_RATIO.powf(halvings) > allowed {
+            self.leave_out();
         }
+    }
+
+    /// Leaves out the finer grids.
+    pub(super) fn leave_out(&mut self) {
+        self.edges.clear();
     }
 }
 

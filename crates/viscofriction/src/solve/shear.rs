@@ -241,12 +241,11 @@ pub(super) fn solve(first: Plan, watch: &dyn Progress) -> Result<Answer> {
             Motion::Moving(_) => AIMED_SHARE * request.min(reached),
             _ => ratio * request.min(reached),
         };
-        let excess = if is_trusted {
-            friction.error / allowed
+        if is_trusted {
+            grids.leave_out_if_too_coarse(friction, allowed);
         } else {
-            f64::INFINITY
-        };
-        grids.leave_out_if_short_of(excess);
+            grids.leave_out();
+        }
     }
 }
 

@@ -71,6 +71,21 @@ fn the_shear_of_an_elastic_paraboloid_heats_a_disc() {
     assert!(off < 0.02, "the contact of Hertz: {off}");
 }
 
+/// The coarsest grid of a light rough contact has a few elements in contact, whose bars reach to 0; finer ones have the requested error.
+#[test]
+fn a_light_rough_contact_has_the_requested_error() {
+    let folder = Folder::new("heat-light");
+    let answer = folder.answer(format!(
+        "[indenter.self-affine]\nperiod = [1e-2, 1e-2]\nhurst_exponent = 0.8\nrms_slope = 0.2\nlongest_wavelength = 5e-3\nshortest_wavelength \
+         = 1.25e-3\nseed = 3\n[material.prony]\nequilibrium_modulus = 1e6\nbranches = [{{ modulus = 1e7, relaxation_time = 1e-4 }}]\nshift = {{ \
+         temperature = 20.0, temperature_range = [-20.0, 150.0], law = {{ wlf = [8.86, 101.6] }} }}\n{SHEAR}{HEAT}duration = \
+         1.0\n[load]\nmean_pressure = 2e3\nvelocity = 0.1\n[solve]\nrelative_error = 0.1\n"
+    ));
+    let [friction, error] =
+        ["friction_coefficient", "friction_coefficient_error"].map(|key| number(&answer, key));
+    assert!(error <= 0.1 * friction, "{friction} ± {error}");
+}
+
 /// Without friction to heat it, or with a perfect conductor, a contact has its isothermal friction to the last bit.
 #[test]
 fn a_perfect_conductor_keeps_the_isothermal_answer() {
