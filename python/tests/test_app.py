@@ -192,6 +192,25 @@ def test_lengths_keep_their_digits_in_every_unit() -> None:
     assert Choices.from_json('{"unit": "inch"}').unit == "mm"
 
 
+def test_a_decimal_comma_is_refused_and_not_read_as_another_number() -> None:
+    for text in ("0,01", "300.000,5", "1,5,2", "12 mm"):
+        with pytest.raises(ValueError, match="must be a number with a decimal point"):
+            _choices.number(text)
+    assert [_choices.number(text) for text in ("0.01", " 3e5 ", "", None, 2.5)] == [0.01, 3e5, None, None, 2.5]
+    with pytest.raises(ValueError, match="numbers between blanks, such as 0 20 39, but is 20,5"):
+        _choices.temperatures("20,5")
+    assert _choices.temperatures("0, 20; 39") == (0.0, 20.0, 39.0)
+    assert [_choices.shown(number) for number in (3e5, 0.08, 1e-6, None)] == ["300000", "0.08", "1e-06", ""]
+
+
+def test_the_same_choices_are_known_again_in_any_order(folder: Path) -> None:
+    (folder / "friction-1.json").write_text(_choices.stored(HOT, folder), "utf-8")
+    tables = dict(reversed(list(HOT.tables.items())))
+    assert list(tables) != list(HOT.tables)
+    assert _choices.name_for(replace(HOT, tables=tables, n_speeds=1.0), folder) == "friction-1"
+    assert _choices.name_for(replace(HOT, n_speeds=3), folder) == "friction-2"
+
+
 def test_a_layer_is_a_table_of_the_scene() -> None:
     assert _choices.scene(replace(BALL, thickness=2e-3), "friction-1")["layer"] == {"thickness": 2e-3}
     assert "layer" not in _choices.scene(BALL, "friction-1")

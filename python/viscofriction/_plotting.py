@@ -253,8 +253,15 @@ def heights(surface: Any, ax: Any) -> Any:
 
 def _coloured(ax: Any, image: Any, name: str, largest: float) -> None:
     """A field with its bar of colours, as it lies in the plane."""
+    from matplotlib.colors import LogNorm
+    from matplotlib.ticker import LogLocator
+
     factor, name = prefixed(name, (0.0, largest))
-    ax.figure.colorbar(image, ax=ax, label=name, format=in_units_of(factor or 1.0))
+    # All labels count in the unit of the name, so that a logarithmic bar has no minor ones.
+    ticks = LogLocator(subs=(1.0, 2.0, 5.0)) if isinstance(image.norm, LogNorm) else None
+    bar = ax.figure.colorbar(image, ax=ax, label=name, format=in_units_of(factor or 1.0), ticks=ticks)
+    if ticks is not None:
+        bar.minorticks_off()
     ax.set_aspect("equal")
 
 

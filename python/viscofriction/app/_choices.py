@@ -143,10 +143,24 @@ def guessed_temperatures(found: Fit) -> tuple[float, ...]:
     return tuple(one for one in (0.0, 20.0) if first <= one <= last) or (found.shift["temperature"],)
 
 
-def temperatures(text: str) -> tuple[float, ...]:
-    """Numbers between blanks, commas or semicolons. Raises ValueError for anything else."""
+def number(text: Any) -> float | None:
+    """The number of a text or a number, None for an empty text. Raises ValueError for a comma, which may be either of two things."""
+    words = "" if text is None else str(text).strip()
     try:
-        return tuple(float(word) for word in text.replace(",", " ").replace(";", " ").split())
+        return float(words) if words else None
+    except ValueError:
+        raise ValueError(f"must be a number with a decimal point and without separators, such as 0.01, but is {words}") from None
+
+
+def shown(value: float | None) -> str:
+    """A number as a text, with all its digits and no others."""
+    return "" if value is None else repr(value).removesuffix(".0")
+
+
+def temperatures(text: str) -> tuple[float, ...]:
+    """Numbers between blanks or semicolons. Raises ValueError for anything else, such as a decimal comma."""
+    try:
+        return tuple(float(word) for word in text.replace(", ", " ").replace(";", " ").split())
     except ValueError:
         raise ValueError(f"material.file.temperature must be numbers between blanks, such as 0 20 39, but is {text}") from None
 
@@ -189,7 +203,7 @@ def speeds(choices: Choices) -> list[float]:
     first = _positive("load.velocity.slowest", choices.slowest)
     last = _positive("load.velocity.fastest", choices.fastest)
     count = choices.n_speeds
-    if count is None or count != int(count) or not 1 <= count <= 1000:
+    if count is None or not float(count).is_integer() or not 1 <= count <= 1000:
         raise ValueError(f"load.velocity.count must be a whole number from 1 to 1000, but is {_shown(count)}")
     if count > 1 and last <= first:
         raise ValueError(f"load.velocity.fastest must be greater than the slowest, {first:g} m/s, but is {last:g}")
@@ -299,11 +313,18 @@ def name_for(choices: Choices, folder: Path) -> str:
     """The name of the computation in the folder with these choices and files, or the next one."""
     known = list(named(folder))
     wanted = stored(choices, folder)
-    same = [name for name in known if (folder / f"{name}.json").read_text("utf-8") == wanted]
+    same = [name for name in known if _choices_of((folder / f"{name}.json").read_text("utf-8")) == json.loads(wanted)]
     taken = max((int(name.removeprefix("friction-")) for name in known), default=0)
     while not same and any(folder.glob(f"friction-{taken + 1}[.-]*")):
         taken += 1
     return same[0] if same else f"friction-{taken + 1}"
+
+
+def _choices_of(text: str) -> Any:
+    try:
+        return json.loads(text)
+    except ValueError:
+        return None
 
 
 def stored(choices: Choices, folder: Path) -> str:

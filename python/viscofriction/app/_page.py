@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import html
+import math
 import tempfile
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -11,6 +12,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any, Literal
 
+import numpy as np
 from nicegui import background_tasks, events, run, ui
 
 import viscofriction as vf
@@ -26,6 +28,8 @@ LARGEST_DROP = 1 << 27
 #: Keys of a height map that most people need; the others unfold.
 SHOWN = {"file", "unit", "spacing", "edges", "level", "shortest_wavelength", "direction"}
 TITLES = {"indenter": "2. Body", "interface": "Shear in the contact", "heat": "Heat of sliding", "strain": "Strain dependence"}
+#: What is guessed for a file of heights.
+OF_FILE = ("unit", "shortest_wavelength")
 #: What a kind begins with.
 GUESSED: dict[str, dict[str, Any]] = {"height-map": {"edges": "mirrored", "level": True}}
 VERTICAL = {None: "as the isotherms show", "none": "none", "entropic": "with the absolute temperature", "free": "a factor of each"}
@@ -63,7 +67,7 @@ class Page:
         self.marks: dict[Any, object] = {}
         self.seen: Any = None
         # Another page may choose another unit, and this one keeps that of its labels.
-        self.unit = project.choices.unit
+        self.unit, self.known = project.choices.unit, project.choices
         ui.add_css(Path(__file__).with_name("page.css"))
         ui.colors(primary="#005a91")
         dark = ui.dark_mode(None)
@@ -90,9 +94,8 @@ class Page:
 
     def choose(self, choices: Choices | None = None, **changed: Any) -> None:
         self.project.choose(replace(choices or self.chosen, **changed))
+        self.known = self.chosen
         self.problem.set_text("")
-        for field in self.fields.values():
-            field.error = None
 
     def refuse(self, error: Exception, place: str = "") -> None:
         """Says an error beside the field that it names, or the one that it belongs to, and beside the button."""
@@ -132,11 +135,24 @@ class Page:
     # What is chosen.
 
     def select(self, path: str, label: str, options: dict[Any, str] | list[str], value: Any, change: Callable[[Any], None]) -> Any:
-        field = ui.select(options, label=label, value=value, on_change=lambda event: change(event.value))
-        return self.field(path, field)
+        return self.field(path, ui.select(options, label=label, value=value, on_change=partial(self.changed, path, change)))
+
+    def changed(self, path: str, change: Callable[[Any], None], event: events.ValueChangeEventArguments[Any]) -> None:
+        """Takes a value; its problem is that of the value before."""
+        if path in self.fields:
+            self.fields[path].error = None
+        change(event.value)
 
     def number(self, path: str, label: str, value: float | None, change: Callable[[float | None], None]) -> Any:
-        return self.field(path, ui.number(label, value=value, on_change=lambda event: change(event.value)).props("step=any"))
+        def read(text: Any) -> None:
+            try:
+                change(_choices.number(text))
+            except ValueError as error:
+                # Nothing is computed with the number that was there before.
+                change(math.nan)
+                self.refuse(ValueError(f"{label} {error}"), path)
+
+        return self.field(path, ui.input(label, value=_choices.shown(value), on_change=partial(self.changed, path, read)).props("inputmode=decimal"))
 
     def length(self, path: str, label: str, value: float | None, change: Callable[[float | None], None]) -> Any:
         """A number in the unit of lengths, which is [m] for everybody else."""
@@ -256,8 +272,12 @@ class Page:
                 return
             if path in self.fields:
                 self.fields[path].props(remove="hint")
-            keys = {**self.chosen.keys(family), key.name: None if value == key.default else value}
-            self.choose(self.chosen.with_table(family, kind, keys))
+            # What was guessed or chosen for another file is not kept.
+            gone = OF_FILE if (kind, key.name) == ("height-map", "file") else ()
+            kept = {name: value for name, value in self.chosen.keys(family).items() if name not in gone}
+            self.choose(self.chosen.with_table(family, kind, kept | {key.name: None if value == key.default else value}))
+            for name in gone:
+                self.fields[f"{family}.{kind}.{name}"].props(remove="hint").set_value(None)
             self.tried(lambda: _choices.check(self.chosen, family))
             if family == "indenter":
                 self.look_at_surface()
@@ -281,7 +301,7 @@ class Page:
                 number(path if nth == 0 else f"{path}[1]", f"{axis}: {label}", ends[nth], partial(change_end, nth))
         else:
             whole = key.entry == "count"
-            number(path, label, value, lambda value: change(int(value) if whole and value is not None else value)).tooltip(key.meaning)
+            number(path, label, value, lambda value: change(int(value) if whole and value and value.is_integer() else value)).tooltip(key.meaning)
 
     def look_at_surface(self) -> None:
         chosen, folder = self.chosen, self.project.folder
@@ -302,10 +322,10 @@ class Page:
             lines = [f"{columns} × {rows} heights along x and y, {along} × {across} apart"]
             lines += [f"Sq {sq}, Sa {sa}, Sdq {rough.rms_gradient:.3g}", f"Ssk {rough.skewness:.2g}, Sku {rough.kurtosis:.2g}"]
             new = {name: value for name, value in guessed.keys("indenter").items() if name not in chosen.keys("indenter")}
-            self.project.choose(self.chosen.with_table("indenter", "height-map", guessed.keys("indenter")))
+            self.choose(self.chosen.with_table("indenter", "height-map", guessed.keys("indenter")))
             for name, value in new.items():
                 field = self.fields[f"indenter.height-map.{name}"]
-                field.set_value(self.in_unit(value) if isinstance(value, float) else value)
+                field.set_value(_choices.shown(self.in_unit(value)) if isinstance(value, float) else value)
                 field.props('hint="this is a guess"')
             raw(paragraphs([*lines, *dict.fromkeys([*body.notes, *rough.warnings])]) + picture)
 
@@ -319,8 +339,9 @@ class Page:
             for name, path, label in SPEEDS:
                 self.number(path, label, getattr(chosen, name), partial(self.choose_one, name))
             text = " ".join(f"{one:g}" for one in chosen.temperatures)
-            hot = ui.input("temperatures [°C], between blanks", value=text, on_change=lambda event: self.choose_temperatures(event.value))
-            self.field("material.file.temperature", hot)
+            path = "material.file.temperature"
+            hot = ui.input("temperatures [°C], between blanks", value=text, on_change=partial(self.changed, path, self.choose_temperatures))
+            self.field(path, hot)
             ui.switch("band of the material", value=chosen.band, on_change=lambda event: self.choose_one("band", event.value))
             self.file("measured", "measured friction", TABLES, chosen.measured, self.choose_measured)
             raw(paragraphs([ELSEWHERE]))
@@ -353,7 +374,12 @@ class Page:
             self.of_point = ui.column().classes("wide")
 
     def compute(self) -> None:
+        if self.chosen is not self.known:
+            self.refuse(ValueError("another page has chosen something else; load this page again to see it"))
+            return
         self.choose()
+        for field in self.fields.values():
+            field.error = None
         self.tried(self.project.compute)
 
     def choose_measured(self, name: str) -> None:
@@ -371,14 +397,16 @@ class Page:
         if computation is None or state == self.seen:
             return
         self.seen = state
+        self.draw()
         if computation.problem:
             self.refuse(ValueError(computation.problem))
-        self.draw()
 
     def draw(self) -> None:
         sweeps = self.tried(self.project.sweeps) or {}
         self.plot.update_figure(_curves.plotly(sweeps, self.tried(self.project.measured, "measured")))
         self.point.set_options({f"{part}:{row}": text for (part, row), text in _curves.points(sweeps).items()})
+        if missing := sum(int(np.isnan(sweep[_curves.FRICTION]).sum()) for sweep in sweeps.values() if len(sweep)):
+            self.problem.set_text(f"points without an answer: {missing}; the list of points and the report say why")
         self.table.clear()
         with self.table:
             for part, sweep in sweeps.items():

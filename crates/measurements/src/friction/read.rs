@@ -76,7 +76,11 @@ const KNOWN_NAMES: [(Quantity, Option<Deformation>, &str); 21] = [
         None,
         "rollingresistance rollingresistancecoefficient",
     ),
-    (Friction, None, "reibungszahl reibungskoeffizient reibwert"),
+    (
+        Friction,
+        None,
+        "reibungszahl reibungskoeffizient reibwert reibungszahlμ reibungszahlµ reibwertμ reibwertµ frictioncoefficientμ frictioncoefficientµ",
+    ),
     (FrictionError, None, "standarderror muerror error stderr"),
     (
         FrictionError,
