@@ -60,7 +60,7 @@ class Choices:
     force: float | None = None
     slowest: float | None = 1e-3
     fastest: float | None = 10.0
-    n_speeds: float | None = 5
+    n_speeds: float | None = 5.0
     temperatures: tuple[float, ...] = ()
     relative_error: float | None = 0.05
     band: bool = True
@@ -215,6 +215,8 @@ def vary(choices: Choices) -> dict[str, list[float]]:
     """The keys that vary, as ``vf.sweep`` takes them; the speed varies fastest."""
     if len(choices.temperatures) > LARGEST_COUNT:
         raise ValueError(f"material.file.temperature: at most {LARGEST_COUNT} temperatures are drawn")
+    if not np.isfinite(choices.temperatures).all():
+        raise ValueError("material.file.temperature must be numbers between blanks, such as 0 20 39")
     if len(set(choices.temperatures)) < len(choices.temperatures):
         raise ValueError("material.file.temperature: a temperature is given twice")
     hot = {"material.file.temperature": list(choices.temperatures)} if choices.temperatures else {}
@@ -313,24 +315,17 @@ def name_for(choices: Choices, folder: Path) -> str:
     """The name of the computation in the folder with these choices and files, or the next one."""
     known = list(named(folder))
     wanted = stored(choices, folder)
-    same = [name for name in known if _choices_of((folder / f"{name}.json").read_text("utf-8")) == json.loads(wanted)]
+    same = [name for name in known if (folder / f"{name}.json").read_text("utf-8") == wanted]
     taken = max((int(name.removeprefix("friction-")) for name in known), default=0)
     while not same and any(folder.glob(f"friction-{taken + 1}[.-]*")):
         taken += 1
     return same[0] if same else f"friction-{taken + 1}"
 
 
-def _choices_of(text: str) -> Any:
-    try:
-        return json.loads(text)
-    except ValueError:
-        return None
-
-
 def stored(choices: Choices, folder: Path) -> str:
     """What the folder keeps of a computation to know it again."""
     kept = asdict(replace(choices, measured="", unit="mm")) | {"files": digests(choices, folder), "version": vf.__version__}
-    return json.dumps(kept, indent=1, ensure_ascii=False) + "\n"
+    return json.dumps(kept, indent=1, ensure_ascii=False, sort_keys=True) + "\n"
 
 
 def at_point(folder: Path, part: str, sweep: Sweep, row: int) -> dict[str, Any]:

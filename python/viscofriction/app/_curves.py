@@ -60,14 +60,12 @@ def curves(sweep: Sweep) -> Iterator[tuple[str, NDArray[np.int64], str]]:
 
 def points(sweeps: Mapping[str, Sweep]) -> dict[tuple[str, int], str]:
     """All points by their part and row, with what a list of them says."""
-    of_curves = [(part, sweep, name, rows) for part, sweep in sweeps.items() for name, rows, _ in curves(sweep)]
-    none = {True: " (no answer)", False: ""}
-    said = {(part, int(row)): none[bool(np.isnan(sweep[FRICTION][row]))] for part, sweep, _, rows in of_curves for row in rows}
-    return {
-        (part, int(row)): f"{sweep[SPEED][row]:g} m/s, {name}{_beside(part)}{said[part, int(row)]}"
-        for part, sweep, name, rows in of_curves
-        for row in rows
-    }
+    found = {}
+    for part, sweep in sweeps.items():
+        for name, row in ((name, row) for name, rows, _ in curves(sweep) for row in rows):
+            no_answer = "" if np.isfinite(sweep[FRICTION][row]) else " (no answer)"
+            found[part, int(row)] = f"{sweep[SPEED][row]:g} m/s, {name}{_beside(part)}{no_answer}"
+    return found
 
 
 def _beside(part: str) -> str:

@@ -347,7 +347,11 @@ class Page:
             raw(paragraphs([ELSEWHERE]))
 
     def choose_temperatures(self, text: str) -> None:
-        self.tried(lambda: self.choose(temperatures=_choices.temperatures(text or "")))
+        try:
+            self.choose(temperatures=_choices.temperatures(text or ""))
+        except ValueError as error:
+            self.choose(temperatures=(math.nan,))
+            self.refuse(error)
 
     # What comes of it.
 
