@@ -175,6 +175,9 @@ def test_a_height_map_is_guessed_at_and_said_so(folder: Path) -> None:
     other, guessed = _choices.surface(replace(BALL, tables={"indenter": table}), folder)
     assert guessed.keys("indenter")["unit"] == "um" and not guessed.is_periodic and guessed.force_label == "normal force [N]"
     assert np.allclose(other.heights, body.heights, rtol=0, atol=1e-18)
+    np.savetxt(folder / "millimetres.csv", body.heights * 1e3, delimiter=",")
+    in_mm = {"height-map": {"file": "millimetres.csv", "spacing": [4e-5, 4e-5]}}
+    assert _choices.surface(replace(BALL, tables={"indenter": in_mm}), folder)[1].keys("indenter")["unit"] == "mm"
     chosen = replace(BALL, tables={"indenter": {"height-map": table["height-map"] | {"unit": "mm"}}})
     assert _choices.surface(chosen, folder)[1].keys("indenter")["unit"] == "mm"
 

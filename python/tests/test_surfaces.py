@@ -394,5 +394,4 @@ def test_a_unit_is_guessed_where_the_file_states_none(tmp_path: Path) -> None:
         file = tmp_path / f"{name}.csv"
         np.savetxt(file, HEIGHTS * factor, delimiter=",")
         guess = vf.plausible_unit(vf.HeightMapFile(file, spacing=SPACING))
-        # In mm slopes are within what surfaces have in µm, too, and µm are tried first.
-        assert guess == ("um" if name == "mm" else name), name
+        assert guess == name, name

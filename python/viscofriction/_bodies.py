@@ -183,9 +183,21 @@ def read_height_map(file: HeightMapFile | str | os.PathLike[str]) -> HeightMap:
     return surface
 
 
+#: Smallest root mean square slope of a surface whose unit is guessed. Chosen: that of polished glass.
+SMALLEST_GRADIENT = 1e-3
+
+
 def plausible_unit(file: HeightMapFile) -> LengthUnit | None:
     """A guess at the unit of the heights in a file that does not state it: the first of m, µm, nm and mm with slopes as surfaces in contact
     have them; None for metres, for a file that states its unit, and where no unit helps. Raises ValueError for another file."""
     guesses: tuple[LengthUnit | None, ...] = (None, "um", "nm", "mm")
-    plain = (unit for unit in guesses if not any("unit" in note for note in read_height_map(replace(file, unit=unit)).notes))
-    return next(plain, None)
+    plain = []
+    for unit in guesses:
+        surface = read_height_map(replace(file, unit=unit))
+        if any("unit" in note for note in surface.notes):
+            continue
+        # What is flatter than polished glass has probably another unit.
+        if unit is None or surface.roughness.rms_gradient >= SMALLEST_GRADIENT:
+            return unit
+        plain.append(unit)
+    return next(iter(plain), None)
