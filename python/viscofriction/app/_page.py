@@ -378,7 +378,7 @@ class Page:
             self.of_point = ui.column().classes("wide")
 
     def compute(self) -> None:
-        if self.chosen is not self.known:
+        if self.chosen != self.known:
             self.refuse(ValueError("another page has chosen something else; load this page again to see it"))
             return
         self.choose()

@@ -123,13 +123,13 @@ struct Solution {
     temperature: Vec<f64>,
     averages: Averages,
     /// Errors of the averages by waves that the grid of the bulk does not resolve, and by the contact area.
-    unresolved: Averages,
+    errors: Averages,
     /// Error of the largest temperature because the maximum is between centres of elements.
     sampling_error: f64,
     /// Temperature below the surface of a period that dissipates there.
     by_depth: Option<DepthProfile>,
-    /// Error of its mean by both.
-    unresolved_by_depth: f64,
+    /// Error of its mean by the same.
+    error_by_depth: f64,
 }
 
 /// Averages of the temperature rise of the surface, \[K].
@@ -192,12 +192,12 @@ impl SlidingContact<'_> {
         let [fine, coarse] = [fine?, coarse?];
         let known = |of: fn(&Averages) -> f64| {
             let rise = estimate(of(&fine.averages), of(&coarse.averages))?;
-            Ok::<_, BemError>(rise.widened(of(&fine.unresolved)))
+            Ok::<_, BemError>(rise.widened(of(&fine.errors)))
         };
         let by_depth = match (fine.by_depth, coarse.by_depth) {
             (Some(fine_profile), Some(coarse)) => {
                 let mean = estimate(fine_profile.mean().value, coarse.mean().value)?;
-                let error = fine.unresolved_by_depth + DEPTH_ERROR * mean.value.abs();
+                let error = fine.error_by_depth + DEPTH_ERROR * mean.value.abs();
                 Some(fine_profile.with_mean(mean.widened(error)))
             }
             _ => None,
@@ -416,14 +416,10 @@ impl AreaCorrection {
         })
     }
 
-    /// Relative error of a temperature by shear, of which `mean` is the part of its mean over a period.
-    fn relative_error(&self, temperature: f64, mean: f64) -> f64 {
-        if temperature <= 0.0 {
-            return 0.0;
-        }
-        let local = (temperature - mean) / temperature;
-        local.abs() * (self.local_error + self.exponent_error)
-            + (mean / temperature) * self.area_error
+    /// Error of a temperature by shear, of which `mean` is the part of its mean over a period, \[K].
+    fn error(&self, temperature: f64, mean: f64) -> f64 {
+        let local_error = self.local_error + self.exponent_error;
+        local_error * (temperature - mean).abs() + self.area_error * mean.abs()
     }
 }
 
@@ -499,10 +495,10 @@ impl Heated<'_> {
             return Ok(Solution {
                 temperature,
                 averages: Averages::default(),
-                unresolved: Averages::default(),
+                errors: Averages::default(),
                 sampling_error: 0.0,
                 by_depth: None,
-                unresolved_by_depth: 0.0,
+                error_by_depth: 0.0,
             });
         };
         let averages_of = |rises: &[f64], around_the_contact: f64| {
@@ -518,12 +514,14 @@ impl Heated<'_> {
         let averages = averages_of(&temperature, shear_around + bulk_around);
         // The contact area is an error of the heat of the interface.
         let of_shear = averages_of(&by_shear, shear_around);
-        let area_error = (self.area).relative_error(of_shear.mean, self.mean_of_period(&by_shear));
+        let mean_by_shear = self.mean_of_period(&by_shear);
         // Waves that are not resolved are an error of the heat of the bulk, and of the places where it is dissipated.
         let relative_error = (around.as_ref()).map_or(0.0, |(found, _)| found.relative_error);
         let of_bulk = averages_of(&by_bulk, shear_around + bulk_around);
-        let error = |bulk: f64, shear: f64| relative_error * bulk.abs() + area_error * shear.abs();
-        let unresolved = Averages {
+        let error = |bulk: f64, shear: f64| {
+            relative_error * bulk.abs() + self.area.error(shear, mean_by_shear)
+        };
+        let errors = Averages {
             largest: error(of_bulk.largest, of_shear.largest),
             mean: error(of_bulk.mean, of_shear.mean),
             power_weighted_mean: error(of_bulk.power_weighted_mean, of_shear.power_weighted_mean),
@@ -531,17 +529,17 @@ impl Heated<'_> {
         let by_depth = around.and_then(|(around, absorbed_flux)| {
             self.depth_profile(&around, &absorbed_flux, averages.mean)
         });
-        let unresolved_by_depth = by_depth.as_ref().map_or(0.0, |profile| {
+        let error_by_depth = by_depth.as_ref().map_or(0.0, |profile| {
             let from_contact = (profile.mean().value - averages.mean).abs();
-            unresolved.mean + relative_error / ERROR_OVER_POWER_ERROR * from_contact
+            errors.mean + relative_error / ERROR_OVER_POWER_ERROR * from_contact
         });
         Ok(Solution {
             averages,
-            unresolved,
+            errors,
             sampling_error: sampling_error(&temperature, hottest, grid.shape()),
             temperature,
             by_depth,
-            unresolved_by_depth,
+            error_by_depth,
         })
     }
 
