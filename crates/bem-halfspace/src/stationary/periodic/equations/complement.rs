@@ -133,11 +133,10 @@ impl Equations {
 
 #[cfg(test)]
 mod tests {
-    use rheology::{Prony, RelaxationBranch, RelaxationSpectrum};
-
     use crate::Grid;
     use crate::parallel::reductions::mean;
     use crate::stationary::periodic::PeriodicControl;
+    use crate::stationary::periodic::equations::elimination::tests::stiffening_solid;
     use crate::stationary::periodic::equations::{AllowedGaps, Equations};
     use crate::stationary::periodic::kernel::Sliding;
 
@@ -147,12 +146,7 @@ mod tests {
     /// mean.
     #[test]
     fn the_gaps_of_few_open_elements_close_all_others() {
-        let branches = vec![RelaxationBranch {
-            modulus: 999.0,
-            relaxation_time: 1.0,
-        }];
-        let spectrum = RelaxationSpectrum::new(1.0, 0.0, branches).expect("a spectrum");
-        let material = Prony::new(spectrum).expect("a material");
+        let material = stiffening_solid();
         let grid = Grid::new([SIDE; 2], [1.0 / SIDE as f64; 2]).expect("a grid");
         let sliding = Sliding::new(&material, 0.3).expect("a solid");
         let control = PeriodicControl::MeanPressure(1.0);

@@ -134,7 +134,7 @@ fn translation_invariant(
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use rheology::{Compressible, Prony, RelaxationBranch, RelaxationSpectrum};
 
     use crate::parallel::reductions::mean;
@@ -145,15 +145,20 @@ mod tests {
 
     const SIDE: usize = 24;
 
-    /// Few elements in contact, then few open ones, with an arbitrary gap, under a mean pressure and at a depth.
-    #[test]
-    fn a_direct_solve_closes_all_gaps_on_the_active_set() {
+    /// A solid whose moduli differ by a factor of 1000.
+    pub(in crate::stationary::periodic::equations) fn stiffening_solid() -> Prony {
         let branches = vec![RelaxationBranch {
             modulus: 999.0,
             relaxation_time: 1.0,
         }];
         let spectrum = RelaxationSpectrum::new(1.0, 0.0, branches).expect("a spectrum");
-        let material = Prony::new(spectrum).expect("a material");
+        Prony::new(spectrum).expect("a material")
+    }
+
+    /// Few elements in contact, then few open ones, with an arbitrary gap, under a mean pressure and at a depth.
+    #[test]
+    fn a_direct_solve_closes_all_gaps_on_the_active_set() {
+        let material = stiffening_solid();
         let grid = Grid::new([SIDE; 2], [1.0 / SIDE as f64; 2]).expect("a grid");
         let solid = Compressible::new(&material, 0.3).expect("a ratio");
         let layer = Layer::new(&solid, 0.1).expect("a thickness");
