@@ -9,8 +9,6 @@ use rheology::Material as _;
 use crate::estimate::averages::Refinement;
 use crate::estimate::quantities::{Name, Quantities};
 
-/// Index of the friction from the dissipated power in vectors of quantities, after those of [`Name`].
-const DISSIPATED_FRICTION: usize = Name::IN_ORDER.len();
 /// Convergence order that the front of the contact causes (docs/theory/stationary-half-space.md, "Scatter, order, error bar").
 pub(crate) const FRONT_ORDER: f64 = 1.5;
 /// Error of each end of a contact, in elements. Chosen above one element (case of `evidence tuning`).
@@ -67,8 +65,6 @@ impl<S, O> ContactEstimate<S, O> {
 pub(crate) struct OnGrid<S, O> {
     /// Values of all quantities.
     pub(crate) quantities: Quantities<f64>,
-    /// Friction coefficient from the dissipated power; `None` unless the state is stationary.
-    pub(crate) dissipated: Option<f64>,
     /// Parts of the error of the target that all grids have in common, so that refinement does not reveal them.
     pub(crate) common_error: ErrorParts,
     /// Lower bound of the discretisation error of the target, in its unit, because grids may agree by chance.
@@ -86,8 +82,7 @@ pub(crate) struct OnGrid<S, O> {
 }
 
 impl<S, O> OnGrid<S, O> {
-    /// The quantities of the grid for the refinement, in the order of [`Name::IN_ORDER`], then the friction from dissipation if it is
-    /// known.
+    /// The quantities of the grid for the refinement, in the order of [`Name::IN_ORDER`].
     ///
     /// Normal force and the quantity `target` control the refinement: they are refined to the error asked for.
     fn quantities_for(&self, target: Name) -> Vec<Quantity> {
@@ -101,14 +96,7 @@ impl<S, O> OnGrid<S, O> {
             order: self.area_order.filter(|_| name == Name::Area),
             ..Quantity::from(value)
         };
-        // The friction from dissipation is appended as a further quantity.
-        let dissipated = self.dissipated.map(|value| Quantity {
-            controls_refinement: false,
-            error_floor: self.target_uncertainty,
-            ..Quantity::from(value)
-        });
-        let quantities = self.quantities.iter().map(quantity);
-        quantities.chain(dissipated).collect()
+        self.quantities.iter().map(quantity).collect()
     }
 }
 
@@ -131,8 +119,6 @@ pub(crate) struct Resolution<'w> {
     pub(crate) target: Target,
     /// True if the largest pressure is known to be bounded on refinement, so that it has an estimate.
     pub(crate) has_peak: bool,
-    /// The result is the friction from dissipation if its error is below this multiple of the error of that from slopes; 0 for never.
-    pub(crate) max_dissipation_error_ratio: f64,
 }
 
 impl Resolution<'_> {
@@ -189,9 +175,8 @@ pub(crate) fn resolve<S, O, E: Into<Reached>>(
     let (control, target) = (resolution.control, resolution.target_name());
     let quantities = |contact: &OnGrid<S, O>| contact.quantities_for(target);
     let common_errors = |contact: &OnGrid<S, O>, _: &dyn Fn(f64)| {
-        let mut errors = vec![ErrorParts::NONE; DISSIPATED_FRICTION + 1];
+        let mut errors = vec![ErrorParts::NONE; Name::IN_ORDER.len()];
         errors[target.index()] = contact.common_error;
-        errors[DISSIPATED_FRICTION] = contact.common_error;
         Ok(errors)
     };
     // Refine the grid until the error is reached. The errors that all grids share are added to those of the elements.
@@ -199,21 +184,11 @@ pub(crate) fn resolve<S, O, E: Into<Reached>>(
     let errors = &refined.error;
     let values = &refined.value.quantities;
     let known = values.map(|name, value| Estimate::new(value, errors[name.index()]));
-    // Take the friction from the dissipated power if its error is small enough compared with that of the friction from slopes.
-    let mut friction = known.friction_coefficient;
-    let mut error_parts = refined.parts[target.index()];
-    if let Some(dissipated) = refined.value.dissipated {
-        let error = errors[DISSIPATED_FRICTION];
-        if error < resolution.max_dissipation_error_ratio * friction.error {
-            friction = Estimate::new(dissipated, error);
-            error_parts = refined.parts[DISSIPATED_FRICTION];
-        }
-    }
     // A prescribed force or depth has no error, and replaces the computed one.
     let [given_force, given_depth] = prescribed_estimates(control);
     let estimate = finish(ContactEstimate {
-        friction_coefficient: friction,
-        error_parts,
+        friction_coefficient: known.friction_coefficient,
+        error_parts: refined.parts[target.index()],
         normal_force: given_force.unwrap_or(known.normal_force),
         indentation_depth: Some(given_depth.unwrap_or(known.indentation_depth)),
         contact_area: known.contact_area,

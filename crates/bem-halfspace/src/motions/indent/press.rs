@@ -326,7 +326,6 @@ fn refine_press(
         control,
         target: Target::Depth,
         has_peak: spring.has_pressure && bars::peak_has_limit(surface, &spring.unit),
-        max_dissipation_error_ratio: 0.0,
     };
     let punch = surface.as_axisymmetric().and_then(radius_of_punch);
     let solve = |elements: usize, _: &dyn Fn(f64)| {
@@ -422,7 +421,6 @@ impl PressSolution {
                 contact_area: self.contact_area,
                 peak_pressure: self.pressure.as_ref().map_or(0.0, PressureField::largest),
             },
-            dissipated: None,
             common_error: ErrorParts {
                 iteration: Some(options.contact.tolerance * tolerance_factor * target),
                 ..ErrorParts::NONE

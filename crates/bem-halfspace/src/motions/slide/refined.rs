@@ -205,7 +205,6 @@ impl<'a> PlannedSlide<'a> {
                 Target::Friction
             },
             has_peak: peak_has_limit(self.surface, self.elastomer),
-            max_dissipation_error_ratio: 0.0,
         };
         let march = |elements, report: &dyn Fn(f64)| self.march(elements, report);
         bars::resolve(&resolution, march, |mut estimate: SlideEstimate| {
@@ -285,7 +284,6 @@ impl<'a> PlannedSlide<'a> {
         let iteration = || iteration_error(self.surface, &transient.pressure);
         Ok(OnGrid {
             quantities,
-            dissipated: None,
             common_error: ErrorParts {
                 iteration: (!self.creep.is_elastic()).then(iteration),
                 truncation: end.truncation,

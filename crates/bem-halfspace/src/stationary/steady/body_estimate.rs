@@ -22,10 +22,6 @@ use crate::{BemError, Elastomer};
 /// causes the order 3/2, a contact boundary that follows the elements a lower one. Chosen: with 1.1 the error estimates hold in
 /// 98.8 of 100 random scenes (docs/calibration.md), with 3/2 in 90. With 1 they are wider. It has a case of `evidence tuning`.
 const BODY_ORDER: f64 = 1.1;
-/// Ratio of the error of the friction from dissipation to that of the friction from slopes, on a given number of elements, below
-/// which the former replaces the latter. Chosen below 1, because the smaller of two error estimates holds less often than either
-/// (case of `evidence tuning`). With 0.5 a round-tipped cone on 32 elements is off by 2.4 bars.
-const MAX_DISSIPATION_ERROR_RATIO_ON_ELEMENTS: f64 = 0.2;
 /// Largest number of footprints that are tried. Chosen to limit the time: a contact that reaches the boundary of the last one is
 /// an error. Each is 1.5 times as long as the one before, so that the last is 11 times as long as the first.
 const MAX_FOOTPRINTS: usize = 7;
@@ -200,7 +196,6 @@ fn refine_state(
         let mut resolution = resolution(request, load.control(), has_peak);
         if plan.has_edges {
             resolution.goal.order = FLAT_END_ORDER;
-            resolution.max_dissipation_error_ratio = f64::INFINITY;
         } else {
             resolution.goal.order = bars::order_of_friction(plan.apex_exponent, BODY_ORDER);
         }
@@ -212,6 +207,11 @@ fn refine_state(
             let uncertainty = state.pressure.friction_uncertainty(surface);
             let mut on_grid = state.on_grid(&creep, plan.kinks, options, load.sliding_distance());
             on_grid.target_uncertainty = uncertainty;
+            if plan.has_edges {
+                // The dissipated power needs no slopes, which are not defined at edges.
+                let friction = on_grid.state.friction_from_dissipation;
+                on_grid.quantities.friction_coefficient = friction;
+            }
             Ok(on_grid)
         };
         bars::resolve(&resolution, solve, finish)
@@ -250,7 +250,6 @@ pub(super) fn resolution(request: Request<'_>, control: Control, has_peak: bool)
         control,
         target: Target::Friction,
         has_peak,
-        max_dissipation_error_ratio: MAX_DISSIPATION_ERROR_RATIO_ON_ELEMENTS,
     }
 }
 

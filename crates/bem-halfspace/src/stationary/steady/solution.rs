@@ -88,7 +88,6 @@ impl SteadySliding {
                 contact_area: self.contact_area,
                 peak_pressure: self.pressure.largest(),
             },
-            dissipated: Some(self.friction_from_dissipation),
             common_error: ErrorParts {
                 iteration: Some(self.iteration_error()),
                 ..ErrorParts::discretisation_only(subgrid_friction)
