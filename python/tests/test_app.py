@@ -132,6 +132,12 @@ def test_a_stopped_computation_goes_on_also_after_a_new_start(folder: Path) -> N
     (folder / "tread-rubber.csv").write_bytes((folder / "tread-rubber.csv").read_bytes() + b"\n")
     again.compute().wait()
     assert again.computation.name == "friction-3"
+    # Earlier ones are found again.
+    named = again.computations()
+    assert list(named) == ["friction-3", "friction-2", "friction-1"]
+    assert named["friction-1"] == "friction-1: tread-rubber.csv, sphere, normal force 1 N; 60 of 60 points"
+    again.show("friction-1")
+    assert len(again.sweeps()["friction-1"]) == 60 and again.choices.force == 2.0
 
 
 def test_points_are_drawn_with_their_parts_and_what_was_measured(folder: Path) -> None:

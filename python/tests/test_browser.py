@@ -149,6 +149,7 @@ def test_from_three_files_to_friction_over_speed_and_temperature(browser: Any, s
     table.wait_for()
     assert all(text in table.inner_text() for text in vf._results.with_bars(sweep["friction_coefficient"], sweep["friction_coefficient_error"]))
     visitor.press("all points as a table")
+    visitor.page.get_by_role("button", name="Compute").scroll_into_view_if_needed()
     visitor.page.evaluate("window.scrollTo(0, 0)")
     visitor.shoot("browser")
     contact(visitor)
@@ -306,6 +307,13 @@ def test_wrong_input_is_said_beside_its_field(browser: Any, servers: dict[str, S
     visitor.press("Compute")
     visitor.sees(re.compile(r"friction-\d+: 2 of 2 points, finished"))
     assert len(list(servers["wrong"].folder.glob("friction-*.json"))) == 2
+    # The picture of a finished computation is found again after another one without points.
+    visitor.choose("computation", "friction-1")
+    visitor.sees("friction-1: 0 of 10 points, ")
+    assert page.locator(".scatterlayer .points path").count() == 0
+    visitor.choose("computation", "friction-2")
+    visitor.sees("friction-2: 2 of 2 points, finished")
+    page.wait_for_function("document.querySelectorAll('.scatterlayer .points path').length === 2")
     visitor.leave()
 
 

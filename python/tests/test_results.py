@@ -168,12 +168,9 @@ def test_the_picture_of_a_sweep_has_what_the_program_draws(tmp_path: Path) -> No
     measured = vf.read_friction(ROOT / "examples/data/dry-friction.csv")
     axes = table.plot(measured=measured, name="ball", style="-.")
     texts = [text.get_text() for text in axes.get_legend().get_texts()]
-    assert texts[:3] == [
-        "temperature T [°C]: 0, ball, hysteresis",
-        "temperature T [°C]: 20, ball, hysteresis",
-        "temperature T [°C]: 0, ball",
-    ]
-    assert "measured, 0 °C" in texts and len(texts) == 4 + np.unique(measured.temperature).size
+    assert set(texts[:5]) == {"temperature T [°C]: 0", "temperature T [°C]: 20", "ball", "hysteresis", "shear"}
+    assert "measured, 0 °C" in texts and len(texts) == 5 + np.unique(measured.temperature).size
+    assert axes.get_legend().get_bbox_to_anchor().x0 >= axes.bbox.x1, "many entries stand beside the picture"
     upper = axes.collections[1].get_paths()[0].vertices[:, 1].max()
     band = table["friction_coefficient"] + table["friction_coefficient_material_error"]
     assert any(np.isclose(upper, band[points].max(), rtol=1e-12) for points in (slice(3), slice(3, None)))

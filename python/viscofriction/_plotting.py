@@ -37,8 +37,12 @@ PREFIXES = ["p", "n", "µ", "m", "", "k", "M", "G"]
 DARKEST = 0.01
 # With more lines than these a legend says nothing.
 LINES = 6
-# Beside friction, as the program draws them: the key in a table, what the legend says, and the line.
-BESIDE = (("friction_from_hysteresis", "hysteresis", ":"), ("persson_friction_coefficient_2006", "Persson (2006)", "--"))
+# Beside friction: the key in a table, what the legend says, and the line.
+BESIDE: tuple[tuple[str, str, Any], ...] = (
+    ("friction_from_hysteresis", "hysteresis", ":"),
+    ("friction_from_shear", "shear", "--"),
+    ("persson_friction_coefficient_2006", "Persson (2006)", (0, (8, 3))),
+)
 
 
 def axes(ax: Any) -> Any:
@@ -124,7 +128,7 @@ class Beside:
     """
 
     band: Numbers | None = None
-    curves: tuple[tuple[str, str, Numbers], ...] = ()
+    curves: tuple[tuple[str, Any, Numbers], ...] = ()
     name: str = ""
     style: str = "-"
 
@@ -163,10 +167,11 @@ def lines(
     (name, where), (quantity, values, errors) = over, drawn
     of = np.array(families(others, where.size))
     distinct = list(dict.fromkeys(of.tolist()))
+    # Of several sweeps in one picture, colours and kinds of lines are named once.
+    known = ax.get_legend_handles_labels()[1]
     for family in distinct:
         of_family = np.flatnonzero(of == family)
         order = of_family[np.argsort(where[of_family], kind="stable")]
-        named = ", ".join(filter(None, (family, beside.name)))
         bars = ax.errorbar(
             where[order],
             values[order],
@@ -175,17 +180,26 @@ def lines(
             marker="o",
             markersize=3,
             linestyle=beside.style,
-            label=named or None,
+            label=None if family in known else family or None,
         )
         colour = bars.lines[0].get_color()
         if beside.band is not None:
             edges = values[order] - beside.band[order], values[order] + beside.band[order]
             ax.fill_between(where[order], *edges, color=colour, alpha=0.2, linewidth=0)
-        for what, style, curve in beside.curves:
-            ax.plot(where[order], curve[order], style, color=colour, linewidth=1, label=", ".join(filter(None, (named, what))))
+        for _, style, curve in beside.curves:
+            ax.plot(where[order], curve[order], linestyle=style, color=colour, linewidth=1)
+    for what, style in [(beside.name, beside.style), *(curve[:2] for curve in beside.curves)]:
+        if what and what not in known:
+            ax.plot([], [], linestyle=style, color="0.4", linewidth=1, label=what)
     if 1 < len(distinct) <= LINES or beside.name or beside.curves:
-        ax.legend()
+        legend(ax)
     return tidy(ax, label(name), label(quantity), (where, None))
+
+
+def legend(ax: Any) -> None:
+    """A legend in the picture, or at its right where that would cover the lines."""
+    is_long = len(ax.get_legend_handles_labels()[1]) > LINES
+    ax.legend(**({"loc": "upper left", "bbox_to_anchor": (1.0, 1.0)} if is_long else {}))
 
 
 def grid(ax: Any, over: list[tuple[str, Numbers]], drawn: tuple[str, Numbers]) -> Any:
@@ -207,7 +221,7 @@ def measured(ax: Any, velocity: Numbers, mu: Numbers, error: Numbers | None, tem
         name = "measured" if one is None else f"measured, {one:g} °C"
         yerr = None if error is None else error[chosen]
         ax.errorbar(velocity[chosen], mu[chosen], yerr, fmt="xv^s+d"[nth % 6], color="0.5", markersize=5, capsize=2, label=name)
-    ax.legend()
+    legend(ax)
     return ax
 
 

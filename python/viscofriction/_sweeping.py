@@ -114,18 +114,20 @@ class Sweep(Compared):
         measured: MeasuredFriction | None = None,
         name: str = "",
         style: str = "-",
+        parts: bool = True,
     ) -> Any:
         """Draws a quantity with its bars over the key that has the most values, a line for each combination of the others where they
         are few, or as colours over two; returns the axes of matplotlib.
 
-        Beside friction are its part from hysteresis, that of Persson's theory, and the band of an uncertain material, where they are
+        Beside friction are its parts from hysteresis and shear, Persson's theory, and the band of an uncertain material, where they are
         known, and ``measured`` friction. ``name`` is what the legend says of all lines, and ``style`` their line.
+        Without ``parts`` only the lines, bars and bands are drawn.
         """
         from . import _plotting
 
         keys = {key: self[key] for key in self.keys}
         drawn = (quantity, self[quantity], self[quantity + "_error"])
-        curves = _plotting.BESIDE if quantity == "friction_coefficient" else ()
+        curves = _plotting.BESIDE if parts and quantity == "friction_coefficient" else ()
         known = tuple((what, line, values) for key, what, line in curves if (values := self._known(key)) is not None)
         beside = _plotting.Beside(self._known(f"{quantity}_material_error"), known, name, style)
         axes = _plotting.table(_plotting.axes(ax), keys, drawn, beside)

@@ -110,6 +110,14 @@ class Choices:
         unit = "Pa" if self.is_periodic else "N/m" if self.kind("indenter") == "cylinder" else "N"
         return f"{self.force_key.replace('_', ' ')} [{unit}]"
 
+    @property
+    def title(self) -> str:
+        """Material, body, load, and what else is chosen, in a few words."""
+        body = [self.kind("indenter"), self.keys("indenter").get("file")]
+        load = None if self.force is None else f"{self.force_label.replace(' [', f' {self.force:g} ').rstrip(']')}"
+        effects = [family for family in FAMILIES[1:] if family in self.tables]
+        return ", ".join(filter(None, [self.material, *body, load, *effects]))
+
     def to_json(self) -> str:
         """A text from which ``from_json`` makes the same choices."""
         return json.dumps(asdict(self), indent=1, ensure_ascii=False)

@@ -116,8 +116,10 @@ def drawn(sweeps: Mapping[str, Sweep], measured: MeasuredFriction | None) -> Any
     ax = new_axes((8.0, 6.0))
     for part, sweep in sweeps.items():
         ax.set_prop_cycle(color=COLOURS)
-        if len(sweep):
-            sweep.plot(ax, measured=None if _beside(part) else measured, name=_beside(part)[2:], style="-." if _beside(part) else "-")
+        if len(sweep) and _beside(part):
+            sweep.plot(ax, name="without heat", style="-.", parts=False)
+        elif len(sweep):
+            sweep.plot(ax, measured=measured)
     return ax
 
 

@@ -186,7 +186,7 @@ class Page:
         chosen = self.chosen
         with ui.card():
             raw("<h2>1. Material</h2>")
-            self.file("material", "table of moduli", TABLES | {".toml"}, chosen.material, partial(self.choose_material, "material"))
+            self.file("material", "table of moduli", TABLES | {".toml"}, chosen.material, self.choose_table)
             with ui.expansion("master curve").classes("wide"):
                 name = "reference_temperature"
                 self.number(name, "reference temperature", chosen.reference_temperature, partial(self.choose_material, name))
@@ -202,6 +202,11 @@ class Page:
 
     def choose_one(self, name: str, value: Any) -> None:
         self.choose(**{name: value})
+
+    def choose_table(self, name: str) -> None:
+        # Temperatures of another material may be outside the range of this one.
+        self.fields["material.file.temperature"].set_value("")
+        self.choose_material("material", name)
 
     def choose_material(self, name: str, value: Any) -> None:
         self.choose_one(name, value)
@@ -361,6 +366,7 @@ class Page:
                 self.go = ui.button("Compute", on_click=self.compute).props("no-caps")
                 self.halt = ui.button("Stop", on_click=lambda: self.project.stop()).props("no-caps color=negative")
                 self.told = ui.label().props("role=status")
+            self.shown = ui.select({}, label="computation", on_change=self.show_other).classes("wide")
             self.bar = ui.linear_progress(0.0, show_value=False).props('aria-label="points that are computed"')
             self.problem = ui.label().classes("text-negative wide").props("role=alert")
             self.plot = ui.plotly(_curves.plotly({}, None)).classes("wide").props('role=img aria-label="friction over the speed"')
@@ -386,6 +392,13 @@ class Page:
             field.error = None
         self.tried(self.project.compute)
 
+    def show_other(self, event: events.ValueChangeEventArguments[Any]) -> None:
+        """Shows another computation of the folder, or again this one where another cannot be shown."""
+        if event.value and event.value != self.project.shown()[1]:
+            self.seen = None
+            self.problem.set_text("")
+            self.tried(lambda: self.project.show(event.value))
+
     def choose_measured(self, name: str) -> None:
         self.choose(measured=name)
         self.tried(self.project.measured, "measured")
@@ -401,6 +414,7 @@ class Page:
         if computation is None or state == self.seen:
             return
         self.seen = state
+        self.shown.set_options(self.project.computations(), value=computation.name)
         self.draw()
         if computation.problem:
             self.refuse(ValueError(computation.problem))

@@ -7,6 +7,8 @@ import os
 import re
 import threading
 import time
+from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Literal
@@ -47,14 +49,11 @@ class Computation:
         self.state: State = "finished" if self.done == self.total else "stopped" if self.done else "ready"
 
     @classmethod
-    def newest(cls, folder: Path) -> Computation | None:
-        """That of the folder with the highest number whose files are whole, or None."""
+    def all(cls, folder: Path) -> Iterator[Computation]:
+        """Those of the folder whose files are whole, the newest first."""
         for name in _choices.named(folder):
-            try:
-                return cls(folder, Choices.from_json((folder / f"{name}.json").read_text("utf-8")), name)
-            except (ValueError, TypeError, OSError):
-                continue
-        return None
+            with suppress(ValueError, TypeError, OSError):
+                yield cls(folder, Choices.from_json((folder / f"{name}.json").read_text("utf-8")), name)
 
     def table(self, part: str) -> Path:
         """The file of the points of a part."""
@@ -156,7 +155,7 @@ class Project:
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
-        self.computation = Computation.newest(folder)
+        self.computation = next(Computation.all(folder), None)
         self.choices = Choices() if self.computation is None else self.computation.choices
         draft = self._draft
         if draft.is_file():
@@ -188,6 +187,16 @@ class Project:
         self.computation = Computation(self.folder, self.choices, name)
         self.computation.start()
         return self.computation
+
+    def computations(self) -> dict[str, str]:
+        """What the computations of the folder are of, by their names, the newest first."""
+        return {one.name: f"{one.name}: {one.choices.title}; {one.done} of {one.total} points" for one in Computation.all(self.folder)}
+
+    def show(self, name: str) -> None:
+        """Shows another computation of the folder. Raises ValueError while one runs."""
+        if self.is_running:
+            raise ValueError("a computation runs; stop it before another one is shown")
+        self.computation = next((one for one in Computation.all(self.folder) if one.name == name), self.computation)
 
     def files(self, ends: set[str]) -> list[str]:
         """The names of the files in the folder with one of these ends, without those of its computations."""
