@@ -144,6 +144,52 @@ fn the_bulk_under_a_hertzian_pressure_has_the_temperature_of_point_sources() {
     }
 }
 
+/// Heat reaches the surface of a fast contact from a layer that the elements do not resolve. Bars on any number of elements overlap, those of
+/// grids whose number of elements is not a multiple of another one, too.
+#[test]
+fn bars_of_a_layer_that_elements_do_not_resolve_overlap() {
+    let velocity = 1.0;
+    let (modulus, time) = (1e6, 0.01 * RADIUS / velocity);
+    let material = solid(modulus, time);
+    let rises = [10, 16, 20, 24, 33, 40, 48].map(|n| {
+        let field = hertz(n);
+        let contact = SlidingContact {
+            pressure: &field,
+            material: &material,
+            factors: ModulusFactors::NONE,
+            wave_shift: None,
+            velocity,
+            shear_power: 0.0,
+            contact_area: None,
+            bulk_power: 1e-3,
+        };
+        let rise = heated(&contact, ContactKind::Body);
+        [rise.largest, rise.mean, rise.flux_weighted_mean]
+    });
+    for (index, one) in rises.iter().enumerate() {
+        for other in &rises[..index] {
+            for (one, other) in one.iter().zip(other) {
+                let apart = (one.value - other.value).abs();
+                assert!(apart <= one.error + other.error, "{one} and {other}");
+            }
+        }
+    }
+    // The temperature grows with each halving of the elements, so that coarse bars contain the values on finer grids.
+    let ([coarse, ..], [.., fine]) = (&rises, &rises);
+    assert!(
+        fine[1].value > 1.5 * coarse[1].value,
+        "{} and {}",
+        fine[1],
+        coarse[1]
+    );
+    assert!(
+        fine[1].value < coarse[1].value + coarse[1].error,
+        "{} and {}",
+        fine[1],
+        coarse[1]
+    );
+}
+
 /// A wave of pressure q in full contact dissipates p(z) = 4q³ z² e^(−2qz) everywhere alike, of which the surface has the mean temperature
 /// (√(4Dt/π) − 3/(2q)) Q/k at long times, and the material that dissipates (√(4Dt/π) − 63/(32q)) Q/k: the mean of the larger of two depths
 /// of this distribution. A shift of the material changes the power alone.

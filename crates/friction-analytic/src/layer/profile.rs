@@ -44,9 +44,6 @@ const MAX_RADIUS_RATIO: f64 = 3.0;
 /// Factor on the radius per step of the search for a depth. Chosen: it changes the number of evaluations only. A larger one may
 /// end at a larger radius, whose equations take longer.
 const SEARCH_GROWTH: f64 = 1.25;
-/// Ratio of the depth at which the interpolated radius aims to the depth that is sought. Chosen close to 1: the cost of the
-/// equations grows like the cube of the radius (case of `evidence tuning`).
-const DEPTH_MARGIN: f64 = 1.02;
 /// Largest parameter σ of a [`GradedMap`]. Derived: with it, x ↦ y is linear to 2e-3, the relative size 1/(6 σ²) of the next
 /// term. It decides the number of coefficients, not the radii.
 const MAX_SIGMA: f64 = 10.0;
@@ -379,16 +376,13 @@ impl<'a> LayerProblem<'a> {
             contact = self.contact((SEARCH_GROWTH * contact.radius).min(end))?;
         }
 
-        // Interpolate the radius as a power of the depth, and keep it if it is deep enough.
+        // Interpolate the radius as a power of the depth, and keep it if it is deep enough: the cost of the equations grows like the
+        // cube of the radius.
         if let Some(previous) = previous.filter(|previous| previous.depth > 0.0) {
-            let part = (DEPTH_MARGIN * depth / previous.depth).ln()
-                / (contact.depth / previous.depth).ln();
-            if part < 1.0 {
-                let radius = previous.radius * (contact.radius / previous.radius).powf(part);
-                let is_deep_enough = self.contact(radius)?.depth >= depth;
-                if is_deep_enough {
-                    return Ok(radius);
-                }
+            let part = (depth / previous.depth).ln() / (contact.depth / previous.depth).ln();
+            let radius = previous.radius * (contact.radius / previous.radius).powf(part);
+            if part < 1.0 && self.contact(radius)?.depth >= depth {
+                return Ok(radius);
             }
         }
         Ok(contact.radius)

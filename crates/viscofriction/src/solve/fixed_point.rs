@@ -462,10 +462,10 @@ impl FixedPoint<'_> {
             if others <= AIMED_SHARE * allowed || is_settling {
                 continue;
             }
+            // Changes from grid to grid are no slopes over the value.
+            before = None;
             accuracy = match accuracy {
                 Accuracy::Elements(_) => {
-                    // Changes from grid to grid are neither slopes over the value nor lack of progress.
-                    before = None;
                     let without_correction = Estimate::new(friction.value, others);
                     grids.leave_out_if_too_coarse(without_correction, allowed);
                     grids.take().unwrap_or(self.problem.accuracy())

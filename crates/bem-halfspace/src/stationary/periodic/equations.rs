@@ -112,10 +112,10 @@ struct AllowedGaps {
 
 impl AllowedGaps {
     /// Whether gaps with the root mean square `rms` are allowed.
-    fn contain(&self, rms: f64, gaps: &[f32]) -> bool {
+    fn contain<T: Copy + Into<f64>>(&self, rms: f64, gaps: &[T]) -> bool {
         let largest = || {
-            gaps.iter()
-                .fold(0.0, |top, gap| larger(top, f64::from(gap.abs())))
+            let sizes = gaps.iter().map(|gap| (*gap).into().abs());
+            sizes.fold(0.0, larger)
         };
         rms <= self.rms || rms <= self.max && largest() <= self.max
     }

@@ -16,11 +16,6 @@ use crate::parallel::reductions::{add_scaled, mean};
 use crate::parallel::row_blocks::copies;
 use crate::stationary::conjugate_residuals::{GcrLimits, gcr, norm};
 
-/// Ratio of the allowed residual, the displacement by the remaining loads, to the allowed gap, both root mean squares. Chosen: the
-/// residual is measured on the open elements, and the contact may be displaced more.
-const RESIDUAL_OVER_GAP: f64 = 0.5;
-/// Expected ratio of the root mean square of gaps to the largest one. Chosen.
-const RMS_OVER_LARGEST: f64 = 0.1;
 /// Ratio of the gaps that a solution leaves to those before it, above which there is no other one. Chosen; it decides the time alone.
 const MIN_PROGRESS: f64 = 0.5;
 
@@ -42,8 +37,7 @@ impl Equations {
             max_steps: MAX_STEPS,
             truncation_depth: max_directions - 1,
         };
-        let residual = RESIDUAL_OVER_GAP * allowed.rms.max(RMS_OVER_LARGEST * allowed.max);
-        let largest_residual = residual * (open.len() as f64).sqrt();
+        let sqrt_n = (open.len() as f64).sqrt();
         let mut before = self.rms(norm(&self.gap));
         loop {
             // The loads under the present gaps, as if the open elements had no gap.
@@ -51,8 +45,8 @@ impl Equations {
             let [mut field, mut loads] = [(); 2].map(|()| vec![0.0; n]);
             self.active.scatter(&gaps, &mut field);
             self.apply_exact_inverse(&field, &mut loads);
-            // Find the gaps of the open elements that remove the loads on them. The residual is the displacement by the remaining loads:
-            // soft waves of small loads displace the contact far.
+            // Find the gaps of the open elements that remove the loads on them. The residual is the displacement by the remaining loads,
+            // because soft waves of small loads displace the contact far; on the open elements it is as small as an allowed gap.
             let mut of_open = vec![0.0; open.len()];
             let mut remaining: Vec<f64> = open.iter().map(|element| -loads[*element]).collect();
             let mut work = [(); 2].map(|()| vec![0.0; n]);
@@ -62,7 +56,8 @@ impl Equations {
                 &mut remaining,
                 limits,
                 |state, direction, image| {
-                    if state.residual_square.sqrt() <= largest_residual {
+                    let rms = state.residual_square.sqrt() / sqrt_n;
+                    if allowed.contain(rms, state.residual) {
                         return false;
                     }
                     for (value, residual) in direction.iter_mut().zip(state.source) {

@@ -39,9 +39,6 @@ const WAVES_PER_PANEL: f64 = 0.4;
 /// logarithm of the wave number. Chosen: the Gauss rule of two points then errs by (ln 1.25)⁴/4320, or 6e-7, of the fourth
 /// derivative by that logarithm (case of `evidence tuning`).
 const PANEL_RATIO: f64 = 1.25;
-/// Ratio of a wave number to the upper end of a band, below which panels have the length that they have at that wave number.
-/// Chosen: the first panel of a band from 0 on carries about a thousandth of the band (case of `evidence tuning`).
-const FIRST_PANEL_END: f64 = 1e-3;
 /// The nodes ±1/√3 of the Gauss rule of two points on [−1, 1].
 const NODES: [f64; 2] = [-0.577_350_269_189_625_8, 0.577_350_269_189_625_8];
 
@@ -63,9 +60,14 @@ impl KernelWaves<'_> {
     pub(super) fn nodes(&self, [from, to]: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
         let rows = (2 * self.max_offsets[0] + 1) as f64;
         let widest = WAVES_PER_PANEL * TAU / rows;
+        // The first panel of a band from 0 on is as long as the last one, where the integrand varies as slowly.
         let next = move |from: f64| {
-            to.min(from + widest)
-                .min(PANEL_RATIO * from.max(FIRST_PANEL_END * to))
+            let limit = if from > 0.0 {
+                PANEL_RATIO * from
+            } else {
+                to - to / PANEL_RATIO
+            };
+            to.min(from + widest).min(limit)
         };
         let ends = iter::successors(Some(from), move |from| Some(next(*from)));
         let panels = ends.take_while(move |from| *from < to);
