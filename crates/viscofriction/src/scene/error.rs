@@ -57,6 +57,14 @@ impl SceneError {
         Self::value(format!("{table}.{}", refused.parameter), refused)
     }
 
+    /// The same error at another `key`.
+    pub(crate) fn moved_to(self, key: &str) -> Self {
+        match self {
+            Self::At { problem, .. } => Self::at(key, problem),
+            other => Self::at(key, other.to_string()),
+        }
+    }
+
     /// The same error, which also says that `option` may be left out.
     pub(crate) fn or_without(self, option: &str) -> Self {
         match self {

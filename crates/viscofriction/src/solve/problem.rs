@@ -196,8 +196,7 @@ impl Problem {
             wants_gap: false,
         };
         if let Some(ambient) = ambient {
-            let refused =
-                |error: SceneError| SceneError::at("heat.ambient_temperature", error.to_string());
+            let refused = |error: SceneError| error.moved_to("heat.ambient_temperature");
             problem = problem.at_temperature(ambient).map_err(refused)?;
         }
         // Reject combinations of body, material and load that no method answers, and uncertainties that are out of range.

@@ -400,7 +400,7 @@ fn wrong_numbers_of_heat_are_refused() {
         (
             "diff",
             "ambient_temperature = 300.0\ndiff",
-            "heat.ambient_temperature",
+            "heat.ambient_temperature: the temperature must be from",
         ),
         (
             "diff",
