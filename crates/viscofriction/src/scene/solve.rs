@@ -17,7 +17,7 @@ pub struct Solve {
     /// What the elastomer is; without it the half space, or the one-dimensional model of the method.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub model: Option<Model>,
-    /// Relative error of the friction coefficient, or of the depth where nothing slides, above 0 and at most 0.1; without it 1e-3, with strain 1e-2.
+    /// Relative error of the friction coefficient, or of the depth where nothing slides, above 0 and at most 0.1; without it 1e-3, with heat or strain 1e-2.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub relative_error: Option<f64>,
     /// Number of elements along the contact, or along the longer edge of a period in elements, from 8 to 100000, instead of a
@@ -94,9 +94,9 @@ const MAX_BYTES: f64 = (1_u64 << 53) as f64;
 /// Relative error of the requested quantity if the scene gives neither error nor elements (chosen; below the error of measured
 /// moduli).
 const DEFAULT_RELATIVE_ERROR: f64 = 1e-3;
-/// Relative error of a scene with strain dependence that states none. Chosen: the strain of a contact takes long to be known to better
-/// than 1 %, and measured factors are hardly better.
-const DEFAULT_ERROR_WITH_STRAIN: f64 = 1e-2;
+/// Relative error of a scene with heat or strain dependence that states none. Chosen: the temperature and the strain of a contact take long
+/// to be known to better than 1 %, and measured laws are hardly better.
+const DEFAULT_ERROR_WITH_FIXED_POINT: f64 = 1e-2;
 
 impl Method {
     /// Name of the method in a scene file.
@@ -116,8 +116,8 @@ impl Method {
 
 impl Solve {
     /// The accuracy that the scene requests, validated: relative error or number of elements. Without either it depends on whether the
-    /// moduli depend on the strain.
-    pub(crate) fn accuracy(&self, has_strain: bool) -> Result<Accuracy, SceneError> {
+    /// answer is a fixed point of its temperature or its strain.
+    pub(crate) fn accuracy(&self, is_fixed_point: bool) -> Result<Accuracy, SceneError> {
         match (self.relative_error, self.elements) {
             (Some(_), Some(_)) => Err(SceneError::at(
                 "solve.elements",
@@ -130,8 +130,8 @@ impl Solve {
                 Ok(Accuracy::Elements(elements))
             }
             (given, None) => {
-                let default = if has_strain {
-                    DEFAULT_ERROR_WITH_STRAIN
+                let default = if is_fixed_point {
+                    DEFAULT_ERROR_WITH_FIXED_POINT
                 } else {
                     DEFAULT_RELATIVE_ERROR
                 };

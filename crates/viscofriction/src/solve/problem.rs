@@ -185,7 +185,9 @@ impl Problem {
             factors: ModulusFactors::NONE,
             by_depth: None,
             wave_shift: None,
-            accuracy: scene.solve.accuracy(scene.strain.is_some())?,
+            accuracy: scene
+                .solve
+                .accuracy(scene.strain.is_some() || scene.heat.is_some())?,
             method: scene.solve.method,
             model: scene.solve.model.or(of_method).unwrap_or(Model::HalfSpace),
             threads: scene.solve.checked_threads()?,
