@@ -117,8 +117,9 @@ pub enum BemError {
     /// The contact conditions were not satisfied to the tolerance within the iterations allowed.
     #[error(
         "the contact was not solved: after {iterations} iterations the residual is {:.1e}, \
-         the tolerance {tolerance:.1e}",
-        MessageNumber(*residual)
+         the tolerance {tolerance:.1e}{}",
+        MessageNumber(*residual),
+        if residual <= tolerance { ", and the elements in contact still change" } else { "" }
     )]
     ContactNotConverged {
         /// Number of iterations.
