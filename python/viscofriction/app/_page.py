@@ -413,8 +413,10 @@ class Page:
         state = computation and (computation, computation.done, computation.state, self.chosen.measured)
         if computation is None or state == self.seen:
             return
+        if self.seen is None or (self.seen[0], self.seen[2]) != (computation, computation.state):
+            # All tables of the folder are read, which takes too long for each point.
+            self.shown.set_options(self.project.computations(), value=computation.name)
         self.seen = state
-        self.shown.set_options(self.project.computations(), value=computation.name)
         self.draw()
         if computation.problem:
             self.refuse(ValueError(computation.problem))

@@ -93,7 +93,7 @@ const AREA_EXPONENTS: [f64; 2] = [0.5, 0.75];
 const WIDTH_EXPONENTS: [f64; 2] = [0.0, 0.5];
 
 /// Largest ratio of the temperatures by the bulk on successive grids that the error of an unresolved layer assumes. Measured: it grows at
-/// most in proportion to the number of elements, by ratios of 1.6 to 1.8 from 24 to 192 elements under a ball on a glassy material; larger
+/// most in proportion to the number of elements, by ratios of 1.6 to 1.7 from 24 to 192 elements under a ball on a glassy material; larger
 /// ratios are those of grids that are too coarse.
 const LARGEST_GROWTH: f64 = 2.0;
 

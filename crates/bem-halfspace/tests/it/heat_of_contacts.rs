@@ -50,6 +50,25 @@ fn solid(modulus: f64, relaxation_time: f64) -> StandardSolid {
     .expect("a material")
 }
 
+/// A contact without shear.
+fn heated_by_bulk<'a>(
+    pressure: &'a PressureField,
+    material: &'a dyn Material,
+    velocity: f64,
+    bulk_power: f64,
+) -> SlidingContact<'a> {
+    SlidingContact {
+        pressure,
+        material,
+        factors: ModulusFactors::NONE,
+        wave_shift: None,
+        velocity,
+        shear_power: 0.0,
+        contact_area: None,
+        bulk_power,
+    }
+}
+
 /// The temperature under an insulating body.
 fn heated(contact: &SlidingContact<'_>, kind: ContactKind) -> TemperatureRise {
     let found = contact.temperature(&rubber(), Counterface::Insulating, kind);
@@ -112,16 +131,7 @@ fn the_bulk_under_a_hertzian_pressure_has_the_temperature_of_point_sources() {
                 / (2.0 * viscosity)
                 * (velocity / RADIUS * viscosity / modulus).powi(2);
             let material = solid(modulus, time);
-            let contact = SlidingContact {
-                pressure: &field,
-                material: &material,
-                factors: ModulusFactors::NONE,
-                wave_shift: None,
-                velocity,
-                shear_power: 0.0,
-                contact_area: None,
-                bulk_power,
-            };
+            let contact = heated_by_bulk(&field, &material, velocity, bulk_power);
             let found = heated(&contact, ContactKind::Body);
             let scale = CONDUCTIVITY * RADIUS / bulk_power;
             let found = [found.largest, found.mean, found.flux_weighted_mean];
@@ -153,16 +163,7 @@ fn bars_of_a_layer_that_elements_do_not_resolve_overlap() {
     let material = solid(modulus, time);
     let rises = [10, 16, 20, 24, 33, 40, 48].map(|n| {
         let field = hertz(n);
-        let contact = SlidingContact {
-            pressure: &field,
-            material: &material,
-            factors: ModulusFactors::NONE,
-            wave_shift: None,
-            velocity,
-            shear_power: 0.0,
-            contact_area: None,
-            bulk_power: 1e-3,
-        };
+        let contact = heated_by_bulk(&field, &material, velocity, 1e-3);
         let rise = heated(&contact, ContactKind::Body);
         [rise.largest, rise.mean, rise.flux_weighted_mean]
     });

@@ -60,7 +60,7 @@ impl KernelWaves<'_> {
     pub(super) fn nodes(&self, [from, to]: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
         let rows = (2 * self.max_offsets[0] + 1) as f64;
         let widest = WAVES_PER_PANEL * TAU / rows;
-        // The first panel of a band from 0 on is as long as the last one, where the integrand varies as slowly.
+        // Panels cannot grow from a wave number of 0: there the first one is as long as the last.
         let next = move |from: f64| {
             let limit = if from > 0.0 {
                 PANEL_RATIO * from
