@@ -32,14 +32,14 @@ use crate::{BemError, Grid, PressureField, WaveShift};
 #[derive(Debug, Clone, Copy)]
 pub(super) struct DepthRule {
     /// Step of ln z.
-    log_step: f64,
+    pub(super) log_step: f64,
     /// Smallest product of the depth and the largest wave number.
-    smallest: f64,
+    pub(super) smallest: f64,
     /// True if the strain is computed in addition to the power.
-    with_strain: bool,
+    pub(super) with_strain: bool,
     /// Fraction of the power that filters with little dissipation may have together, to be left out. The others are scaled to the whole
     /// power, so that only the difference of the distributions is neglected.
-    negligible_share: f64,
+    pub(super) negligible_share: f64,
 }
 
 /// Depths for the power. Derived, and the negligible share chosen: the trapezoidal rule of (qz)³ e^(−2qz) over ln z has the relative
@@ -123,7 +123,7 @@ impl BulkHeat {
     pub(super) fn of(contact: Pressed<'_>, rule: DepthRule) -> Result<Self, BemError> {
         let shape = contact.pressure.grid.shape();
         let plans = PlanePlans::new(shape);
-        let steps = wave_steps(contact.pressure);
+        let steps = wave_steps(&contact.pressure.grid);
         let mut waves: Coefficients = contact
             .pressure
             .pressure
@@ -201,9 +201,9 @@ impl BulkHeat {
     }
 }
 
-/// Wave numbers of the longest waves along x and y of the period that a field covers, \[rad/m].
-pub(super) fn wave_steps(field: &PressureField) -> [f64; 2] {
-    let (shape, spacing) = (field.grid.shape(), field.grid.spacing());
+/// Wave numbers of the longest waves along x and y of the period that a grid covers, \[rad/m].
+pub(super) fn wave_steps(grid: &Grid) -> [f64; 2] {
+    let (shape, spacing) = (grid.shape(), grid.spacing());
     [0, 1].map(|axis| 2.0 * PI / (shape[axis] as f64 * spacing[axis]))
 }
 
@@ -454,6 +454,26 @@ impl Plane {
                 .unsigned_abs()
         });
         Some(self.power[column * self.shape[0] + row])
+    }
+
+    /// The plane with `multiple` times the length, where the additional part has no power, and with its power multiplied by a function of the
+    /// distance along x from the middle, in units of the length of the plane itself.
+    pub(super) fn lengthened(&self, multiple: usize, factor: impl Fn(f64) -> f64) -> Self {
+        let [rows, columns] = self.shape;
+        let mut power = self.power.clone();
+        PlanePlans::new(self.shape).inverse(&mut power);
+        for (row, values) in power.chunks_exact_mut(columns).enumerate() {
+            let factor = factor(row as f64 / rows as f64 - 0.5);
+            values.iter_mut().for_each(|value| *value *= factor);
+        }
+        let shape = [multiple * rows, columns];
+        power.resize(shape[0] * columns, ZERO);
+        PlanePlans::new(shape).forward(&mut power);
+        Self {
+            shape,
+            power,
+            ..*self
+        }
     }
 
     /// Computes the power dissipated at this depth from the pressure waves of a period of `period` elements.

@@ -9,10 +9,9 @@
 use numerics::{Estimate, finite, not_negative, positive, whole_part};
 use rheology::{Material, ModulusFactors};
 
-use crate::heat::bulk::{
-    BulkHeat, DEPTHS_OF_POWER, DEPTHS_OF_STRAIN, Pressed, wave_steps, waves_of_elements,
-};
-use crate::heat::depth::{DEPTH_ERROR, DepthHeat, DepthProfile};
+use crate::heat::bulk::{BulkHeat, DEPTHS_OF_POWER, DEPTHS_OF_STRAIN, Pressed};
+use crate::heat::depth::{Beside, DEPTH_ERROR, DepthHeat, DepthProfile, FoundProfile};
+use crate::heat::depth_below_body::FREE_DEPTH_ERROR;
 use crate::heat::operator::{HeatKernel, HeatOperator};
 use crate::heat::periodic_waves::PeriodicWaves;
 use crate::heat::rise::{TemperatureRise, estimate, sampling_error, wake_length};
@@ -160,15 +159,13 @@ struct Averages {
     largest: f64,
     /// Mean over the contact area.
     mean: f64,
-    /// Mean weighted with the power below each element.
-    power_weighted_mean: f64,
 }
 
 impl SlidingContact<'_> {
     /// Temperature rise of the surface, in the stationary state or after the duration of [`ContactKind::Period`].
     ///
-    /// The rise [`flux_weighted_mean`](TemperatureRise::flux_weighted_mean) is that of the surface, weighted with the whole dissipated power
-    /// below each element, also outside the contact.
+    /// The flux of [`flux_weighted_mean`](TemperatureRise::flux_weighted_mean) is that of the interface, which is uniform in the contact. The
+    /// temperature of the material that dissipates is that in the depth, [`by_depth`](TemperatureRise::by_depth).
     ///
     /// # Errors
     /// [`BemError::WaveShiftWithoutPeriod`] for a shift by the wavelength unless the contact is a period;
@@ -231,7 +228,11 @@ impl SlidingContact<'_> {
         let by_depth = match (fine.by_depth, coarse.by_depth) {
             (Some(fine_profile), Some(coarse)) => {
                 let mean = estimate(fine_profile.mean().value, coarse.mean().value)?;
-                let error = fine.error_by_depth + DEPTH_ERROR * mean.value.abs();
+                let of_rule = match kind {
+                    ContactKind::Period { .. } => DEPTH_ERROR,
+                    ContactKind::Body | ContactKind::Line => FREE_DEPTH_ERROR,
+                };
+                let error = fine.error_by_depth + of_rule * mean.value.abs();
                 Some(fine_profile.with_mean(mean.widened(error)))
             }
             _ => None,
@@ -241,7 +242,7 @@ impl SlidingContact<'_> {
             temperature: fine.temperature,
             largest: known(|rise| rise.largest)?.widened(fine.sampling_error),
             mean: known(|rise| rise.mean)?,
-            flux_weighted_mean: known(|rise| rise.power_weighted_mean)?,
+            flux_weighted_mean: known(|rise| rise.mean)?,
             by_depth,
             total_power: finite("total power", shear_power + bulk_power)?,
             absorbed_power: share * shear_power + bulk_power,
@@ -465,6 +466,11 @@ impl AreaCorrection {
         })
     }
 
+    /// Error of a temperature by shear that is not corrected, without its mean over a period, \[K].
+    fn error_without_correction(&self, temperature: f64) -> f64 {
+        self.error(temperature, 0.0) + (self.factor - 1.0).abs() * temperature.abs()
+    }
+
     /// Error of a temperature by shear, of which `mean` is the part of its mean over a period, \[K].
     fn error(&self, temperature: f64, mean: f64) -> f64 {
         let local_error = self.local_error + self.exponent_error;
@@ -476,8 +482,6 @@ impl AreaCorrection {
 struct Surroundings {
     /// The pressure, on the elements of the surroundings.
     pressure: PressureField,
-    /// Power of the bulk per area of the surface, \[W/m²].
-    power: Vec<f64>,
     /// Rise of the temperature by the heat of the bulk, \[K].
     rise: Vec<f64>,
     /// Relative error of the rise by waves that the grid does not resolve.
@@ -507,9 +511,7 @@ impl Heated<'_> {
         if absorbed > 0.0 {
             by_shear = self.rise_by_shear(grid, &flux, self.share)?;
         }
-        // The bulk is heated around the contact, where the shear of the interface changes the temperature, too.
         let mut by_bulk = vec![0.0; grid.n_elements()];
-        let [mut shear_around, mut bulk_around, mut power] = [0.0, 0.0, self.contact.shear_power];
         let mut around = None;
         let mut halvings_to_layer = 0.0;
         if self.contact.bulk_power > 0.0 {
@@ -522,24 +524,7 @@ impl Heated<'_> {
                 };
                 *rise = found.at([place(0, row), place(1, column)]);
             }
-            let absorbed_flux = PressureField {
-                pressure: flux.iter().map(|flux| self.share * flux).collect(),
-                ..pressure.clone()
-            };
-            let (coarse, origin) = (&found.pressure.grid, found.pressure.origin);
-            let absorbed_flux = absorbed_flux.resampled(coarse, origin).pressure;
-            let mut of_shear = vec![0.0; coarse.n_elements()];
-            if absorbed > 0.0 {
-                of_shear = self.rise_by_shear(coarse, &absorbed_flux, 1.0)?;
-            }
-            let weighted = |rises: &[f64]| {
-                let products = rises.iter().zip(&found.power);
-                let sum: f64 = products.map(|(rise, power)| rise * power).sum();
-                sum * self.kind.area_of_element(coarse)
-            };
-            [shear_around, bulk_around] = [weighted(&of_shear), weighted(&found.rise)];
-            power += sum_of(&found.power) * self.kind.area_of_element(coarse);
-            around = Some((found, absorbed_flux));
+            around = Some(found);
         }
         let temperature: Vec<f64> = (by_shear.iter().zip(&by_bulk))
             .map(|(shear, bulk)| shear + bulk)
@@ -553,69 +538,93 @@ impl Heated<'_> {
                 ..Solution::default()
             });
         };
-        let averages_of = |rises: &[f64], around_the_contact: f64| {
+        let averages_of = |rises: &[f64]| {
             let in_contact = rises.iter().zip(contact);
             let of_contact: f64 = in_contact.map(|(rise, part)| rise * part).sum();
-            let weighted = around_the_contact + of_contact * shear_flux * area;
             Averages {
                 largest: rises[hottest],
                 mean: of_contact / sum_of(contact),
-                power_weighted_mean: if power > 0.0 { weighted / power } else { 0.0 },
             }
         };
-        let averages = averages_of(&temperature, shear_around + bulk_around);
+        let averages = averages_of(&temperature);
         // The contact area is an error of the heat of the interface.
-        let of_shear = averages_of(&by_shear, shear_around);
+        let of_shear = averages_of(&by_shear);
         let mean_by_shear = self.mean_of_period(&by_shear);
         // Waves that are not resolved are an error of the heat of the bulk, and of the places where it is dissipated.
-        let relative_error = (around.as_ref()).map_or(0.0, |(found, _)| found.relative_error);
-        let of_bulk = averages_of(&by_bulk, shear_around + bulk_around);
+        let relative_error = around.as_ref().map_or(0.0, |found| found.relative_error);
+        let of_bulk = averages_of(&by_bulk);
         let error = |bulk: f64, shear: f64| {
             relative_error * bulk.abs() + self.area.error(shear, mean_by_shear)
         };
         let errors = Averages {
             largest: error(of_bulk.largest, of_shear.largest),
             mean: error(of_bulk.mean, of_shear.mean),
-            power_weighted_mean: error(of_bulk.power_weighted_mean, of_shear.power_weighted_mean),
         };
-        let by_depth = around.and_then(|(around, absorbed_flux)| {
-            self.depth_profile(&around, &absorbed_flux, averages.mean)
-        });
-        let error_by_depth = by_depth.as_ref().map_or(0.0, |profile| {
-            let from_contact = (profile.mean().value - averages.mean).abs();
-            errors.mean + relative_error / ERROR_OVER_POWER_ERROR * from_contact
+        let by_depth = match &around {
+            Some(around) => {
+                let flux = PressureField {
+                    pressure: flux.iter().map(|flux| self.share * flux).collect(),
+                    ..pressure.clone()
+                };
+                self.depth_profile(around, flux, averages.mean)?
+            }
+            None => None,
+        };
+        let error_by_depth = by_depth.as_ref().map_or(0.0, |found| {
+            let mean = found.profile.mean().value;
+            match self.kind {
+                // The mean over a period is known, and what is dissipated elsewhere is found at other depths.
+                ContactKind::Period { .. } => {
+                    let from_contact = (mean - averages.mean).abs();
+                    errors.mean + relative_error / ERROR_OVER_POWER_ERROR * from_contact
+                }
+                // The temperature of the depth is not corrected for the contact area.
+                ContactKind::Body | ContactKind::Line => {
+                    let by_bulk = mean - found.by_interface;
+                    relative_error * by_bulk.abs()
+                        + self.area.error_without_correction(found.by_interface)
+                }
+            }
         });
         Ok(Solution {
             averages,
-            by_bulk: averages_of(&by_bulk, bulk_around),
+            by_bulk: of_bulk,
             halvings_to_layer,
             errors,
             sampling_error: sampling_error(&temperature, hottest, grid.shape()),
             temperature,
-            by_depth,
+            by_depth: by_depth.map(|found| found.profile),
             error_by_depth,
         })
     }
 
-    /// The temperature below a period with the mean rise `contact` of its contact area \[K]; `None` for other contacts.
+    /// The temperature below the elements of the bulk by them and by a flux of the interface \[W/m²], with the mean rise `contact` of the
+    /// contact area \[K]; `None` if nothing is dissipated there.
     fn depth_profile(
         &self,
         around: &Surroundings,
-        absorbed_flux: &[f64],
+        flux: PressureField,
         contact: f64,
-    ) -> Option<DepthProfile> {
-        let ContactKind::Period { duration } = self.kind else {
-            return None;
-        };
+    ) -> Result<Option<FoundProfile>, BemError> {
+        let (grid, origin) = (&around.pressure.grid, around.pressure.origin);
         let diffusivity = self.conductor.diffusivity();
+        let beside = match self.kind {
+            ContactKind::Period { duration } => Beside::Periods {
+                mean_length: 2.0 * (diffusivity.sqrt() * duration.sqrt()),
+            },
+            ContactKind::Body | ContactKind::Line => Beside::HalfSpace {
+                contact_length: flux.grid.shape()[0] as f64 * flux.grid.spacing()[0],
+                is_line: self.kind == ContactKind::Line,
+            },
+        };
         let heat = DepthHeat {
             bulk: &around.bulk,
             unit_power: around.scale,
-            surface_flux: waves_of_elements(&around.pressure.grid, absorbed_flux),
-            steps: wave_steps(&around.pressure),
+            grid,
+            surface_flux: &flux.resampled(grid, origin).pressure,
             velocity_over_diffusivity: self.contact.velocity / diffusivity,
-            mean_length: 2.0 * (diffusivity.sqrt() * duration.sqrt()),
             conductivity: self.conductor.conductivity(),
+            beside,
         };
         heat.profile(contact)
     }
@@ -692,17 +701,12 @@ impl Heated<'_> {
             .iter_mut()
             .for_each(|pressure| *pressure /= largest);
         let bulk = BulkHeat::of(self.contact.pressed(&around, true), DEPTHS_OF_POWER)?;
-        let mut power = vec![0.0; around.grid.n_elements()];
         let planes: Vec<(SourceDepth, Vec<f64>)> = bulk
             .planes()
-            .map(|(depth, of_plane)| {
-                for (power, part) in power.iter_mut().zip(&of_plane) {
-                    *power += part;
-                }
-                (SourceDepth::Plane(depth), of_plane)
-            })
+            .map(|(depth, of_plane)| (SourceDepth::Plane(depth), of_plane))
             .collect();
-        let sum = power.iter().sum::<f64>() * self.kind.area_of_element(&around.grid);
+        let all = planes.iter().flat_map(|(_, of_plane)| of_plane);
+        let sum = all.sum::<f64>() * self.kind.area_of_element(&around.grid);
         let resolved = largest * largest * positive("power of the material", sum)?;
         let power_error = (resolved / self.contact.bulk_power - 1.0).abs();
         // Waves that a period does not resolve are short, and dissipate where the others do. Those around a body are long, and dissipate far
@@ -711,12 +715,10 @@ impl Heated<'_> {
             ContactKind::Period { .. } => self.contact.bulk_power / sum,
             ContactKind::Body | ContactKind::Line => largest * largest,
         };
-        power.iter_mut().for_each(|power| *power *= scale);
         let fluxes = planes.iter().map(|(depth, flux)| (depth, &**flux));
         let rise = self.rise(&around.grid, fluxes, scale)?;
         Ok(Surroundings {
             pressure: around,
-            power,
             rise,
             relative_error: ERROR_OVER_POWER_ERROR * power_error,
             bulk,

@@ -1,6 +1,6 @@
-//! Temperature below a periodic surface, where its material dissipates.
+//! Temperature below a contact, where its material dissipates.
 //!
-//! Planes of power at the depths z_i and the interface heat the plane at z_j by
+//! On a period, planes of power at the depths z_i and the interface heat the plane at z_j by
 //!
 //! ```text
 //! k T̂_j = [Σ_i P̂_i (e^(−β|z_j − z_i|) + e^(−β(z_j + z_i))) + 2 F̂ e^(−βz_j)]/(2β),        β² = q² − i q_x v/D,  Re β > 0
@@ -24,11 +24,13 @@ use std::f64::consts::{LN_2, PI};
 use numerics::{Estimate, lobatto_rule};
 use rustfft::num_complex::Complex;
 
-use crate::heat::bulk::{BulkHeat, Coefficients, Plane};
+use crate::heat::bulk::{BulkHeat, Plane, wave_steps, waves_of_elements};
+use crate::heat::depth_below_body::FreeHeat;
 use crate::heat::periodic_waves::decay_constant;
 use crate::parallel::row_blocks::for_each_row;
 use crate::transform::plane_transform::ZERO;
 use crate::transform::plane_transform::complex_product::signed_offset;
+use crate::{BemError, Grid};
 
 /// Product of wave number and mean depth of the power 4 q³ z² e^(−2qz). Derived: ∫ z 4q³z²e^(−2qz) dz = 3/(2q).
 const MEAN_DEPTH: f64 = 1.5;
@@ -39,7 +41,7 @@ const TABLE_STEP: f64 = 0.3;
 /// Relative error of the mean rise by the rule over the depth. Measured: the largest of the unit test below is 8.6e-3.
 pub(super) const DEPTH_ERROR: f64 = 1e-2;
 
-/// Temperature rise below a periodic surface at one depth.
+/// Temperature rise below a contact at one depth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct DepthRise {
@@ -47,11 +49,12 @@ pub struct DepthRise {
     pub depth: f64,
     /// Mean rise at this depth weighted with the power that is dissipated there, \[K].
     pub rise: f64,
-    /// Power about this depth per area of the surface, \[W/m²].
+    /// Power about this depth per area of a period, or of the computed surroundings of a body, \[W/m²]; per width of those of a line
+    /// contact.
     pub power: f64,
 }
 
-/// Temperature rise below a periodic surface over the depth.
+/// Temperature rise below a contact over the depth.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct DepthProfile {
@@ -168,78 +171,180 @@ fn power_weighted_mean(depths: &[DepthRise]) -> f64 {
     sum / power
 }
 
-/// Heat of a period and the elastomer that conducts it.
+/// What is beside the surroundings of a contact.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Beside {
+    /// Other periods.
+    Periods {
+        /// Length √(4Dt) over which heat diffuses in the time for which the surface has been sliding, \[m].
+        mean_length: f64,
+    },
+    /// An unheated half space, in the stationary state.
+    HalfSpace {
+        /// Length of the contact, \[m].
+        contact_length: f64,
+        /// True for a line contact.
+        is_line: bool,
+    },
+}
+
+/// Heat of the surroundings of a contact and the elastomer that conducts it.
 pub(super) struct DepthHeat<'a> {
     /// Power of the material, in units of `unit_power`.
     pub(super) bulk: &'a BulkHeat,
     /// Power per volume of one unit of the bulk, \[W/m³].
     pub(super) unit_power: f64,
-    /// Waves of the flux of the interface into the elastomer on the elements of the bulk, \[W/m²].
-    pub(super) surface_flux: Coefficients,
-    /// Wave numbers of the longest waves along x and y, \[rad/m].
-    pub(super) steps: [f64; 2],
+    /// Elements of the bulk.
+    pub(super) grid: &'a Grid,
+    /// Flux of the interface into the elastomer on them, \[W/m²].
+    pub(super) surface_flux: &'a [f64],
     /// Reciprocal v/D > 0 of the diffusion length of the motion, \[1/m].
     pub(super) velocity_over_diffusivity: f64,
-    /// Length √(4Dt) over which heat diffuses in the time for which the surface has been sliding, \[m].
-    pub(super) mean_length: f64,
     /// Conductivity k, \[W/m/K].
     pub(super) conductivity: f64,
+    /// What is beside these elements.
+    pub(super) beside: Beside,
+}
+
+/// Waves of the heat of planes and the interface on a period.
+pub(super) struct HeatWaves<'a> {
+    /// Elements of the period.
+    pub(super) shape: [usize; 2],
+    /// Wave numbers of the longest waves along x and y, \[rad/m].
+    pub(super) steps: [f64; 2],
+    /// Power of the planes that heat others, in the unit of the bulk.
+    pub(super) sources: &'a [Plane],
+    /// Power of the same planes, with which their temperatures are weighted.
+    pub(super) weights: &'a [Plane],
+    /// Flux of the interface, \[W/m²].
+    pub(super) surface_flux: &'a [Complex<f64>],
+}
+
+impl HeatWaves<'_> {
+    /// For each plane the mean over the period of its weight times its temperatures, which follow from `rises` by the wave numbers along x and
+    /// y and the powers of the planes.
+    pub(super) fn weighted_rises(
+        &self,
+        nodes: &[Node],
+        rises: impl Fn([f64; 2], &[Complex<f64>]) -> Vec<WaveRise> + Sync,
+    ) -> Vec<WeightedRise> {
+        // The waves of the negative half along y are conjugates of the others.
+        let [rows, columns] = self.shape;
+        let n_columns = columns / 2 + 1;
+        let mut sums = vec![WeightedRise::default(); n_columns * nodes.len()];
+        for_each_row(&mut sums, nodes.len(), |column, sums| {
+            let is_single = column == 0 || 2 * column == columns;
+            let count = if is_single { 1.0 } else { 2.0 };
+            for row in 0..rows {
+                let place = [signed_offset(row, rows), column.cast_signed()];
+                let q = [0, 1].map(|axis| self.steps[axis] * place[axis] as f64);
+                let powers_of = |planes: &[Plane]| -> Vec<Complex<f64>> {
+                    let waves = planes.iter().map_while(|plane| plane.wave(place));
+                    let powers = waves.zip(nodes);
+                    powers
+                        .map(|(wave, node)| wave * node.power_of_unit)
+                        .collect()
+                };
+                let flux = self.surface_flux[column * rows + row];
+                let rises = rises(q, &powers_of(self.sources));
+                for ((sum, weight), rise) in
+                    sums.iter_mut().zip(powers_of(self.weights)).zip(&rises)
+                {
+                    sum.by_bulk += count * (weight.conj() * rise.by_bulk).re;
+                    sum.by_interface += count * (weight.conj() * rise.of_unit_flux * flux).re;
+                }
+            }
+        });
+        let of_plane = |plane: usize| {
+            let mut all = WeightedRise::default();
+            for sum in sums.iter().skip(plane).step_by(nodes.len()) {
+                all.by_bulk += sum.by_bulk;
+                all.by_interface += sum.by_interface;
+            }
+            all
+        };
+        (0..nodes.len()).map(of_plane).collect()
+    }
+}
+
+/// Temperature k T of a plane by a wave.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct WaveRise {
+    /// That by the powers of all planes, \[W/m].
+    by_bulk: Complex<f64>,
+    /// That by a unit flux of the interface, \[m].
+    of_unit_flux: Complex<f64>,
+}
+
+/// Mean of the power of a plane times its temperature k T, \[W²/m³].
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct WeightedRise {
+    /// That by the powers of all planes.
+    pub(super) by_bulk: f64,
+    /// That by the flux of the interface.
+    pub(super) by_interface: f64,
+}
+
+/// Temperature over the depth, and the part of its mean by the flux of the interface.
+pub(super) struct FoundProfile {
+    /// Temperature over the depth.
+    pub(super) profile: DepthProfile,
+    /// Mean rise by the flux of the interface, weighted with the power of the bulk, \[K].
+    pub(super) by_interface: f64,
 }
 
 impl DepthHeat<'_> {
     /// The temperature over the depth below a contact area with the mean rise `contact` \[K]; `None` if nothing is dissipated there.
-    pub(super) fn profile(&self, contact: f64) -> Option<DepthProfile> {
+    pub(super) fn profile(&self, contact: f64) -> Result<Option<FoundProfile>, BemError> {
         let planes = self.bulk.spectra();
         let nodes: Vec<Node> = planes.iter().map(|plane| self.node(plane)).collect();
-        let standing = StandingWaves::new(&nodes, self.mean_length);
-        // Sum power times temperature of all waves for each plane. The waves of the negative half along y are conjugates of the others.
-        let [rows, columns] = self.bulk.shape();
-        let n_columns = columns / 2 + 1;
-        let mut sums = vec![0.0; n_columns * nodes.len()];
-        for_each_row(&mut sums, nodes.len(), |column, sums| {
-            let is_single = column == 0 || 2 * column == columns;
-            let weight = if is_single { 1.0 } else { 2.0 };
-            for row in 0..rows {
-                let place = [signed_offset(row, rows), column.cast_signed()];
-                let [q_x, q_y] = [0, 1].map(|axis| self.steps[axis] * place[axis] as f64);
-                let powers: Vec<Complex<f64>> = planes
-                    .iter()
-                    .map_while(|plane| plane.wave(place))
-                    .zip(&nodes)
-                    .map(|(wave, node)| wave * node.power_of_unit)
-                    .collect();
-                let flux = self.surface_flux[column * rows + row];
-                let rises = if row == 0 {
-                    standing.rises(q_y, &powers, flux)
-                } else {
-                    running_wave(
-                        decay_constant([q_x, q_y], self.velocity_over_diffusivity),
-                        &nodes,
-                        &powers,
-                        flux,
-                    )
+        let sums = match self.beside {
+            Beside::Periods { mean_length } => {
+                let waves = HeatWaves {
+                    shape: self.bulk.shape(),
+                    steps: wave_steps(self.grid),
+                    sources: planes,
+                    weights: planes,
+                    surface_flux: &waves_of_elements(self.grid, self.surface_flux),
                 };
-                for ((sum, power), rise) in sums.iter_mut().zip(&powers).zip(&rises) {
-                    *sum += weight * (power.conj() * rise).re;
-                }
+                let standing = StandingWaves::new(&nodes, mean_length);
+                waves.weighted_rises(&nodes, |[q_x, q_y], powers| {
+                    if q_x == 0.0 {
+                        return standing.rises(q_y, powers);
+                    }
+                    let beta = decay_constant([q_x, q_y], self.velocity_over_diffusivity, 0.0);
+                    running_wave(beta, &nodes, powers)
+                })
             }
-        });
-        let rise_of = |(index, (plane, node)): (usize, (&Plane, &Node))| {
+            Beside::HalfSpace {
+                contact_length,
+                is_line,
+            } => FreeHeat::new(self, contact_length, is_line)?.weighted_rises(self, &nodes),
+        };
+        let rise_of = |((plane, node), sum): ((&Plane, &Node), &WeightedRise)| {
             let power = plane.mean_power() * node.power_of_unit;
-            let sum: f64 = sums.iter().skip(index).step_by(nodes.len()).sum();
             (power > 0.0).then(|| DepthRise {
                 depth: node.depth,
-                rise: sum / power / self.conductivity,
+                rise: (sum.by_bulk + sum.by_interface) / power / self.conductivity,
                 power,
             })
         };
-        let pairs = planes.iter().zip(&nodes).enumerate();
+        let pairs = planes.iter().zip(&nodes).zip(&sums);
         let depths: Vec<DepthRise> = pairs.filter_map(rise_of).collect();
-        (!depths.is_empty()).then(|| DepthProfile {
+        if depths.is_empty() {
+            return Ok(None);
+        }
+        let power: f64 = depths.iter().map(|one| one.power).sum();
+        let by_interface: f64 = sums.iter().map(|sum| sum.by_interface).sum();
+        let profile = DepthProfile {
             mean: Estimate::exact(power_weighted_mean(&depths)),
             depths,
             contact,
-        })
+        };
+        Ok(Some(FoundProfile {
+            profile,
+            by_interface: by_interface / power / self.conductivity,
+        }))
     }
 
     /// The node of a plane in the trapezoidal rule over ln z.
@@ -255,22 +360,21 @@ impl DepthHeat<'_> {
 }
 
 /// A node of the trapezoidal rule over the depth.
-struct Node {
+pub(super) struct Node {
     /// Depth, \[m].
-    depth: f64,
+    pub(super) depth: f64,
     /// Distance of the nodes about this depth, \[m].
     spacing: f64,
     /// Power per area of one unit of power of its plane, \[W/m²].
-    power_of_unit: f64,
+    pub(super) power_of_unit: f64,
 }
 
-/// Temperatures k T of the planes that a running wave reaches, by their powers and the flux of the interface.
-fn running_wave(
+/// Temperatures of the planes that a running wave reaches.
+pub(super) fn running_wave(
     beta: Complex<f64>,
     nodes: &[Node],
     powers: &[Complex<f64>],
-    flux: Complex<f64>,
-) -> Vec<Complex<f64>> {
+) -> Vec<WaveRise> {
     let nodes = &nodes[..powers.len()];
     let decay_from = |index: usize| match index {
         0 => (-beta * nodes[0].depth).exp(),
@@ -288,17 +392,20 @@ fn running_wave(
         *rise += from_below;
         from_below = (from_below + powers[index]) * decays[index];
     }
-    // The mirrored sources and the interface act from the surface downwards, with the sources above each plane.
-    let mut from_above = from_below + flux * 2.0;
-    for (index, rise) in rises.iter_mut().enumerate() {
+    // The mirrored sources and the interface act from the surface downwards, the former with the sources above each plane.
+    let mut from_above = from_below;
+    let mut from_surface = Complex::from(2.0);
+    let of_plane = |(index, from_others): (usize, Complex<f64>)| {
         from_above *= decays[index];
-        *rise += from_above;
+        from_surface *= decays[index];
+        let rise = WaveRise {
+            by_bulk: (from_others + from_above) / (beta * 2.0),
+            of_unit_flux: from_surface / (beta * 2.0),
+        };
         from_above += powers[index];
-    }
-    for rise in &mut rises {
-        *rise /= beta * 2.0;
-    }
-    rises
+        rise
+    };
+    rises.into_iter().enumerate().map(of_plane).collect()
 }
 
 /// Absolute value of the exponent below which the summand is computed by its series. Derived: the next term of the series is
@@ -377,17 +484,22 @@ impl StandingWaves {
         }
     }
 
-    /// Temperatures k T of the planes that a wave of the wave number q along y \[rad/m] reaches.
-    fn rises(&self, q: f64, powers: &[Complex<f64>], flux: Complex<f64>) -> Vec<Complex<f64>> {
+    /// Temperatures of the planes that a wave of the wave number q along y \[rad/m] reaches.
+    fn rises(&self, q: f64, powers: &[Complex<f64>]) -> Vec<WaveRise> {
         let n_planes = self.of_surface.len() / self.lengths.len().max(1);
-        let mut rises = vec![ZERO; powers.len()];
+        let none = WaveRise {
+            by_bulk: ZERO,
+            of_unit_flux: ZERO,
+        };
+        let mut rises = vec![none; powers.len()];
         for (index, [length, weight]) in self.lengths.iter().enumerate() {
             let weight = weight * (-(0.5 * q * length).powi(2)).exp();
             for (plane, rise) in rises.iter_mut().enumerate() {
                 let of_plane = index * n_planes + plane;
                 let pulses = &self.of_planes[of_plane * n_planes..];
                 let bulk: Complex<f64> = powers.iter().zip(pulses).map(|(p, g)| p * g).sum();
-                *rise += (bulk + flux * self.of_surface[of_plane]) * weight;
+                rise.by_bulk += bulk * weight;
+                rise.of_unit_flux += self.of_surface[of_plane] * weight;
             }
         }
         rises
@@ -455,13 +567,12 @@ mod tests {
     #[test]
     fn planes_have_the_temperature_of_their_sources() {
         let (nodes, powers) = nodes_of_one_wave(0.6);
-        let none = vec![ZERO; powers.len()];
-        let mean = |rises: Vec<Complex<f64>>| -> Complex<f64> {
-            powers
-                .iter()
-                .zip(&rises)
-                .map(|(power, rise)| power * rise)
-                .sum()
+        let means = |rises: Vec<WaveRise>| -> [Complex<f64>; 2] {
+            let mean = |of: fn(&WaveRise) -> Complex<f64>| {
+                let products = powers.iter().zip(&rises);
+                products.map(|(power, rise)| power * of(rise)).sum()
+            };
+            [mean(|rise| rise.by_bulk), mean(|rise| rise.of_unit_flux)]
         };
         let check = |name: String, exact: [Complex<f64>; 2], found: [Complex<f64>; 2], surface| {
             let [bulk, interface] = [0, 1].map(|index| (found[index] - exact[index]).norm());
@@ -479,10 +590,7 @@ mod tests {
                 let own = x.inv() * 2.0 - (x.exp() - 1.0).inv() * 2.0 - 1.0;
                 (images + if is_own { own } else { ZERO }) / (beta * 2.0)
             });
-            let found = [
-                mean(running_wave(beta, &nodes, &powers, ZERO)),
-                mean(running_wave(beta, &nodes, &none, Complex::from(1.0))),
-            ];
+            let found = means(running_wave(beta, &nodes, &powers));
             check(format!("β = {beta}"), exact, found, beta.norm().recip());
         }
         // Standing waves against the temperature of a plane after the time in which heat diffuses over a length.
@@ -493,10 +601,7 @@ mod tests {
                 Complex::from(0.5 * length * sum)
             });
             let standing = StandingWaves::new(&nodes, length);
-            let found = [
-                mean(standing.rises(0.0, &powers, ZERO)),
-                mean(standing.rises(0.0, &none, Complex::from(1.0))),
-            ];
+            let found = means(standing.rises(0.0, &powers));
             check(format!("length {length}"), exact, found, length / PI.sqrt());
         }
     }

@@ -34,6 +34,7 @@ mod bulk;
 mod conductor;
 mod contact;
 mod depth;
+mod depth_below_body;
 mod operator;
 mod periodic_waves;
 mod rise;

@@ -130,7 +130,7 @@ impl PeriodicWaves {
     /// Ratio S(β)/β of temperature and flux of a wave. One with crests along x, and at rest every one, stays at its place on the
     /// elastomer, and grows with the time in which the mean grows.
     fn multiplier(&self, q: [f64; 2], depth: &SourceDepth, unit: f64) -> Complex<f64> {
-        let beta = decay_constant(q, self.velocity_over_diffusivity);
+        let beta = decay_constant(q, self.velocity_over_diffusivity, 0.0);
         let stationary = depth.wave_ratio(beta / unit) / beta;
         if q[0] == 0.0 || self.velocity_over_diffusivity == 0.0 {
             let wave_number = q[0].hypot(q[1]) / unit;
@@ -141,11 +141,17 @@ impl PeriodicWaves {
     }
 }
 
-/// Decay constant β of the temperature of a wave over the depth, with a positive real part, from its wave numbers along x and y and the
-/// ratio v/D of velocity and diffusivity, in the same unit.
-pub(super) fn decay_constant([q_x, q_y]: [f64; 2], velocity_over_diffusivity: f64) -> Complex<f64> {
-    let square = q_x * q_x + q_y * q_y;
-    let transport = q_x * velocity_over_diffusivity;
+/// Decay constant β of the temperature of a wave over the depth, with a positive real part, from its wave numbers along x and y, the ratio v/D
+/// of velocity and diffusivity, and the rate from 0 to v/(2D) with which it is damped along x, in the same unit.
+///
+/// β² = (q_x + ia)² + q_y² − i (q_x + ia) v/D with the rate a.
+pub(super) fn decay_constant(
+    [q_x, q_y]: [f64; 2],
+    velocity_over_diffusivity: f64,
+    damping: f64,
+) -> Complex<f64> {
+    let square = q_x * q_x + q_y * q_y + damping * (velocity_over_diffusivity - damping);
+    let transport = q_x * (velocity_over_diffusivity - 2.0 * damping);
     let real = (0.5 * (square.hypot(transport) + square)).sqrt();
     Complex::new(real, -0.5 * transport / real)
 }

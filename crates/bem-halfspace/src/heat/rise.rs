@@ -47,7 +47,7 @@ pub struct TemperatureRise {
     pub mean: Estimate,
     /// Mean rise weighted with the flux of all sources before the counterface takes its share, \[K].
     pub flux_weighted_mean: Estimate,
-    /// Temperature below the surface; `None` unless a [`SlidingContact`](crate::heat::SlidingContact) on a period dissipates there.
+    /// Temperature below the surface; `None` unless a [`SlidingContact`](crate::heat::SlidingContact) dissipates there.
     pub by_depth: Option<DepthProfile>,
     /// Power of all sources, \[W]; on a line per length, \[W/m].
     pub total_power: f64,

@@ -65,14 +65,17 @@ pub struct Answer {
     pub largest_temperature_rise: Option<Estimate>,
     /// Mean rise of the temperature over the contact area, \[K]; `None` without heat.
     pub mean_temperature_rise: Option<Estimate>,
-    /// Mean rise of the temperature weighted with the dissipated power, below a periodic surface with that of the bulk, \[K]; `None` without
-    /// heat.
+    /// Mean rise of the temperature of the material, weighted with the power that it dissipates, \[K]; that of the contact area if it
+    /// dissipates none, and `None` without heat.
     pub(crate) dissipation_weighted_rise: Option<Estimate>,
-    /// Temperature rise below a periodic surface; `None` for other bodies and without heat.
+    /// Temperature rise below the surface; `None` without heat and if the material dissipates none.
     pub(crate) temperature_by_depth: Option<DepthProfile>,
-    /// Temperature of material and shear strength: that of the surroundings plus the mean rise weighted with the dissipated power,
-    /// \[°C]; `None` if neither depends on the temperature.
+    /// Temperature of the material, which is that of the surroundings plus its mean rise in the depth, weighted with the power that it
+    /// dissipates, \[°C]; that of the contact area if it dissipates none. The shear strength is that at the mean temperature of the contact
+    /// area. `None` if neither depends on the temperature.
     pub effective_temperature: Option<Estimate>,
+    /// Temperature of which this state is the fixed point, with the share of the contact area, \[°C].
+    pub(crate) fixed_point_temperature: Option<Estimate>,
     /// Largest change of the friction coefficient if material and shear strength have the temperature of the surroundings or the largest
     /// one in the contact; `None` without an effective temperature, and if these temperatures are outside the range of the laws.
     pub temperature_model_spread: Option<Estimate>,
@@ -264,6 +267,7 @@ impl Answer {
             dissipation_weighted_rise: None,
             temperature_by_depth: None,
             effective_temperature: None,
+            fixed_point_temperature: None,
             temperature_model_spread: None,
             strain: None,
             storage_factor: None,

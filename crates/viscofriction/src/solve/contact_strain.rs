@@ -137,7 +137,7 @@ impl Caused for ContactStrain<'_> {
     }
 
     /// The answer with the strain, and the factors that the moduli have there.
-    fn at_fixed_point(&self, answer: Answer, value: Estimate) -> Answer {
+    fn at_fixed_point(&self, answer: Answer, value: Estimate, _: f64) -> Answer {
         let factors = self.law.factors(value.value);
         let ends = [value.value - value.error, value.value + value.error]
             .map(|end| self.law.factors(end.max(0.0)));

@@ -1,8 +1,8 @@
 //! The temperature of the contact at which material and shear strength are those that cause it.
 //!
-//! Material and shear strength have one temperature T. At T the contact dissipates a power that heats it, weighted with the dissipated
-//! power, to g(T), and the state is that of the fixed point T = g(T). Where heating increases friction there may be two; a warning names
-//! the hotter one.
+//! The material has the temperature of the depth where it dissipates, and the shear strength that of the contact area. One temperature T
+//! stands for both, their mean if both depend on the temperature. At T the contact dissipates a power that heats it to g(T), and the state
+//! is that of the fixed point T = g(T). Where heating increases friction there may be two; a warning names the hotter one.
 //!
 //! Theory: docs/theory/heat.md, "Back on the material".
 
@@ -12,7 +12,7 @@ use numerics::{Estimate, Progress};
 use super::answer::Answer;
 use super::contact_strain;
 use super::error::{Result, SolveError};
-use super::fixed_point::{Caused, FixedPoint, Found, MAX_INCREASE_RATIO, State};
+use super::fixed_point::{Caused, FixedPoint, Found, MAX_INCREASE_RATIO, State, ValueErrors};
 use super::plan::Plan;
 use super::problem::Problem;
 use super::warning::Warning;
@@ -93,11 +93,11 @@ impl Caused for ContactTemperature<'_> {
         NEGLIGIBLE_EXCESS
     }
 
-    /// Below a periodic surface the rise has the distribution over the depth of the answer `near`, with another size.
+    /// The rise has the distribution over the depth of the answer `near`, with another size.
     fn problem_at(&self, value: f64, near: Option<&Answer>) -> Result<Problem> {
         let uniform = self.problem.at_temperature(value)?;
         let near = near.and_then(|near| {
-            let caused = self.effective_rise(near)?.value;
+            let caused = self.rise_of_whole(near)?.value;
             Some((near.temperature_by_depth.as_ref()?, caused))
         });
         let rise = value - self.ambient;
@@ -113,9 +113,9 @@ impl Caused for ContactTemperature<'_> {
         contact_strain::solve(plan, watch)
     }
 
-    /// Temperature of the surroundings and rise weighted with the dissipated power.
+    /// Temperature of the surroundings and rise of what depends on it.
     fn caused_by(&self, answer: &Answer) -> Estimate {
-        self.effective_rise(answer)
+        self.rise_of_whole(answer)
             .map_or(Estimate::exact(self.ambient), |rise| {
                 Estimate::new(self.ambient + rise.value, rise.error)
             })
@@ -126,18 +126,50 @@ impl Caused for ContactTemperature<'_> {
         else {
             return 0.0;
         };
-        let of_shear = self.share_of_contact(answer);
-        let effective = |profile: &DepthProfile| {
-            (1.0 - of_shear) * profile.mean().value + of_shear * profile.contact()
+        let share = self.share_of_contact();
+        let whole = |profile: &DepthProfile| {
+            (1.0 - share) * profile.mean().value + share * profile.contact()
         };
-        let scaled = assumed.scaled(effective(caused) / effective(assumed));
+        let scaled = assumed.scaled(whole(caused) / whole(assumed));
         let of_contact = (caused.contact() - scaled.contact()).abs();
-        (1.0 - of_shear) * caused.difference_from(&scaled) + of_shear * of_contact
+        let of_material = match problem.wave_shift() {
+            Some(_) => caused.difference_from(&scaled),
+            None => (caused.mean().value - scaled.mean().value).abs(),
+        };
+        (1.0 - share) * of_material + share * of_contact
     }
 
-    fn at_fixed_point(&self, answer: Answer, value: Estimate) -> Answer {
+    /// A relative error of one part of the temperature acts like that of the whole.
+    fn errors(&self, state: &State) -> ValueErrors {
+        let of_whole = state.caused.error;
+        let rise = state.caused.value - self.ambient;
+        let of_part = |part: Option<Estimate>| match part {
+            Some(part) if part.value > 0.0 => {
+                rise.abs() * (part.error + state.difference) / part.value
+            }
+            _ => of_whole,
+        };
+        ValueErrors {
+            of_material: of_part(state.answer.dissipation_weighted_rise),
+            of_shear: of_part(state.answer.mean_temperature_rise),
+        }
+    }
+
+    fn at_fixed_point(&self, answer: Answer, value: Estimate, error_of_material: f64) -> Answer {
+        let of_material = match (
+            answer.dissipation_weighted_rise,
+            self.rise_of_whole(&answer),
+        ) {
+            (Some(of_material), Some(whole)) if whole.value > 0.0 => {
+                let ratio = of_material.value / whole.value;
+                let rise = ratio * (value.value - self.ambient);
+                Estimate::new(self.ambient + rise, ratio.abs() * error_of_material)
+            }
+            _ => value,
+        };
         Answer {
-            effective_temperature: Some(value),
+            effective_temperature: Some(of_material),
+            fixed_point_temperature: Some(value),
             ..answer
         }
     }
@@ -175,25 +207,23 @@ impl<'a> ContactTemperature<'a> {
         })
     }
 
-    /// Mean rise weighted with the dissipated power, \[K]. Below a periodic surface it is weighted with the power of the bulk, and with that of
-    /// the interface if the shear strength depends on the temperature of the contact area: the fixed point is that of what changes the
-    /// friction.
-    fn effective_rise(&self, answer: &Answer) -> Option<Estimate> {
-        let of_bulk = answer.dissipation_weighted_rise?;
-        let of_shear = self.share_of_contact(answer);
-        match (&answer.temperature_by_depth, answer.mean_temperature_rise) {
-            (Some(_), Some(of_contact)) => Some(of_bulk * (1.0 - of_shear) + of_contact * of_shear),
-            _ => Some(of_bulk),
-        }
+    /// Mean rise of what depends on the temperature: material, contact area, or both alike, \[K].
+    fn rise_of_whole(&self, answer: &Answer) -> Option<Estimate> {
+        let of_material = answer.dissipation_weighted_rise?;
+        let of_contact = answer.mean_temperature_rise?;
+        let share = self.share_of_contact();
+        Some(of_material * (1.0 - share) + of_contact * share)
     }
 
-    /// Share of the friction that the temperature of the contact area changes: that of the shear, if its strength depends on temperature.
-    fn share_of_contact(&self, answer: &Answer) -> f64 {
-        match (answer.friction_from_shear, answer.friction_coefficient) {
-            (Some(shear), Some(all)) if self.problem.shear_depends_on_temperature() => {
-                shear.value / all.value
-            }
-            _ => 0.0,
+    /// Weight of the contact area in the temperature of the contact, beside that of the material.
+    fn share_of_contact(&self) -> f64 {
+        match (
+            self.problem.shear_depends_on_temperature(),
+            self.problem.shift().is_some(),
+        ) {
+            (false, _) => 0.0,
+            (true, true) => 0.5,
+            (true, false) => 1.0,
         }
     }
 

@@ -92,8 +92,16 @@ pub(super) trait Caused {
         0.0
     }
 
-    /// The answer at the fixed point, with that value.
-    fn at_fixed_point(&self, answer: Answer, value: Estimate) -> Answer;
+    /// Errors of the value that a state causes.
+    fn errors(&self, state: &State) -> ValueErrors {
+        ValueErrors {
+            of_material: state.caused.error,
+            of_shear: state.caused.error,
+        }
+    }
+
+    /// The answer at the fixed point, with that value, and its error as it acts on the material.
+    fn at_fixed_point(&self, answer: Answer, value: Estimate, error_of_material: f64) -> Answer;
 
     /// The error for a fixed point above the largest value, with the state at the largest value.
     fn too_large(&self, state: &State) -> SolveError;
@@ -105,6 +113,15 @@ pub(super) trait Caused {
     fn not_reached(&self, asked: f64, friction: Estimate, value: Estimate) -> SolveError;
 }
 
+/// Errors of a value as they act on the answer.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ValueErrors {
+    /// Error for quantities that follow the material.
+    pub(super) of_material: f64,
+    /// Error for the shear strength.
+    pub(super) of_shear: f64,
+}
+
 /// The solution of the problem at one value.
 pub(super) struct State {
     /// The value.
@@ -112,7 +129,7 @@ pub(super) struct State {
     /// The value that the answer causes; its error contains the difference of distributions.
     pub(super) caused: Estimate,
     /// Mean difference between the caused and the assumed distribution.
-    difference: f64,
+    pub(super) difference: f64,
     /// The answer.
     pub(super) answer: Answer,
     /// Reason why the answer misses the request; `None` if it does not.
@@ -141,6 +158,18 @@ pub(super) struct Found {
     pub(super) states: Vec<State>,
     /// A state near a fixed point at a larger value; `None` if there is none.
     pub(super) second: Option<State>,
+}
+
+impl ValueErrors {
+    /// The errors of a value with a response to what it causes, and with a correction that is left.
+    fn within(self, response: f64, correction: f64) -> Self {
+        let [of_material, of_shear] =
+            [self.of_material, self.of_shear].map(|error| response * error + correction);
+        Self {
+            of_material,
+            of_shear,
+        }
+    }
 }
 
 impl Found {
@@ -416,6 +445,7 @@ impl FixedPoint<'_> {
             let is_settled = correction.abs() <= (TOLERANCE * increase).max(self.of.negligible());
             // Slopes between two such solutions are nearer to the fixed point.
             let numbers = state.numbers();
+            let errors = self.of.errors(&state);
             let slopes_from = [far.map_or(near, |before| [before, &numbers]), near];
             let State {
                 answer,
@@ -425,8 +455,9 @@ impl FixedPoint<'_> {
                 ..
             } = state;
             let known = Estimate::new(value, correction.abs() + response * caused.error);
-            let answer = widened(answer, slopes_from, known.error);
-            let answer = self.of.at_fixed_point(answer, known);
+            let errors = errors.within(response, correction.abs());
+            let answer = widened(answer, slopes_from, errors);
+            let answer = self.of.at_fixed_point(answer, known, errors.of_material);
             let Some(friction) = answer.friction_coefficient else {
                 return Ok((answer, missed));
             };
@@ -534,19 +565,35 @@ fn largest_slope(
     Some(slope_of(one, &quantity)?.max(slope_of(other, &quantity)?))
 }
 
-/// The answer with the errors of all quantities widened by that of the value; pairs of states give their slopes.
-fn widened(mut answer: Answer, states: [[&State; 2]; 2], error: f64) -> Answer {
-    let of_friction =
-        largest_slope(states, |answer| answer.friction_coefficient).unwrap_or_default();
-    let part = ErrorParts::discretisation_only(of_friction * error);
-    answer.error_parts = answer.error_parts.plus(part);
+/// The answer with the errors of all quantities widened by those of the value; pairs of states give their slopes.
+fn widened(mut answer: Answer, states: [[&State; 2]; 2], errors: ValueErrors) -> Answer {
+    let slope = |of: fn(&Answer) -> Option<Estimate>| largest_slope(states, of).unwrap_or_default();
+    let ratio = |known: Option<Estimate>, to: Option<Estimate>| match (known, to) {
+        (Some(known), Some(to)) if to.value != 0.0 => (known.value / to.value).abs(),
+        _ => 0.0,
+    };
+    // Shear follows its strength, and the material as the contact area does; the temperature of the contact follows friction and area.
+    let known = answer.clone();
+    let of_area = slope(|answer| answer.contact_area) * errors.of_material;
+    let of_shear = slope(|answer| answer.friction_from_shear) * errors.of_shear
+        + ratio(known.friction_from_shear, known.contact_area) * of_area;
+    let of_friction = of_shear + slope(Answer::hysteresis) * errors.of_material;
     for quantity in &QUANTITIES {
         let slope = largest_slope(states, quantity.of);
         if let (Some(field), Some(slope)) = (quantity.field, slope)
-            && let Some(known) = field(&mut answer)
+            && let Some(value) = field(&mut answer)
         {
-            *known = known.widened(slope * error);
+            *value = value.widened(match quantity.key {
+                "friction_coefficient" => of_friction,
+                "friction_from_shear" => of_shear,
+                "largest_temperature_rise" | "mean_temperature_rise" => {
+                    of_friction * ratio(Some(*value), known.friction_coefficient)
+                        + of_area * ratio(Some(*value), known.contact_area)
+                }
+                _ => slope * errors.of_material,
+            });
         }
     }
+    answer.error_parts = (answer.error_parts).plus(ErrorParts::discretisation_only(of_friction));
     answer
 }

@@ -443,10 +443,11 @@ impl Problem {
         Ok(problem)
     }
 
-    /// The problem whose material has a temperature for each wave and whose shear strength has that of the contact: the temperature
-    /// `ambient` \[°C] and the rise below the surface. The material of the problem itself has one temperature, about which it is shifted.
+    /// The problem whose material has the temperature of the depth where it dissipates, and whose shear strength has that of the contact: the
+    /// temperature `ambient` \[°C] and the rise below the surface. On a period each wave has a temperature, by which the material of the
+    /// problem itself is shifted.
     ///
-    /// Waves that are hotter than the laws allow take their highest temperature.
+    /// What is hotter than the laws allow takes their highest temperature.
     ///
     /// # Errors
     /// [`SceneError`] as for [`Self::at_temperature`].
@@ -458,7 +459,9 @@ impl Problem {
         let highest = self.highest_temperature();
         // Rises may be negative by rounding.
         let at = |rise: f64| (ambient + rise).min(highest).max(ambient);
-        if let Some(shift) = self.parts.half_space.shift() {
+        if !matches!(self.body(), Body::Periodic(_)) {
+            self = self.at_temperature(at(by_depth.mean().value))?;
+        } else if let Some(shift) = self.parts.half_space.shift() {
             let refused = |error: RheologyError| SceneError::at("heat", error.to_string());
             let wave = |wave_number: f64| {
                 let celsius = at(by_depth.of_wave(wave_number));
@@ -480,7 +483,7 @@ impl Problem {
         Ok(self)
     }
 
-    /// Temperature rise below a periodic surface; `None` for one temperature.
+    /// Temperature rise below the surface; `None` for one temperature.
     pub(super) const fn by_depth(&self) -> Option<&DepthProfile> {
         self.by_depth.as_ref()
     }

@@ -106,11 +106,16 @@ fn a_perfect_conductor_keeps_the_isothermal_answer() {
     assert!((number(&conducting, "effective_temperature") - 20.0).abs() < f64::EPSILON);
 }
 
-/// The friction with heat is the isothermal one at the effective temperature, which is that of the surroundings plus a mean rise.
+/// The hysteresis with heat is the isothermal one at the effective temperature, which is that of the material: of the surroundings plus a mean
+/// rise in the depth.
 #[test]
-fn friction_is_that_at_the_effective_temperature() {
+fn hysteresis_is_that_at_the_effective_temperature() {
     let folder = Folder::new("heat-effective");
-    let heated = folder.answer(format!("{BALL}{SHEAR}{HEAT}"));
+    let insulator = with(HEAT, ["0.25", "0.0025"]);
+    let insulator = with(&insulator, ["1.2e-7", "1.2e-6"]);
+    let heated = folder.answer(format!(
+        "{BALL}{SHEAR}{insulator}counterface = \"conducting\"\n"
+    ));
     let temperature = number(&heated, "effective_temperature");
     assert!((22.0..40.0).contains(&temperature), "{temperature}");
     // The same material at this temperature: with a shift law whose reference it is, and times that are shorter by a_T.
@@ -138,6 +143,33 @@ fn friction_is_that_at_the_effective_temperature() {
     );
     let spread = number(&heated, "temperature_model_spread");
     assert!(spread > 0.0, "{spread}");
+}
+
+/// The shear of a fast contact heats a layer at the surface, and not the depth where the material dissipates. Its strength is that at the mean
+/// temperature of the contact area.
+#[test]
+fn shear_heats_the_surface_and_not_the_depth() {
+    let folder = Folder::new("heat-surface");
+    let bell = "[interface.bell]\nshear_strength = 1e6\nvelocity = 1e-2\nactivation_energy = 50e3\nwidth = 2.0\n";
+    let scene = format!("{BALL}{bell}{HEAT}");
+    let heated = folder.answer(&scene);
+    let cold = folder.answer(format!("{BALL}{bell}"));
+    assert!(number(&heated, "effective_temperature") < 20.1, "{heated}");
+    let of_material = "friction_from_hysteresis";
+    let ratio = number(&heated, of_material) / number(&cold, of_material);
+    assert!((ratio - 1.0).abs() < 0.01, "{ratio}");
+    let [mean, error] = rise(&heated, "mean");
+    assert!(mean > 3.0, "{mean}");
+    let shear_at = |rise: f64| {
+        let log_shift = 50e3 / 8.314_462_6 * (1.0 / (293.15 + rise) - 1.0 / 293.15);
+        let decades = (0.1 / 1e-2 * log_shift.exp()).log10();
+        1e6 * (-(0.5 * decades).powi(2)).exp() * number(&heated, "contact_area") / 1.0
+    };
+    let [coldest, hottest] = [mean - error, mean + error].map(shear_at);
+    let [shear, bar] =
+        ["", "_error"].map(|end| number(&heated, &format!("friction_from_shear{end}")));
+    let is_within = shear - bar <= coldest.max(hottest) && coldest.min(hottest) <= shear + bar;
+    assert!(is_within, "{shear} ± {bar}, not {coldest} to {hottest}");
 }
 
 /// A counterface that takes the heat of the shear leaves that of the bulk, and half of it lies between.
@@ -196,8 +228,9 @@ fn a_steep_law_has_the_temperature_that_it_causes() {
 fn the_highest_temperature_is_within_the_range_of_the_law() {
     let folder = Folder::new("heat-rounding");
     let text = with(BALL, ["120.0]", "59.93]"]);
-    folder.answer(format!("{text}{HEAT}ambient_temperature = 21.7\n"));
-    let highest = folder.answer(format!("{text}{HEAT}ambient_temperature = 59.93\n"));
+    let conductor = with(HEAT, ["0.25", "25.0"]);
+    folder.answer(format!("{text}{conductor}ambient_temperature = 21.7\n"));
+    let highest = folder.answer(format!("{text}{conductor}ambient_temperature = 59.93\n"));
     let temperature = number(&highest, "effective_temperature");
     assert!((temperature - 59.93).abs() < 1e-3, "{temperature}");
 }
@@ -458,6 +491,8 @@ fn heat_is_refused_where_it_is_not_computed() {
 fn a_contact_that_leaves_the_range_of_the_law_is_refused() {
     let folder = Folder::new("heat-too-hot");
     let text = with(&format!("{BALL}{SHEAR}{HEAT}"), ["120.0]", "21.0]"]);
+    let text = with(&text, ["0.25", "0.0025"]);
+    let text = with(&text, ["1.2e-7", "1.2e-6"]);
     folder.write("scene.toml", text);
     let refused = folder.ends("scene.toml", 1, "beyond 21 °C");
     assert!(refused.contains("would heat it to"), "{refused}");

@@ -165,7 +165,7 @@ enum Direction<'a> {
 /// A value that the contact causes and on which its moduli or its shear strength depend.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Cause {
-    /// Effective temperature, \[°C].
+    /// Temperature of the contact as a whole, \[°C].
     Temperature,
     /// Logarithm of the strain amplitude.
     LogStrain,
@@ -176,7 +176,7 @@ impl Cause {
     fn of(self, answer: &Answer, place_in_bar: f64) -> Option<f64> {
         let at = |known: Estimate| known.value + place_in_bar * known.error;
         match self {
-            Self::Temperature => answer.effective_temperature.map(at),
+            Self::Temperature => answer.fixed_point_temperature.map(at),
             Self::LogStrain => answer.strain.map(|strain| at(strain).ln()),
         }
     }
