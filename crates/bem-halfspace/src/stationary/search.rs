@@ -39,8 +39,11 @@ const MAX_TENSILE_FRACTION: f64 = 0.2;
 /// memory may exceed the heights in contact a million times.
 const DEPTH_ROUNDING_ULPS: f64 = 16.0;
 /// Number of times that the residual of an unchanged active set may grow, which only rounding error causes. Chosen to limit the
-/// time: beyond it the search fails with [`BemError::ContactNotConverged`]. A contact that is found does not depend on it.
+/// time: beyond it the search ends. A contact that is found before does not depend on it.
 const MAX_STAGNATIONS: usize = 5;
+/// Largest ratio of the residual to the tolerance with which a contact counts as found where only rounding error is left. Chosen: the bars
+/// contain the residual. Measured: tolerances of 1e-12 leave up to 2.4e-12 under a quarter of 30 random height maps.
+const LARGEST_ROUNDING_RATIO: f64 = 10.0;
 
 /// Forcing terms of the inexact Newton method: inner residual over the residual that the last exchange left.
 pub(crate) struct ForcingTerms {
@@ -183,7 +186,7 @@ impl<'a, P: FixedSetSolver> Search<'a, P> {
             }
             self.problem.scale_to_force(&mut self.pressure);
             self.update_gaps();
-            let mut converged = self.satisfies_kkt();
+            let mut converged = self.satisfies_kkt(1.0);
             let solver_error = if rule.exchanges_single_elements() {
                 0.0
             } else {
@@ -206,14 +209,19 @@ impl<'a, P: FixedSetSolver> Search<'a, P> {
             if tension > 0.0 {
                 self.project_nonnegative();
                 self.update_gaps();
-                converged = tension <= self.tolerance * total && self.satisfies_kkt();
+                converged = tension <= self.tolerance * total && self.satisfies_kkt(1.0);
             }
             if converged {
                 return Ok(());
             }
 
-            // End with an error when the budget is used or rounding error prevails.
-            if self.problem.budget_is_exhausted() || stagnations > MAX_STAGNATIONS {
+            // End when rounding error prevails, with an error if it leaves too much, and when the budget is used.
+            let is_stalled = stagnations > MAX_STAGNATIONS;
+            let tension_is_small = tension <= self.tolerance * total;
+            if is_stalled && tension_is_small && self.satisfies_kkt(LARGEST_ROUNDING_RATIO) {
+                return Ok(());
+            }
+            if self.problem.budget_is_exhausted() || is_stalled {
                 return Err(BemError::ContactNotConverged {
                     iterations: self.problem.iterations(),
                     residual: self.residual,
@@ -251,9 +259,9 @@ impl<'a, P: FixedSetSolver> Search<'a, P> {
         self.problem.scale_to_force(&mut self.pressure);
     }
 
-    /// True if no residual on the active set and no penetration outside it exceeds the allowed gap.
-    fn satisfies_kkt(&self) -> bool {
-        let allowed = self.allowed_gap();
+    /// True if no residual on the active set and no penetration outside it exceeds a multiple of the allowed gap.
+    fn satisfies_kkt(&self, multiple: f64) -> bool {
+        let allowed = multiple * self.allowed_gap();
         let penetrates = |(gap, active): (&f64, &bool)| !active && *gap < -allowed;
         self.residual * self.scale <= allowed && !self.gap.iter().zip(&self.active).any(penetrates)
     }

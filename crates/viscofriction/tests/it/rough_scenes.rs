@@ -327,6 +327,41 @@ fn strange_maps_are_warned_of() {
     );
 }
 
+/// The friction of an elastic material is 0, whatever the rounding of slopes leaves of it: the depth decides how fine the elements are, also
+/// under a body without a symmetry.
+#[test]
+fn an_elastic_map_without_symmetry_has_the_requested_depth() {
+    let folder = Folder::new("elastic-map");
+    let height = |row: i32, column: i32| {
+        let [y, x] = [row, column].map(|index| 1e-4 * f64::from(index - 10));
+        let steepness = if x < 0.0 { 1.0 } else { 2.0 };
+        format!("{:e}", -100.0 * (steepness * x * x + y * y))
+    };
+    let line = |row| {
+        (0..21)
+            .map(|column| height(row, column))
+            .collect::<Vec<_>>()
+    };
+    let lines: Vec<String> = (0..21).map(|row| line(row).join(",")).collect();
+    folder.write("map.csv", lines.join("\n"));
+    let [coarse, fine] = ["1e-3", "1e-4"].map(|error| {
+        let answer = folder.answer(format!(
+            "indenter.height-map = {{ file = \"map.csv\", spacing = [1e-4, 1e-4] }}\nmaterial.elastic.shear_modulus = 1e6\nload = {{ \
+             normal_force = 0.1, velocity = 0.02 }}\nsolve.relative_error = {error}\n"
+        ));
+        assert!(number(&answer, "friction_coefficient").abs() < f64::MIN_POSITIVE);
+        ["indentation_depth", "indentation_depth_error"].map(|key| number(&answer, key))
+    });
+    assert!(
+        coarse[1] <= 1e-3 * coarse[0] && fine[1] <= 1e-4 * fine[0],
+        "{coarse:?} {fine:?}"
+    );
+    assert!(
+        (coarse[0] - fine[0]).abs() <= coarse[1] + fine[1],
+        "{coarse:?} {fine:?}"
+    );
+}
+
 #[test]
 fn units_of_a_head_are_those_of_the_keys() {
     let folder = folder_of_maps("rough-units-of-maps");

@@ -83,10 +83,6 @@ const CYCLING_SPACING_FACTORS: [f64; 2] = [0.99, 0.98];
 /// contact. Chosen; from 1e-4 to 1e-2 only times change, by up to a fifth (case of `evidence tuning`). In plane strain the constant
 /// potential of the whole strip, which is absorbed in the depth, leaves more rounding error than a smaller one allows.
 const RESIDUAL_SHARE: f64 = 1e-4;
-/// Ratio of the error of the friction to the mean slope below which the friction of an elastic material counts as known. Chosen:
-/// its friction is 0, and the tolerances of the contacts and the rounding of sums leave about as much. With a smaller ratio such
-/// a refinement would go on to the limit of unknowns.
-const ELASTIC_ROUNDING: f64 = 1e-9;
 
 /// Requested error, shape of the elements and limits of the work of a refinement.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -214,18 +210,14 @@ impl ShiftedGrids<'_> {
             }
         };
 
-        // Choose the quantity that decides whether to refine: the friction, or depth or force if the friction is only rounding error.
+        // Choose the quantity that decides whether to refine: the friction, or depth or force if the friction is 0 on an elastic material or
+        // only rounding error.
         let [friction, force] = [self.friction(), self.force()];
         let is_elastic = self.problem.loading.creep.is_elastic();
-        let rounding = if is_elastic {
-            ELASTIC_ROUNDING
-        } else {
-            MIN_TOLERANCE
-        };
-        let friction_is_rounding = friction.error <= rounding * state.mean_slope;
+        let friction_is_known = is_elastic || friction.error <= MIN_TOLERANCE * state.mean_slope;
         let (name, known) = match self.depth() {
-            Some(depth) if friction_is_rounding => (Name::Depth, depth),
-            None if friction_is_rounding => (Name::Force, force),
+            Some(depth) if friction_is_known => (Name::Depth, depth),
+            None if friction_is_known => (Name::Force, force),
             _ => (Name::Friction, friction),
         };
         let missed_force = self.unless_within(Name::Force, force);
@@ -543,10 +535,11 @@ impl ShiftedGrids<'_> {
 
     /// Tolerance of a contact that disturbs the friction by less than the requested error. It is proportional to the ratio of
     /// friction to mean slope, because a small friction is a difference of large slopes. The ratio is 1 at most, which is assumed
-    /// on the first grid.
+    /// on the first grid, and on an elastic material, whose depth is asked for.
     fn tolerance(&self) -> f64 {
         // The friction ratio is that of the last solution, which is on another grid.
         let last = self.reuse.solution.as_ref();
+        let last = last.filter(|_| !self.problem.loading.creep.is_elastic());
         let friction_ratio = last.map_or(1.0, |last| {
             last.friction_coefficient.abs() / last.mean_slope
         });
