@@ -9,12 +9,10 @@ use rheology::{
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use strum::IntoStaticStr;
-use toml::Table;
 
 use super::SceneError;
 use super::files::shear_strengths;
 use super::schema::check_ranges;
-use super::source::checked;
 use crate::files::Files;
 use crate::text::WrongInput;
 
@@ -244,22 +242,6 @@ impl ShearLaw {
             square += ((doubled / own).log2() * error).powi(2);
         }
         Ok(square.sqrt())
-    }
-}
-
-/// Contents of a table with an interface alone.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct InterfaceAlone {
-    interface: Interface,
-}
-
-/// Reads an interface, with one table `[interface.…]`, from its keys and values.
-impl TryFrom<Table> for Interface {
-    type Error = SceneError;
-
-    fn try_from(table: Table) -> Result<Self, SceneError> {
-        checked(table).map(|alone: InterfaceAlone| alone.interface)
     }
 }
 

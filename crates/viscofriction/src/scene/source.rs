@@ -3,13 +3,14 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_path_to_error::Segment;
 use toml::de::{DeTable, DeValue};
 use toml::{Table, Value};
 
 use super::schema::{below, refused_choice, resolved, schema};
-use super::{Scene, SceneError};
+use super::{Heat, Indenter, Interface, MaterialTable, Scene, SceneError, Strain};
 use crate::text::{WrongInput, line_of};
 
 /// The text of a scene file with its path.
@@ -213,7 +214,7 @@ pub(crate) fn scene_file(table: Table) -> Result<Scene, SceneError> {
 const TABLES_OF_ONE_KIND: [&str; 4] = ["indenter", "material", "interface", "strain"];
 
 /// Deserializes the tables of a file.
-pub(super) fn checked<T: DeserializeOwned>(table: Table) -> Result<T, SceneError> {
+fn checked<T: DeserializeOwned>(table: Table) -> Result<T, SceneError> {
     for (key, value) in &table {
         check_tables(key, value)?;
     }
@@ -229,6 +230,32 @@ pub(super) fn checked<T: DeserializeOwned>(table: Table) -> Result<T, SceneError
         })
     })
 }
+
+/// Reads a part of a scene from keys and values that contain nothing but its table, `[material.…]` for example.
+macro_rules! read_alone {
+    ($($key:ident: $Part:ty),+) => {
+        $(impl TryFrom<Table> for $Part {
+            type Error = SceneError;
+
+            fn try_from(table: Table) -> Result<Self, SceneError> {
+                #[derive(Deserialize)]
+                #[serde(deny_unknown_fields)]
+                struct Alone {
+                    $key: $Part,
+                }
+                checked(table).map(|Alone { $key }| $key)
+            }
+        })+
+    };
+}
+
+read_alone!(
+    indenter: Indenter,
+    material: MaterialTable,
+    interface: Interface,
+    heat: Heat,
+    strain: Strain
+);
 
 /// The error of the first value on a path that is none of the choices of its key; `None` if there is none.
 fn refused_choice_at(path: &serde_path_to_error::Path, mut value: &Value) -> Option<SceneError> {

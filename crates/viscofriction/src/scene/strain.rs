@@ -6,12 +6,10 @@ use rheology::{KrausModel, RheologyError, StrainDependence};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use strum::IntoStaticStr;
-use toml::Table;
 
 use super::SceneError;
 use super::files::strain_dependence;
 use super::schema::check_ranges;
-use super::source::checked;
 use crate::files::Files;
 use crate::text::WrongInput;
 
@@ -141,21 +139,5 @@ impl Strain {
                 strain_dependence(&file, &contents, *deformation, *amplitude).map_err(at_file)
             }
         }
-    }
-}
-
-/// Contents of a table with a strain dependence alone.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct StrainAlone {
-    strain: Strain,
-}
-
-/// Reads a strain dependence, with one table `[strain.…]`, from its keys and values.
-impl TryFrom<Table> for Strain {
-    type Error = SceneError;
-
-    fn try_from(table: Table) -> Result<Self, SceneError> {
-        checked(table).map(|alone: StrainAlone| alone.strain)
     }
 }
