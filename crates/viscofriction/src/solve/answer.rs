@@ -26,7 +26,7 @@ use crate::scene::{Method, Model};
 ///
 /// The JSON of an answer is flat: each quantity is followed by its absolute error, for example `friction_coefficient` by
 /// `friction_coefficient_error`. The error is 0 for quantities that are given or exact.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
 pub struct Answer {
     /// The method that computed the answer.
@@ -246,48 +246,8 @@ impl Answer {
         Self {
             method,
             model,
-            friction_coefficient: None,
-            friction_from_hysteresis: None,
-            friction_from_shear: None,
-            peak_friction: None,
-            dissipated_energy: None,
             normal_force,
-            indentation_depth: None,
-            error_parts: ErrorParts::NONE,
-            contact_area: None,
-            peak_pressure: None,
-            mean_pressure: None,
-            area_fraction: None,
-            friction_from_dissipation: None,
-            largest_temperature_rise: None,
-            mean_temperature_rise: None,
-            dissipation_weighted_rise: None,
-            temperature_by_depth: None,
-            effective_temperature: None,
-            temperature_model_spread: None,
-            strain: None,
-            storage_factor: None,
-            loss_factor: None,
-            linear: None,
-            persson: None,
-            without_shortest_octave: None,
-            contact_box: None,
-            dissipation: Dissipation::default(),
-            unknowns: 0,
-            iterations: 0,
-            is_per_length: false,
-            warnings: Vec::new(),
-            not_reached: None,
-            not_modelled: Vec::new(),
-            left_out: Vec::new(),
-            sensitivity: Vec::new(),
-            spectral_sensitivity: None,
-            ensemble: None,
-            budget: Budget::default(),
-            stationary: None,
-            period_grid: None,
-            grid: None,
-            fields: Fields::default(),
+            ..Self::default()
         }
     }
 
@@ -358,8 +318,8 @@ impl Answer {
 
     /// Names of all [`numbers`](Self::numbers) of an answer, which are the columns of the CSV.
     pub fn columns() -> Vec<String> {
-        let empty = Self::new(Method::Analytic, Model::HalfSpace, Estimate::exact(0.0));
-        empty.numbers().into_iter().map(|(name, _)| name).collect()
+        let numbers = Self::default().numbers().into_iter();
+        numbers.map(|(name, _)| name).collect()
     }
 
     /// Rejects unphysical numbers: underflow, which leaves neither digits nor an error estimate, and negative friction, by which
