@@ -420,10 +420,13 @@ impl Serialize for Answer {
         ByQuantity::new(|quantity| known(quantity, false)).serialize_into(&mut map)?;
         let rises = ByQuantity::new(|quantity| known(quantity, true));
         if !rises.is_empty() {
-            map.serialize_entry("temperature_rise", &TemperatureRises(rises))?;
+            let rises = rises.with_keys(|key| key.trim_end_matches(TEMPERATURE_RISE));
+            map.serialize_entry("temperature_rise", &rises)?;
         }
         if let Some(linear) = &self.linear {
-            map.serialize_entry("linear", &Numbers(linear))?;
+            // All quantities, without the parts, warnings and fields of that answer.
+            let numbers = ByQuantity::new(|quantity| (quantity.of)(linear));
+            map.serialize_entry("linear", &numbers)?;
         }
         for (key, error) in self.budget.material().iter() {
             map.serialize_entry(&format!("{key}_material_error"), &error)?;
@@ -466,34 +469,8 @@ impl Serialize for Answer {
 /// Key of the friction coefficient with the moduli of small strains; in JSON it is in the object `linear`.
 pub(crate) const LINEAR_FRICTION: &str = "linear_friction_coefficient";
 
-/// All quantities of an answer in JSON, without its parts, warnings and fields.
-struct Numbers<'a>(&'a Answer);
-
-impl Serialize for Numbers<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(None)?;
-        ByQuantity::new(|quantity| (quantity.of)(self.0)).serialize_into(&mut map)?;
-        map.end()
-    }
-}
-
 /// End of the keys of the temperature rises; in JSON they are entries of an object `temperature_rise`, by the words before it.
 const TEMPERATURE_RISE: &str = "_temperature_rise";
-
-/// The temperature rises of an answer in JSON.
-struct TemperatureRises(ByQuantity<Estimate>);
-
-impl Serialize for TemperatureRises {
-    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(None)?;
-        for (key, rise) in self.0.iter() {
-            let name = key.trim_end_matches(TEMPERATURE_RISE);
-            map.serialize_entry(name, &rise.value)?;
-            map.serialize_entry(&format!("{name}_error"), &rise.error)?;
-        }
-        map.end()
-    }
-}
 
 #[cfg(test)]
 mod tests {

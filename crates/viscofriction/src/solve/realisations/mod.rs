@@ -10,7 +10,8 @@ mod each;
 mod sample;
 
 use numerics::{ErrorParts, Estimate, Progress};
-use serde::ser::{Serialize, SerializeMap, Serializer};
+use serde::Serialize;
+use serde::ser::SerializeMap;
 
 use super::answer::{Answer, Persson};
 use super::cut_off::WithoutShortestOctave;
@@ -26,11 +27,12 @@ use sample::Sample;
 pub use sample::Scatter;
 
 /// The answer of one of the surfaces.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Realisation {
     /// Seed of the surface.
     pub seed: u64,
     /// The quantities whose scatter is known, with their errors.
+    #[serde(flatten)]
     pub quantities: ByQuantity<Estimate>,
 }
 
@@ -42,15 +44,6 @@ impl Realisation {
             seed: *seed,
             quantities: ByQuantity::new(|quantity| scattered(quantity).flatten()),
         }
-    }
-}
-
-impl Serialize for Realisation {
-    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("seed", &self.seed)?;
-        self.quantities.serialize_into(&mut map)?;
-        map.end()
     }
 }
 

@@ -9,7 +9,7 @@
 //! the scene.
 
 use numerics::Estimate;
-use serde::ser::{Serialize, SerializeMap as _, Serializer};
+use serde::{Serialize, Serializer};
 
 use super::Derivatives;
 use super::parameters::Number;
@@ -167,18 +167,9 @@ impl Serialize for Budget {
 }
 
 /// One line of the budget in JSON.
+#[derive(Serialize)]
 struct Row<'a> {
     source: &'a str,
+    #[serde(flatten)]
     known: ByQuantity<f64>,
-}
-
-impl Serialize for Row<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("source", self.source)?;
-        for (name, known) in self.known.iter() {
-            map.serialize_entry(name, &known)?;
-        }
-        map.end()
-    }
 }
