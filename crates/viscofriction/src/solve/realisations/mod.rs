@@ -16,8 +16,9 @@ use serde::ser::SerializeMap;
 use super::answer::{Answer, Persson};
 use super::cut_off::WithoutShortestOctave;
 use super::dissipation::Dissipation;
-use super::error::{Result, SolveError};
+use super::error::Result;
 use super::problem::Problem;
+use super::solved::Solved;
 use super::warning::Warning;
 use crate::quantity::{ByQuantity, QUANTITIES, Quantity};
 use crate::sweep::each_once;
@@ -104,12 +105,7 @@ pub(super) fn mean(
     // Average the answers, and correct the means by the coarse solutions.
     let mut answer = mean_of(&answers, &problem.seeds());
     answer.include_coarse((&answers, &coarse));
-    let Some(why) = missed else {
-        return Ok(answer);
-    };
-    answer.not_reached = Some(why.to_string());
-    let (answer, why) = (Box::new(answer), Box::new(why));
-    Err(SolveError::NotReached { answer, why })
+    Solved { answer, missed }.into_result()
 }
 
 /// A statistic of the values of a quantity over all surfaces; `None` if an answer lacks the quantity, or coarse solutions never
