@@ -357,6 +357,23 @@ fn full_key(path: &str, problem: &str) -> String {
     }
 }
 
+/// The value at a path such as `material.prony.branches[0].modulus`; `None` if the scene does not have it.
+pub(crate) fn value_at<'a>(scene: &'a mut Table, path: &str) -> Option<&'a mut Value> {
+    let below = |table: &'a mut Table, segment: &str| {
+        let (name, index) = split_index(segment);
+        let value = table.get_mut(name)?;
+        match index {
+            Some(index) => value.get_mut(index),
+            None => Some(value),
+        }
+    };
+    let mut segments = path.split('.');
+    let first = below(scene, segments.next()?)?;
+    segments.try_fold(first, |value, segment| {
+        below(value.as_table_mut()?, segment)
+    })
+}
+
 /// Splits `branches[2]` into name and index.
 pub(crate) fn split_index(segment: &str) -> (&str, Option<usize>) {
     match segment.split_once('[') {

@@ -77,17 +77,17 @@ pub(super) fn budget(
         entries.push((Source::ShearTable, of_table));
     }
     for number in numbers {
-        let path = number.path();
+        let path = &number.path;
         let by_number = derivatives
             .by_numbers
             .iter()
-            .find(|one| one.parameter == path);
-        if let (Some(given), Some(one)) = (scene.uncertainty.get(&path), by_number) {
+            .find(|one| one.parameter == *path);
+        if let (Some(given), Some(one)) = (scene.uncertainty.get(path), by_number) {
             let relative = number.relative(*given);
             let of_number = uncertainties(answer, |key| {
                 Some((one.derivatives.of(key)?.value * relative).abs())
             });
-            entries.push((Source::Number(path), of_number));
+            entries.push((Source::Number(path.clone()), of_number));
         }
     }
     let mut budget = Budget { entries };

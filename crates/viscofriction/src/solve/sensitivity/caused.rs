@@ -88,7 +88,7 @@ pub(super) fn derivatives(
             }))
         };
     let by_number = |number: &Number| {
-        let found = sensitivity(number.path(), Direction::Number(number));
+        let found = sensitivity(number.path.clone(), Direction::Number(number));
         progress.add(1.0);
         found.transpose()
     };

@@ -88,7 +88,7 @@ pub fn with_sensitivity(
     let of_shear = problem.shear_strength_uncertainty()?;
     let budget = budget(&material, scene, &all, &found, &answer, of_shear);
     // Remove the derivative by the temperature, because a temperature in °C has no logarithmic one.
-    let temperature = numbers.uncertain_temperature().map(|number| number.path());
+    let temperature = numbers.uncertain_temperature().map(|number| number.path);
     let mut sensitivity = found.by_numbers;
     sensitivity.retain(|one| Some(&one.parameter) != temperature.as_ref());
     Ok(Answer {
