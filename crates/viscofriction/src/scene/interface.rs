@@ -14,7 +14,6 @@ use super::SceneError;
 use super::files::shear_strengths;
 use super::schema::check_ranges;
 use crate::files::Files;
-use crate::text::WrongInput;
 
 /// Shear strength τ_f of the real contact: its part of the friction coefficient is τ_f times the contact area over the normal force.
 #[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema, IntoStaticStr)]
@@ -193,10 +192,7 @@ impl Interface {
     /// The shear strength, checked; reads the file of a table.
     pub(crate) fn law(&self, files: &Files<'_>) -> Result<ShearLaw, SceneError> {
         if let Self::Table { file } = self {
-            let at_file = |problem| SceneError::at("interface.table.file", problem);
-            let table = files.table(file);
-            let (file, contents) = table.map_err(|WrongInput(problem)| at_file(problem))?;
-            return shear_strengths(&file, &contents).map_err(at_file);
+            return files.read_table("interface.table.file", file, shear_strengths);
         }
         self.shear_strength().map(ShearLaw::exact)
     }

@@ -13,6 +13,7 @@ mod interface;
 mod load;
 mod material;
 mod motion;
+mod place;
 mod revolution;
 mod schema;
 mod solve;

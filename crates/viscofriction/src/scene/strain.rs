@@ -11,7 +11,6 @@ use super::SceneError;
 use super::files::strain_dependence;
 use super::schema::check_ranges;
 use crate::files::Files;
-use crate::text::WrongInput;
 
 /// Factors f and g of storage and loss modulus over the amplitude of the equivalent strain, which is that of a tensile test and 1/√3 of a
 /// shear: the moduli are those at the strain of the contact (equivalent-linear).
@@ -131,13 +130,9 @@ impl Strain {
                 file,
                 deformation,
                 amplitude,
-            } => {
-                let at_file = |problem| SceneError::at("strain.table.file", problem);
-                let (file, contents) = files
-                    .table(file)
-                    .map_err(|WrongInput(problem)| at_file(problem))?;
-                strain_dependence(&file, &contents, *deformation, *amplitude).map_err(at_file)
-            }
+            } => files.read_table("strain.table.file", file, |file, contents| {
+                strain_dependence(file, contents, *deformation, *amplitude)
+            }),
         }
     }
 }
