@@ -3,7 +3,7 @@
 /// Absolute parts of an error bar, in the unit of its value; a part is `None` if the method does not have it.
 ///
 /// The error bar is at least their sum.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ErrorParts {
     /// Error of elements of finite size, and of time steps if their size follows from that of the elements.

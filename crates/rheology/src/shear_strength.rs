@@ -2,6 +2,7 @@
 
 use numerics::{in_range, positive};
 
+use crate::error::with_list_index;
 use crate::{ArrheniusShift, KELVIN_AT_ZERO_CELSIUS, RheologyError};
 
 /// Frictional shear stress τ_f of the real contact while it slides, \[Pa].
@@ -176,20 +177,12 @@ impl BellShearStrength {
 
 impl ShearStrengthTable {
     fn new(points: &[ShearStrengthPoint]) -> Result<Self, RheologyError> {
-        let list = "table";
-        let refused_at = |index: usize| {
-            move |refused| RheologyError::InvalidElement {
-                list,
-                index,
-                refused,
-            }
-        };
         // Check each row by itself.
         let has_temperature = points.first().is_some_and(|row| row.temperature.is_some());
         for (index, row) in points.iter().enumerate() {
-            let at = refused_at(index);
-            positive("velocity", row.velocity).map_err(at)?;
-            positive("shear_strength", row.shear_strength).map_err(at)?;
+            let at = with_list_index("table", index);
+            positive("velocity", row.velocity).map_err(&at)?;
+            positive("shear_strength", row.shear_strength).map_err(&at)?;
             let celsius = row.temperature.unwrap_or(0.0);
             let holds = row.temperature.is_some() == has_temperature
                 && celsius.is_finite()
@@ -222,7 +215,8 @@ impl ShearStrengthTable {
             let point = [row.velocity.ln(), row.shear_strength.ln()];
             let is_new = curve.last().is_none_or(|last| last[0] < point[0]);
             let allowed = "different from that of every other row of the same temperature";
-            in_range("velocity", row.velocity, is_new, allowed).map_err(refused_at(index))?;
+            in_range("velocity", row.velocity, is_new, allowed)
+                .map_err(with_list_index("table", index))?;
             curve.push(point);
         }
         match curves.iter().map(Vec::len).min() {

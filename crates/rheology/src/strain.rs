@@ -2,6 +2,7 @@
 
 use numerics::{in_range, positive};
 
+use crate::error::with_list_index;
 use crate::{ComplexModulus, RheologyError};
 
 /// Factors f > 0 of the storage modulus and g > 0 of the loss modulus, by which a strain amplitude changes them.
@@ -139,13 +140,7 @@ impl StrainDependence {
     /// [`RheologyError::InvalidElement`] for a strain that is not positive or occurs twice, and for a first strain above 0.002, beyond
     /// which filled rubber is not linear; [`RheologyError::TooFewPoints`] for less than two rows.
     pub fn table(points: &[StrainPoint]) -> Result<Self, RheologyError> {
-        let refused_at = |index: usize| {
-            move |refused| RheologyError::InvalidElement {
-                list: "table",
-                index,
-                refused,
-            }
-        };
+        let refused_at = |index| with_list_index("table", index);
         for (index, row) in points.iter().enumerate() {
             positive("strain", row.strain).map_err(refused_at(index))?;
         }

@@ -45,9 +45,21 @@ impl<'a> Files<'a> {
         self.memory.unwrap_or(1 << 32)
     }
 
+    /// What `read` finds in a table of numbers in the folder of the scene; errors are at `key`.
+    pub(crate) fn read_table<T>(
+        &self,
+        key: &str,
+        name: &Path,
+        read: impl FnOnce(&Path, &[u8]) -> Result<T, String>,
+    ) -> Result<T, SceneError> {
+        let table = self.table(name);
+        let found = table.and_then(|(file, contents)| read(&file, &contents).map_err(WrongInput));
+        found.map_err(|WrongInput(problem)| SceneError::at(key, problem))
+    }
+
     /// Path and contents of a table of numbers in the folder of the scene. Refuses one whose rows would exceed the memory limit
     /// when parsed.
-    pub(crate) fn table(&self, name: &Path) -> Result<(PathBuf, Vec<u8>), WrongInput> {
+    fn table(&self, name: &Path) -> Result<(PathBuf, Vec<u8>), WrongInput> {
         let memory = self.memory();
         let file = self.folder.join(name);
         let table = self.contents(name, memory)?;

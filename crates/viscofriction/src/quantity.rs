@@ -3,7 +3,7 @@
 //! Tables, JSON, CSV, ensemble means, derivatives, uncertainties, pictures and the Python package are loops over [`QUANTITIES`].
 
 use numerics::Estimate;
-use serde::ser::SerializeMap;
+use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use crate::solve::LINEAR_FRICTION;
 use crate::solve::{Answer, AnswerChange, Coarse, relative_change};
@@ -319,11 +319,31 @@ impl<T: Copy> ByQuantity<T> {
 }
 
 impl ByQuantity<Estimate> {
+    /// The same numbers by other keys.
+    pub(crate) fn with_keys(&self, key: impl Fn(&'static str) -> &'static str) -> Self {
+        Self(self.iter().map(|(known, one)| (key(known), one)).collect())
+    }
+
     /// Writes each value and its absolute error into a JSON object.
     pub(crate) fn serialize_into<M: SerializeMap>(&self, map: &mut M) -> Result<(), M::Error> {
         self.iter().try_for_each(|(key, known)| {
             map.serialize_entry(key, &known.value)?;
             map.serialize_entry(&format!("{key}_error"), &known.error)
         })
+    }
+}
+
+/// Each value followed by its absolute error.
+impl Serialize for ByQuantity<Estimate> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        self.serialize_into(&mut map)?;
+        map.end()
+    }
+}
+
+impl Serialize for ByQuantity<f64> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.iter())
     }
 }

@@ -179,7 +179,7 @@ impl<'a> Family<'a> {
         let of_material = self.moduli.iter().map(|number| {
             let [lowest, highest] = self.bounds_of(number);
             let parameter = FreeParameter {
-                name: number.path().trim_start_matches("material.").to_owned(),
+                name: number.path.trim_start_matches("material.").to_owned(),
                 unit: unit(number),
                 range: log_range([lowest, highest]),
             };
@@ -201,7 +201,7 @@ impl<'a> Family<'a> {
                 bounds = [bounds[0].max(lowest), bounds[1].min(highest)];
             }
             let parameter = FreeParameter {
-                name: number.path(),
+                name: number.path.clone(),
                 unit: self.strength_unit(number),
                 range: log_range(bounds),
             };
@@ -594,7 +594,7 @@ fn is_stress(number: &Number) -> bool {
 
 /// Index of the branch whose modulus a number is; `None` for other numbers.
 fn branch_of(number: &Number) -> Option<usize> {
-    let path = number.path();
+    let path = &number.path;
     let (_, branch) = path.strip_suffix("].modulus")?.rsplit_once("branches[")?;
     branch.parse().ok()
 }

@@ -4,11 +4,9 @@ use bem_halfspace::heat::{self, HeatCapacity, HeatConductor};
 use numerics::InvalidParameter;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use toml::Table;
 
 use super::SceneError;
 use super::schema::check_ranges;
-use super::source::checked;
 
 /// Heat of sliding: the temperature of the contact is computed, and material and shear strength are those at this temperature.
 #[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
@@ -102,21 +100,5 @@ impl From<Counterface> for heat::Counterface {
             Counterface::Conducting => Self::Conducting,
             Counterface::Share(share) => Self::ElastomerShare(1.0 - share),
         }
-    }
-}
-
-/// Contents of a table with the heat alone.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct HeatAlone {
-    heat: Heat,
-}
-
-/// Reads the table `[heat]` from its keys and values.
-impl TryFrom<Table> for Heat {
-    type Error = SceneError;
-
-    fn try_from(table: Table) -> Result<Self, SceneError> {
-        checked(table).map(|alone: HeatAlone| alone.heat)
     }
 }

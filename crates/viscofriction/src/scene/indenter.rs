@@ -16,7 +16,6 @@ use super::SceneError;
 use super::height_map::HeightMapTable;
 use super::revolution::Revolution;
 use super::schema::check_ranges;
-use super::source::checked;
 
 /// The rigid body; its lowest point is the origin, lengths in metres.
 #[derive(
@@ -370,20 +369,4 @@ fn check_wavelengths(surface: &SelfAffineSurface) -> Result<(), SceneError> {
         ));
     }
     Ok(())
-}
-
-/// Reads a body from keys and values, with one table `[indenter.…]`.
-impl TryFrom<toml::Table> for Indenter {
-    type Error = SceneError;
-
-    fn try_from(table: toml::Table) -> Result<Self, SceneError> {
-        checked(table).map(|scene: BodyTable| scene.indenter)
-    }
-}
-
-/// The part of a scene that is its body.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct BodyTable {
-    indenter: Indenter,
 }

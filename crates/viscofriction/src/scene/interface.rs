@@ -9,14 +9,11 @@ use rheology::{
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use strum::IntoStaticStr;
-use toml::Table;
 
 use super::SceneError;
 use super::files::shear_strengths;
 use super::schema::check_ranges;
-use super::source::checked;
 use crate::files::Files;
-use crate::text::WrongInput;
 
 /// Shear strength τ_f of the real contact: its part of the friction coefficient is τ_f times the contact area over the normal force.
 #[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema, IntoStaticStr)]
@@ -195,10 +192,7 @@ impl Interface {
     /// The shear strength, checked; reads the file of a table.
     pub(crate) fn law(&self, files: &Files<'_>) -> Result<ShearLaw, SceneError> {
         if let Self::Table { file } = self {
-            let at_file = |problem| SceneError::at("interface.table.file", problem);
-            let table = files.table(file);
-            let (file, contents) = table.map_err(|WrongInput(problem)| at_file(problem))?;
-            return shear_strengths(&file, &contents).map_err(at_file);
+            return files.read_table("interface.table.file", file, shear_strengths);
         }
         self.shear_strength().map(ShearLaw::exact)
     }
@@ -244,22 +238,6 @@ impl ShearLaw {
             square += ((doubled / own).log2() * error).powi(2);
         }
         Ok(square.sqrt())
-    }
-}
-
-/// Contents of a table with an interface alone.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct InterfaceAlone {
-    interface: Interface,
-}
-
-/// Reads an interface, with one table `[interface.…]`, from its keys and values.
-impl TryFrom<Table> for Interface {
-    type Error = SceneError;
-
-    fn try_from(table: Table) -> Result<Self, SceneError> {
-        checked(table).map(|alone: InterfaceAlone| alone.interface)
     }
 }
 

@@ -78,6 +78,17 @@ pub struct LoadPoint {
     pub indentation_depth: Option<f64>,
 }
 
+impl MotionPoint {
+    /// The point without its position.
+    pub(super) const fn load_point(&self) -> LoadPoint {
+        LoadPoint {
+            time: self.time,
+            normal_force: self.normal_force,
+            indentation_depth: self.indentation_depth,
+        }
+    }
+}
+
 impl Load {
     /// Validated force \[N] or depth \[m], constant in time. `period` is the area of one period \[m²], by which a mean pressure
     /// is multiplied to a force; `None` for a body that is not periodic. Rejects a missing control, and several.

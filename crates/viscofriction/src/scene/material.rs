@@ -9,7 +9,6 @@ use strum::{EnumDiscriminants, EnumIter, IntoStaticStr};
 use toml::{Table, Value};
 
 use super::schema::check_ranges;
-use super::source::checked;
 use super::{Covariance, SceneError};
 
 /// Defines the table of a material: each kind with its own keys, and the keys that all kinds have.
@@ -150,13 +149,6 @@ materials! {
         /// Shortest and longest time > 0 for which the material is needed, \[s], as of a springpot.
         time_range: [f64; 2],
     }
-}
-
-/// Contents of a material file.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct MaterialFile {
-    material: MaterialTable,
 }
 
 /// A Maxwell branch.
@@ -303,14 +295,5 @@ impl MaterialTable {
         }
         *shift = shift.with_reference(celsius).map_err(wrong)?;
         Ok(self)
-    }
-}
-
-/// Reads a material file, with one table `[material.…]`, from its keys and values.
-impl TryFrom<Table> for MaterialTable {
-    type Error = SceneError;
-
-    fn try_from(table: Table) -> Result<Self, SceneError> {
-        checked(table).map(|file: MaterialFile| file.material)
     }
 }

@@ -13,6 +13,7 @@ mod interface;
 mod load;
 mod material;
 mod motion;
+mod place;
 mod revolution;
 mod schema;
 mod solve;
@@ -46,7 +47,7 @@ pub use rheology::{Shift, ShiftLaw, VerticalLaw};
 pub use schema::{Key, Kind, json_schema, keys, kinds, number, resolved, schema, units};
 pub use solve::{Method, Model, Solve};
 pub use source::Source;
-pub(crate) use source::{PATH_KEYS, quoted, scene_file, split_index};
+pub(crate) use source::{PATH_KEYS, quoted, scene_file, split_index, value_at};
 pub use strain::{Strain, StrainAmplitude, StrainDeformation};
 
 use crate::text::WrongInput;

@@ -1,13 +1,13 @@
 //! Validation of a motion along the surface, given in the scene or in a file: reciprocating, or through given positions.
 
 use indenters::{Control, IndenterError, MovingLoad, MovingPoint, Shape, Stroke};
-use numerics::{in_range, positive};
+use numerics::positive;
 
 use super::SceneError;
 use super::files::motion;
 use super::load::{Load, MotionPoint, StrokeShape};
+use super::place::Place;
 use crate::files::Files;
-use crate::text::WrongInput;
 
 /// Message if a scene has more than one of `motion`, `motion_file`, `stroke` and a history.
 const ONE_OF: &str = "a body moves through the points of motion or motion_file, or over a stroke, or follows a history: give one of them";
@@ -15,6 +15,10 @@ const ONE_OF: &str = "a body moves through the points of motion or motion_file, 
 const MOVES: &str = "a motion says how the body moves; leave this out";
 /// Message for a force or depth in the motion of a periodic surface.
 const OWN_PRESSURE: &str = "a periodic surface is pressed by load.mean_pressure all the time; leave forces and depths of points out";
+
+/// Message for a point with force and depth, or with neither where others have one.
+const NEEDED: &str =
+    "either normal_force or indentation_depth is needed, and not both, at all points or at none";
 
 impl Load {
     /// Validated reciprocating motion, or motion through given positions; `None` if there is none. `period` is the area of one
@@ -59,11 +63,8 @@ impl Load {
             (None, None) => return Ok(None),
             (Some(points), _) => (points.clone(), "load.motion"),
             (None, Some(file)) => {
-                let table = files.table(file);
-                let points =
-                    table.and_then(|(file, table)| motion(&file, &table).map_err(WrongInput));
-                let wrong = |WrongInput(problem)| SceneError::at("load.motion_file", problem);
-                (points.map_err(wrong)?, "load.motion_file")
+                let key = "load.motion_file";
+                (files.read_table(key, file, motion)?, key)
             }
         };
         let points = self.pressed(&points, (key, period.is_some()), control)?;
@@ -129,7 +130,7 @@ impl Load {
             before = place.number("time", point.time, later, allowed)?;
             let control = match held {
                 Some(control) => control,
-                None => place.control(point, &points[0])?,
+                None => place.control(point.load_point(), points[0].load_point(), NEEDED)?,
             };
             Ok(MovingPoint {
                 time: point.time,
@@ -144,61 +145,6 @@ impl Load {
     pub(crate) fn checked_track(&self) -> Result<Option<f64>, SceneError> {
         let track = self.track.map(|track| positive("load.track", track));
         Ok(track.transpose()?)
-    }
-}
-
-/// Location of a point of a motion for error messages: its index in the scene, or only the file.
-struct Place<'a> {
-    key: &'a str,
-    index: usize,
-}
-
-impl Place<'_> {
-    /// Path of a value of the point; that of a file is the key of the file.
-    fn key(&self, name: &str) -> String {
-        let Self { key, index } = self;
-        match name {
-            _ if *key == "load.motion_file" => (*key).to_owned(),
-            "" => format!("{key}[{index}]"),
-            _ => format!("{key}[{index}].{name}"),
-        }
-    }
-
-    /// The number, unless it is not finite or `holds` is false; then an error with the range `allowed`.
-    fn number(
-        &self,
-        name: &'static str,
-        value: f64,
-        holds: bool,
-        allowed: &'static str,
-    ) -> Result<f64, SceneError> {
-        let wrong = |refused| SceneError::value(self.key(name), refused);
-        in_range(name, value, holds && value.is_finite(), allowed).map_err(wrong)
-    }
-
-    /// Force or depth of a point; it must be of the kind of the first point.
-    fn control(&self, point: &MotionPoint, first: &MotionPoint) -> Result<Control, SceneError> {
-        let wrong = |problem| Err(SceneError::at(self.key(""), problem));
-        let control = match (point.normal_force, point.indentation_depth) {
-            (Some(force), None) => {
-                let allowed = "finite and at least 0";
-                self.number("normal_force", force, force >= 0.0, allowed)
-                    .map(Control::NormalForce)?
-            }
-            (None, Some(depth)) => {
-                let depth = self.number("indentation_depth", depth, true, "finite");
-                depth.map(Control::IndentationDepth)?
-            }
-            _ => {
-                return wrong(
-                    "either normal_force or indentation_depth is needed, and not both, at all points or at none",
-                );
-            }
-        };
-        if first.normal_force.is_some() != point.normal_force.is_some() {
-            return wrong("all points have a force, or all a depth");
-        }
-        Ok(control)
     }
 }
 

@@ -40,13 +40,24 @@ pub struct Solve {
 
 /// How the answer is computed.
 #[derive(
-    Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema, IntoStaticStr, EnumIter,
+    Debug,
+    Clone,
+    Copy,
+    Default,
+    PartialEq,
+    Eq,
+    Deserialize,
+    Serialize,
+    JsonSchema,
+    IntoStaticStr,
+    EnumIter,
 )]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
 pub enum Method {
     /// Closed forms, quadrature, and the table of s(p) on the half space.
+    #[default]
     Analytic,
     /// Stationary sliding on the one-dimensional model.
     MdrSteady,
@@ -59,13 +70,16 @@ pub enum Method {
 }
 
 /// What the elastomer is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema, IntoStaticStr)]
+#[derive(
+    Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema, IntoStaticStr,
+)]
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
 pub enum Model {
     /// The one-dimensional model of the method of dimensionality reduction.
     Line,
     /// The half space.
+    #[default]
     HalfSpace,
 }
 

@@ -3,13 +3,14 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_path_to_error::Segment;
 use toml::de::{DeTable, DeValue};
 use toml::{Table, Value};
 
 use super::schema::{below, refused_choice, resolved, schema};
-use super::{Scene, SceneError};
+use super::{Heat, Indenter, Interface, MaterialTable, Scene, SceneError, Strain};
 use crate::text::{WrongInput, line_of};
 
 /// The text of a scene file with its path.
@@ -213,7 +214,7 @@ pub(crate) fn scene_file(table: Table) -> Result<Scene, SceneError> {
 const TABLES_OF_ONE_KIND: [&str; 4] = ["indenter", "material", "interface", "strain"];
 
 /// Deserializes the tables of a file.
-pub(super) fn checked<T: DeserializeOwned>(table: Table) -> Result<T, SceneError> {
+fn checked<T: DeserializeOwned>(table: Table) -> Result<T, SceneError> {
     for (key, value) in &table {
         check_tables(key, value)?;
     }
@@ -229,6 +230,32 @@ pub(super) fn checked<T: DeserializeOwned>(table: Table) -> Result<T, SceneError
         })
     })
 }
+
+/// Reads a part of a scene from keys and values that contain nothing but its table, `[material.…]` for example.
+macro_rules! read_alone {
+    ($($key:ident: $Part:ty),+) => {
+        $(impl TryFrom<Table> for $Part {
+            type Error = SceneError;
+
+            fn try_from(table: Table) -> Result<Self, SceneError> {
+                #[derive(Deserialize)]
+                #[serde(deny_unknown_fields)]
+                struct Alone {
+                    $key: $Part,
+                }
+                checked(table).map(|Alone { $key }| $key)
+            }
+        })+
+    };
+}
+
+read_alone!(
+    indenter: Indenter,
+    material: MaterialTable,
+    interface: Interface,
+    heat: Heat,
+    strain: Strain
+);
 
 /// The error of the first value on a path that is none of the choices of its key; `None` if there is none.
 fn refused_choice_at(path: &serde_path_to_error::Path, mut value: &Value) -> Option<SceneError> {
@@ -328,6 +355,23 @@ fn full_key(path: &str, problem: &str) -> String {
         Some(name) => format!("{path}.{name}"),
         None => path.to_owned(),
     }
+}
+
+/// The value at a path such as `material.prony.branches[0].modulus`; `None` if the scene does not have it.
+pub(crate) fn value_at<'a>(scene: &'a mut Table, path: &str) -> Option<&'a mut Value> {
+    let below = |table: &'a mut Table, segment: &str| {
+        let (name, index) = split_index(segment);
+        let value = table.get_mut(name)?;
+        match index {
+            Some(index) => value.get_mut(index),
+            None => Some(value),
+        }
+    };
+    let mut segments = path.split('.');
+    let first = below(scene, segments.next()?)?;
+    segments.try_fold(first, |value, segment| {
+        below(value.as_table_mut()?, segment)
+    })
 }
 
 /// Splits `branches[2]` into name and index.

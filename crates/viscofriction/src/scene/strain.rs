@@ -6,14 +6,11 @@ use rheology::{KrausModel, RheologyError, StrainDependence};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use strum::IntoStaticStr;
-use toml::Table;
 
 use super::SceneError;
 use super::files::strain_dependence;
 use super::schema::check_ranges;
-use super::source::checked;
 use crate::files::Files;
-use crate::text::WrongInput;
 
 /// Factors f and g of storage and loss modulus over the amplitude of the equivalent strain, which is that of a tensile test and 1/√3 of a
 /// shear: the moduli are those at the strain of the contact (equivalent-linear).
@@ -133,29 +130,9 @@ impl Strain {
                 file,
                 deformation,
                 amplitude,
-            } => {
-                let at_file = |problem| SceneError::at("strain.table.file", problem);
-                let (file, contents) = files
-                    .table(file)
-                    .map_err(|WrongInput(problem)| at_file(problem))?;
-                strain_dependence(&file, &contents, *deformation, *amplitude).map_err(at_file)
-            }
+            } => files.read_table("strain.table.file", file, |file, contents| {
+                strain_dependence(file, contents, *deformation, *amplitude)
+            }),
         }
-    }
-}
-
-/// Contents of a table with a strain dependence alone.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct StrainAlone {
-    strain: Strain,
-}
-
-/// Reads a strain dependence, with one table `[strain.…]`, from its keys and values.
-impl TryFrom<Table> for Strain {
-    type Error = SceneError;
-
-    fn try_from(table: Table) -> Result<Self, SceneError> {
-        checked(table).map(|alone: StrainAlone| alone.strain)
     }
 }

@@ -26,7 +26,7 @@ use crate::scene::{Method, Model};
 ///
 /// The JSON of an answer is flat: each quantity is followed by its absolute error, for example `friction_coefficient` by
 /// `friction_coefficient_error`. The error is 0 for quantities that are given or exact.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
 pub struct Answer {
     /// The method that computed the answer.
@@ -249,49 +249,8 @@ impl Answer {
         Self {
             method,
             model,
-            friction_coefficient: None,
-            friction_from_hysteresis: None,
-            friction_from_shear: None,
-            peak_friction: None,
-            dissipated_energy: None,
             normal_force,
-            indentation_depth: None,
-            error_parts: ErrorParts::NONE,
-            contact_area: None,
-            peak_pressure: None,
-            mean_pressure: None,
-            area_fraction: None,
-            friction_from_dissipation: None,
-            largest_temperature_rise: None,
-            mean_temperature_rise: None,
-            dissipation_weighted_rise: None,
-            temperature_by_depth: None,
-            effective_temperature: None,
-            fixed_point_temperature: None,
-            temperature_model_spread: None,
-            strain: None,
-            storage_factor: None,
-            loss_factor: None,
-            linear: None,
-            persson: None,
-            without_shortest_octave: None,
-            contact_box: None,
-            dissipation: Dissipation::default(),
-            unknowns: 0,
-            iterations: 0,
-            is_per_length: false,
-            warnings: Vec::new(),
-            not_reached: None,
-            not_modelled: Vec::new(),
-            left_out: Vec::new(),
-            sensitivity: Vec::new(),
-            spectral_sensitivity: None,
-            ensemble: None,
-            budget: Budget::default(),
-            stationary: None,
-            period_grid: None,
-            grid: None,
-            fields: Fields::default(),
+            ..Self::default()
         }
     }
 
@@ -300,6 +259,13 @@ impl Answer {
         let (friction, force) = (self.friction_coefficient?, self.normal_force);
         let error = friction.error * force.value + friction.value.abs() * force.error;
         Some(Estimate::new(friction.value * force.value, error))
+    }
+
+    /// Largest rise of the temperature at the surface or of a depth, \[K]; 0 without heat.
+    pub(crate) fn hottest_rise(&self) -> f64 {
+        let of_surface = self.largest_temperature_rise.map_or(0.0, |rise| rise.value);
+        let below = self.temperature_by_depth.as_ref();
+        below.map_or(of_surface, |below| below.largest().max(of_surface))
     }
 
     /// Friction coefficient from the dissipation in the bulk; `None` if nothing slides.
@@ -362,8 +328,8 @@ impl Answer {
 
     /// Names of all [`numbers`](Self::numbers) of an answer, which are the columns of the CSV.
     pub fn columns() -> Vec<String> {
-        let empty = Self::new(Method::Analytic, Model::HalfSpace, Estimate::exact(0.0));
-        empty.numbers().into_iter().map(|(name, _)| name).collect()
+        let numbers = Self::default().numbers().into_iter();
+        numbers.map(|(name, _)| name).collect()
     }
 
     /// Rejects unphysical numbers: underflow, which leaves neither digits nor an error estimate, and negative friction, by which
@@ -464,10 +430,13 @@ impl Serialize for Answer {
         ByQuantity::new(|quantity| known(quantity, false)).serialize_into(&mut map)?;
         let rises = ByQuantity::new(|quantity| known(quantity, true));
         if !rises.is_empty() {
-            map.serialize_entry("temperature_rise", &TemperatureRises(rises))?;
+            let rises = rises.with_keys(|key| key.trim_end_matches(TEMPERATURE_RISE));
+            map.serialize_entry("temperature_rise", &rises)?;
         }
         if let Some(linear) = &self.linear {
-            map.serialize_entry("linear", &Numbers(linear))?;
+            // All quantities, without the parts, warnings and fields of that answer.
+            let numbers = ByQuantity::new(|quantity| (quantity.of)(linear));
+            map.serialize_entry("linear", &numbers)?;
         }
         for (key, error) in self.budget.material().iter() {
             map.serialize_entry(&format!("{key}_material_error"), &error)?;
@@ -510,34 +479,8 @@ impl Serialize for Answer {
 /// Key of the friction coefficient with the moduli of small strains; in JSON it is in the object `linear`.
 pub(crate) const LINEAR_FRICTION: &str = "linear_friction_coefficient";
 
-/// All quantities of an answer in JSON, without its parts, warnings and fields.
-struct Numbers<'a>(&'a Answer);
-
-impl Serialize for Numbers<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(None)?;
-        ByQuantity::new(|quantity| (quantity.of)(self.0)).serialize_into(&mut map)?;
-        map.end()
-    }
-}
-
 /// End of the keys of the temperature rises; in JSON they are entries of an object `temperature_rise`, by the words before it.
 const TEMPERATURE_RISE: &str = "_temperature_rise";
-
-/// The temperature rises of an answer in JSON.
-struct TemperatureRises(ByQuantity<Estimate>);
-
-impl Serialize for TemperatureRises {
-    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(None)?;
-        for (key, rise) in self.0.iter() {
-            let name = key.trim_end_matches(TEMPERATURE_RISE);
-            map.serialize_entry(name, &rise.value)?;
-            map.serialize_entry(&format!("{name}_error"), &rise.error)?;
-        }
-        map.end()
-    }
-}
 
 #[cfg(test)]
 mod tests {

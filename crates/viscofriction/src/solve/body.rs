@@ -120,11 +120,9 @@ fn drawn_from_spectrum(
     surface: &SpectrumSurface,
     files: &Files<'_>,
 ) -> Result<BodyOfScene, SceneError> {
-    let wrong = |problem: String| SceneError::at("indenter.spectrum.file", problem);
-    let table = files.table(&surface.file);
-    let (file, contents) = table.map_err(|WrongInput(problem)| wrong(problem))?;
     let factor = surface.convention.factor();
-    let spectrum = spectrum(&file, &contents, factor).map_err(wrong)?;
+    let read = |file: &Path, contents: &[u8]| spectrum(file, contents, factor);
+    let spectrum = files.read_table("indenter.spectrum.file", &surface.file, read)?;
     let [_, shortest] = spectrum.wavelengths();
     let kept = surface.shortest_wavelength.unwrap_or(shortest);
     check_waves_to_draw(surface.period, kept, files.memory)?;
@@ -163,10 +161,6 @@ fn drawn_from_spectrum(
 
 /// A body of revolution from a CSV file of radii and heights \[m], straight between its rows.
 fn table_profile(file: &Path, files: &Files<'_>) -> Result<Body, SceneError> {
-    let wrong = |problem: String| SceneError::at("indenter.table.file", problem);
-    let table = files.table(file);
-    let (file, contents) = table.map_err(|WrongInput(problem)| wrong(problem))?;
-    profile(&file, &contents)
-        .map(|shape| Body::Revolution(Revolution::other(shape)))
-        .map_err(wrong)
+    let shape = files.read_table("indenter.table.file", file, profile)?;
+    Ok(Body::Revolution(Revolution::other(shape)))
 }

@@ -14,6 +14,7 @@ use super::fixed_point::{Caused, FixedPoint, MAX_INCREASE_RATIO, State};
 use super::plan::Plan;
 use super::problem::Problem;
 use super::shear::{self, plan_again};
+use super::solved::Solved;
 use super::warning::Warning;
 use rheology::StrainDependence;
 
@@ -69,23 +70,14 @@ pub(super) fn beside_linear(first: Plan, watch: &dyn Progress) -> Result<Answer>
         return contact_temperature::solve(first, watch);
     }
     let small = first.problem.at_small_strains();
-    let linear = match contact_temperature::solve(plan_again(&small, first.method)?, watch) {
-        Ok(linear) => linear,
-        Err(SolveError::NotReached { answer, .. }) => *answer,
-        Err(other) => return Err(other),
-    };
-    let linear = Some(Box::new(Answer {
+    let linear = contact_temperature::solve(plan_again(&small, first.method)?, watch);
+    let linear = Answer {
         fields: Fields::default(),
-        ..linear
-    }));
-    match contact_temperature::solve(first, watch) {
-        Ok(answer) => Ok(Answer { linear, ..answer }),
-        Err(SolveError::NotReached { mut answer, why }) => {
-            answer.linear = linear;
-            Err(SolveError::NotReached { answer, why })
-        }
-        Err(other) => Err(other),
-    }
+        ..Solved::of(linear)?.answer
+    };
+    let mut solved = Solved::of(contact_temperature::solve(first, watch))?;
+    solved.answer.linear = Some(Box::new(linear));
+    solved.into_result()
 }
 
 impl<'a> ContactStrain<'a> {

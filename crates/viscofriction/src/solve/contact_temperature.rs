@@ -10,6 +10,7 @@ use bem_halfspace::heat::DepthProfile;
 use numerics::{Estimate, Progress};
 
 use super::answer::Answer;
+use super::body::Body;
 use super::contact_strain;
 use super::error::{Result, SolveError};
 use super::fixed_point::{Caused, FixedPoint, Found, MAX_INCREASE_RATIO, State, ValueErrors};
@@ -49,18 +50,17 @@ pub(super) fn solve(first: Plan, watch: &dyn Progress) -> Result<Answer> {
     };
     let mut found = fixed_point.solve()?;
     found.answer.temperature_model_spread = temperature.spread(&found, &fixed_point)?;
-    let of_surface = found
-        .answer
-        .largest_temperature_rise
-        .map_or(0.0, |rise| rise.value);
     let below = found.answer.temperature_by_depth.as_ref();
-    let hottest =
-        temperature.ambient + below.map_or(of_surface, |below| below.largest().max(of_surface));
-    if hottest > temperature.highest {
+    let limited = below.map_or(0.0, |below| match problem.body() {
+        Body::Periodic(_) => below.largest(),
+        _ => below.contact().max(below.mean().value),
+    });
+    let hottest = found.answer.hottest_rise();
+    if temperature.ambient + hottest > temperature.highest {
         found.answer.warnings.push(Warning::HotterThanLaws {
-            temperature: hottest,
+            temperature: temperature.ambient + hottest,
             highest: temperature.highest,
-            is_by_wave: below.is_some(),
+            is_limited: temperature.ambient + limited > temperature.highest,
         });
     }
     let second = found.second.as_ref().map(|hot| Warning::SecondTemperature {
@@ -228,13 +228,10 @@ impl<'a> ContactTemperature<'a> {
     }
 
     /// Largest difference of the friction coefficients at the temperature of the surroundings, with which the material enters the
-    /// contact, and at the largest temperature in the contact from that at the fixed point; `None` if they are not known or outside the
-    /// range of the laws.
+    /// contact, and at the largest temperature in the contact or below it from that at the fixed point; `None` if they are not known or
+    /// outside the range of the laws.
     fn spread(&self, found: &Found, fixed_point: &FixedPoint<'_>) -> Result<Option<Estimate>> {
-        let Some(rise) = found.answer.largest_temperature_rise else {
-            return Ok(None);
-        };
-        let hottest = self.ambient + rise.value;
+        let hottest = self.ambient + found.answer.hottest_rise();
         if hottest > self.highest {
             return Ok(None);
         }

@@ -8,6 +8,7 @@ use serde::ser::{SerializeMap as _, Serializer};
 
 use super::answer::Answer;
 use super::warning::Warning;
+use crate::quantity::ByQuantity;
 
 /// Relative change of friction or area by the shortest octave of the waves, above which a warning is given. Chosen: it is
 /// well above the error bars, and each further octave may change the answer as much.
@@ -108,16 +109,12 @@ impl WithoutShortestOctave {
 impl Serialize for WithoutShortestOctave {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(None)?;
-        let area = Some(self.area_fraction);
-        for (name, known) in [
-            ("friction_coefficient", self.friction_coefficient),
-            ("area_fraction", area),
-        ] {
-            if let Some(known) = known {
-                map.serialize_entry(name, &known.value)?;
-                map.serialize_entry(&format!("{name}_error"), &known.error)?;
-            }
-        }
+        let known = ByQuantity::new(|quantity| match quantity.key {
+            "friction_coefficient" => self.friction_coefficient,
+            "area_fraction" => Some(self.area_fraction),
+            _ => None,
+        });
+        known.serialize_into(&mut map)?;
         map.serialize_entry("rms_slope", &self.rms_slope)?;
         map.end()
     }

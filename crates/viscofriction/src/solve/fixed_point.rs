@@ -15,6 +15,7 @@ use super::period_grids::PeriodGrids;
 use super::plan::Plan;
 use super::problem::Problem;
 use super::shear::plan_again;
+use super::solved::Solved;
 use crate::quantity::QUANTITIES;
 use crate::scene::{Accuracy, Method};
 
@@ -272,14 +273,8 @@ impl FixedPoint<'_> {
         accuracy: Accuracy,
     ) -> Result<State> {
         let problem = self.of.problem_at(value, near)?.with_accuracy(accuracy);
-        let (answer, missed) = match self
-            .of
-            .solve(plan_again(&problem, self.method)?, self.watch)
-        {
-            Ok(answer) => (answer, None),
-            Err(SolveError::NotReached { answer, why }) => (*answer, Some(why)),
-            Err(other) => return Err(other),
-        };
+        let plan = plan_again(&problem, self.method)?;
+        let Solved { answer, missed } = Solved::of(self.of.solve(plan, self.watch))?;
         let difference = self.of.difference(&answer, &problem);
         Ok(State {
             value,

@@ -32,6 +32,7 @@ mod road;
 pub(crate) mod sensitivity;
 mod shared_memory;
 pub(crate) mod shear;
+mod solved;
 mod validity;
 mod warning;
 mod with_fields;
@@ -70,6 +71,7 @@ pub use with_fields::with_fields;
 use self::dissipation::dissipation;
 use self::left_out::left_out;
 use self::memory::check_first_grid;
+use self::solved::Solved;
 use self::validity::{not_modelled, warnings};
 use self::work::rough;
 use crate::scene::{Method, Model};
@@ -111,39 +113,33 @@ impl Plan<'_> {
         } = self;
         check_first_grid(problem, method)?;
         let limited = Limited::new(problem, method, watch);
-        let found = match work(&limited) {
-            Ok(answer) => Found {
+        let solved = match work(&limited) {
+            Ok(answer) => Solved {
                 answer,
                 missed: None,
             },
             Err(why) => {
                 let answer = reached(problem, method, &why);
                 let why = limited.or_memory(why);
-                match answer {
-                    Some(answer) => Found {
-                        answer,
-                        missed: Some(why),
-                    },
-                    None => return Err(why),
-                }
+                let Some(answer) = answer else {
+                    return Err(why);
+                };
+                let missed = Some(Box::new(why));
+                Solved { answer, missed }
             }
         };
-        found.complete(problem, method)
+        solved.complete(problem, method)
     }
 }
 
-/// The result of a method, and the reason if it does not meet the request.
-struct Found {
-    answer: Answer,
-    missed: Option<SolveError>,
-}
-
-impl Found {
+impl Solved {
     /// Completes the answer with modulus error, omissions, dissipation and warnings; an error if it does not meet the request.
     fn complete(self, problem: &Problem, method: Method) -> Result<Answer> {
         // Add the error that the approximation of the moduli causes, and compare the sum with the requested error.
         let answer = problem.with_modulus_error(self.answer)?;
-        let missed = self.missed.or_else(|| problem.missed(&answer));
+        let missed = self
+            .missed
+            .or_else(|| problem.missed(&answer).map(Box::new));
         // Closed forms of indentation belong to both models.
         let model = method.model().unwrap_or(problem.model());
         let answer = Answer {
@@ -168,13 +164,12 @@ impl Found {
             });
         // If the requested error was missed, say so in the answer.
         match (checked, missed) {
-            (answer, None) => answer,
-            (Err(_), Some(why)) => Err(why),
-            (Ok(mut answer), Some(why)) => {
-                answer.not_reached = Some(why.to_string());
-                let (answer, why) = (Box::new(answer), Box::new(why));
-                Err(SolveError::NotReached { answer, why })
+            (Err(_), Some(why)) => Err(*why),
+            (checked, missed) => Self {
+                answer: checked?,
+                missed,
             }
+            .into_result(),
         }
     }
 }

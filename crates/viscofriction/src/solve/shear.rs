@@ -16,6 +16,7 @@ use super::half_space::Simple;
 use super::period_grids::PeriodGrids;
 use super::plan::{Plan, plan};
 use super::problem::{Motion, Problem};
+use super::solved::Solved;
 use super::work::work;
 use crate::scene::{Accuracy, Method, Model, SceneError, ShearLaw};
 
@@ -195,11 +196,7 @@ pub(super) fn solve(first: Plan, watch: &dyn Progress) -> Result<Answer> {
     loop {
         let accuracy = grids.take().unwrap_or(Accuracy::RelativeError(request));
         let near = problem.clone().with_accuracy(accuracy);
-        let (answer, missed) = match plan_again(&near, method)?.solve_once(watch) {
-            Ok(answer) => (answer, None),
-            Err(SolveError::NotReached { answer, why }) => (*answer, Some(why)),
-            Err(other) => return Err(other),
-        };
+        let Solved { answer, missed } = Solved::of(plan_again(&near, method)?.solve_once(watch))?;
         solutions += 1;
         let Some(friction) = answer.friction_coefficient else {
             return Ok(answer);
@@ -208,9 +205,8 @@ pub(super) fn solve(first: Plan, watch: &dyn Progress) -> Result<Answer> {
         // Bars of the hysteresis do not hold as often on grids that are coarser than those of a request.
         let is_trusted = matches!(accuracy, Accuracy::RelativeError(_)) || answer.is_mostly_shear();
         if friction.error <= allowed && is_trusted {
-            let not_reached = None;
             return Ok(Answer {
-                not_reached,
+                not_reached: None,
                 ..answer
             });
         }
@@ -224,13 +220,9 @@ pub(super) fn solve(first: Plan, watch: &dyn Progress) -> Result<Answer> {
                 shear: answer.friction_from_shear.unwrap_or(friction),
             })
         });
-        if let Some(why) = missed.or(too_coarse) {
-            let not_reached = Some(why.to_string());
-            let answer = Box::new(Answer {
-                not_reached,
-                ..answer
-            });
-            return Err(SolveError::NotReached { answer, why });
+        let missed = missed.or(too_coarse);
+        if missed.is_some() {
+            return Solved { answer, missed }.into_result();
         }
         let [smallest, largest] = REQUEST_RATIOS;
         // The error that was reached may be far smaller than the request, which the same grid would then meet again. The next grid of a

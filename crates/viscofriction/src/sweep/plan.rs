@@ -11,7 +11,7 @@ use super::row::{BETWEEN_WARNINGS, CHECKS, EMPTY_HASH, SweepRow, canonical, hash
 use super::vary::{MAX_POINTS, SAMPLE, Varied, Vary};
 use crate::files::{Files, ReadFile};
 use crate::quantity::differentiated;
-use crate::scene::{PATH_KEYS, Scene, SceneError, Source, scene_file, split_index};
+use crate::scene::{PATH_KEYS, Scene, SceneError, Source, scene_file, value_at};
 use crate::solve::{
     Answer, Problem, Warning, check_uncertainties, plan_of, sampled, share_memory, solve,
     with_sensitivity,
@@ -370,15 +370,8 @@ const NO_TABLE: &str = "the scene has no such table to vary a key of; a key is g
 fn set_key(table: &mut Table, key: &str, value: &Varied) -> Result<(), SceneError> {
     let missing = || SceneError::at(key, NO_TABLE);
     let (path, last) = key.rsplit_once('.').ok_or_else(missing)?;
-    let mut inner = table;
-    for segment in path.split('.') {
-        let (name, index) = split_index(segment);
-        let mut found = inner.get_mut(name).ok_or_else(missing)?;
-        if let Some(index) = index {
-            found = found.get_mut(index).ok_or_else(missing)?;
-        }
-        inner = found.as_table_mut().ok_or_else(missing)?;
-    }
+    let found = value_at(table, path).and_then(Value::as_table_mut);
+    let inner = found.ok_or_else(missing)?;
     let value = match value {
         Varied::Number(value) => toml_number(*value),
         Varied::Text(text) => match text.parse() {

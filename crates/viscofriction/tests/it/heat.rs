@@ -378,8 +378,7 @@ fn waves_hotter_than_the_laws_are_told() {
          mean_pressure = 2e7\nvelocity = 1.0\n[solve]\nrelative_error = 0.1\n"
     ));
     assert!(number(&answer, "effective_temperature") < 50.0, "{answer}");
-    let told =
-        "known up to 50 °C, so that waves that are hotter have their moduli at this temperature";
+    let told = "known up to 50 °C, so that what is hotter is taken to have this temperature";
     assert!(answer["warnings"].to_string().contains(told), "{answer}");
 }
 

@@ -349,15 +349,8 @@ pub(super) fn sample(random: &mut Random, source: &Source, folder: &Path) -> Res
     let thickness = contact * 10_f64.powf(sample.random.between([-1.3, 2.0]));
     let mut case = Case {
         scene: Scene {
-            indenter,
-            material,
             layer: is_thin.then_some(Layer { thickness }),
-            interface: None,
-            heat: None,
-            strain: None,
-            load: Load::default(),
-            solve: Solve::default(),
-            uncertainty: BTreeMap::new(),
+            ..Scene::new(indenter, material, Load::default())
         },
         lengths: sample.lengths.take(),
         material: of_file.transpose()?,

@@ -12,6 +12,7 @@ use crate::quantity::scattered;
 use crate::solve::answer::{Answer, Fields};
 use crate::solve::error::{Result, SolveError};
 use crate::solve::problem::Problem;
+use crate::solve::solved::Solved;
 
 /// The sampled surfaces with their solutions.
 pub(super) struct Drawn<'a> {
@@ -24,7 +25,7 @@ pub(super) struct Drawn<'a> {
     /// Coarse solutions of all surfaces, the first ones included; empty if no coarse grid is used.
     pub(super) coarse: Vec<Coarse>,
     /// Reason of the first surface that missed the request, or that the ensemble did; `None` if the request is met.
-    pub(super) missed: Option<SolveError>,
+    pub(super) missed: Option<Box<SolveError>>,
 }
 
 /// Ratio of the number of elements of a coarse grid to that of the finest grid of an answer, above which the coarse grid is
@@ -75,14 +76,8 @@ impl<'a> Drawn<'a> {
     /// Appends answers, of which only the first keeps its fields. One that missed its request is used, and the reason kept.
     fn add_answers(&mut self, found: impl IntoIterator<Item = Result<Answer>>) -> Result<()> {
         for found in found {
-            let mut answer = match found {
-                Ok(answer) => answer,
-                Err(SolveError::NotReached { answer, why }) => {
-                    self.missed.get_or_insert(*why);
-                    *answer
-                }
-                Err(why) => return Err(why),
-            };
+            let Solved { mut answer, missed } = Solved::of(found)?;
+            self.missed = self.missed.take().or(missed);
             if !self.answers.is_empty() {
                 answer.fields = Fields::default();
             }
@@ -110,10 +105,13 @@ impl<'a> Drawn<'a> {
         }
         let reached = self.relative_standard_error();
         if reached > asked {
-            self.missed.get_or_insert(SolveError::TooFewSurfaces {
-                asked,
-                surfaces: self.surfaces(),
-                reached,
+            let surfaces = self.surfaces();
+            self.missed.get_or_insert_with(|| {
+                Box::new(SolveError::TooFewSurfaces {
+                    asked,
+                    surfaces,
+                    reached,
+                })
             });
         }
         Ok(())

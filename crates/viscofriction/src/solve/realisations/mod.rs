@@ -10,13 +10,15 @@ mod each;
 mod sample;
 
 use numerics::{ErrorParts, Estimate, Progress};
-use serde::ser::{Serialize, SerializeMap, Serializer};
+use serde::Serialize;
+use serde::ser::SerializeMap;
 
 use super::answer::{Answer, Persson};
 use super::cut_off::WithoutShortestOctave;
 use super::dissipation::Dissipation;
-use super::error::{Result, SolveError};
+use super::error::Result;
 use super::problem::Problem;
+use super::solved::Solved;
 use super::warning::Warning;
 use crate::quantity::{ByQuantity, QUANTITIES, Quantity};
 use crate::sweep::each_once;
@@ -26,11 +28,12 @@ use sample::Sample;
 pub use sample::Scatter;
 
 /// The answer of one of the surfaces.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Realisation {
     /// Seed of the surface.
     pub seed: u64,
     /// The quantities whose scatter is known, with their errors.
+    #[serde(flatten)]
     pub quantities: ByQuantity<Estimate>,
 }
 
@@ -42,15 +45,6 @@ impl Realisation {
             seed: *seed,
             quantities: ByQuantity::new(|quantity| scattered(quantity).flatten()),
         }
-    }
-}
-
-impl Serialize for Realisation {
-    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("seed", &self.seed)?;
-        self.quantities.serialize_into(&mut map)?;
-        map.end()
     }
 }
 
@@ -111,12 +105,7 @@ pub(super) fn mean(
     // Average the answers, and correct the means by the coarse solutions.
     let mut answer = mean_of(&answers, &problem.seeds());
     answer.include_coarse((&answers, &coarse));
-    let Some(why) = missed else {
-        return Ok(answer);
-    };
-    answer.not_reached = Some(why.to_string());
-    let (answer, why) = (Box::new(answer), Box::new(why));
-    Err(SolveError::NotReached { answer, why })
+    Solved { answer, missed }.into_result()
 }
 
 /// A statistic of the values of a quantity over all surfaces; `None` if an answer lacks the quantity, or coarse solutions never

@@ -40,7 +40,7 @@ pub(super) fn sensitivities(
         let change = AnswerChange::new(contact, &ends)?;
         let width = (ends[1].1 / ends[0].1).ln();
         progress.add(1.0);
-        Ok(log_derivatives(number.path(), answer, change, width))
+        Ok(log_derivatives(number.path.clone(), answer, change, width))
     };
     all.iter().map(of).collect()
 }

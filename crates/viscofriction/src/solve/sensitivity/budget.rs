@@ -9,7 +9,7 @@
 //! the scene.
 
 use numerics::Estimate;
-use serde::ser::{Serialize, SerializeMap as _, Serializer};
+use serde::{Serialize, Serializer};
 
 use super::Derivatives;
 use super::parameters::Number;
@@ -77,17 +77,17 @@ pub(super) fn budget(
         entries.push((Source::ShearTable, of_table));
     }
     for number in numbers {
-        let path = number.path();
+        let path = &number.path;
         let by_number = derivatives
             .by_numbers
             .iter()
-            .find(|one| one.parameter == path);
-        if let (Some(given), Some(one)) = (scene.uncertainty.get(&path), by_number) {
+            .find(|one| one.parameter == *path);
+        if let (Some(given), Some(one)) = (scene.uncertainty.get(path), by_number) {
             let relative = number.relative(*given);
             let of_number = uncertainties(answer, |key| {
                 Some((one.derivatives.of(key)?.value * relative).abs())
             });
-            entries.push((Source::Number(path), of_number));
+            entries.push((Source::Number(path.clone()), of_number));
         }
     }
     let mut budget = Budget { entries };
@@ -167,18 +167,9 @@ impl Serialize for Budget {
 }
 
 /// One line of the budget in JSON.
+#[derive(Serialize)]
 struct Row<'a> {
     source: &'a str,
+    #[serde(flatten)]
     known: ByQuantity<f64>,
-}
-
-impl Serialize for Row<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("source", self.source)?;
-        for (name, known) in self.known.iter() {
-            map.serialize_entry(name, &known)?;
-        }
-        map.end()
-    }
 }

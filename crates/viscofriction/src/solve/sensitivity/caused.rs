@@ -28,6 +28,7 @@ use crate::solve::error::{Result, SolveError};
 use crate::solve::fixed_point::Caused;
 use crate::solve::problem::Problem;
 use crate::solve::shear::plan_again;
+use crate::solve::solved::Solved;
 
 /// Number of elements along the contact of a body for the differences. Chosen: solutions for slightly different numbers of a scene have
 /// nearly the same errors on a given number of elements, so that their logarithms differ by the right amount within some parts in 1000.
@@ -87,7 +88,7 @@ pub(super) fn derivatives(
             }))
         };
     let by_number = |number: &Number| {
-        let found = sensitivity(number.path(), Direction::Number(number));
+        let found = sensitivity(number.path.clone(), Direction::Number(number));
         progress.add(1.0);
         found.transpose()
     };
@@ -298,10 +299,8 @@ impl<'a> ContactOnElements<'a> {
     fn answer(&self, problem: &Problem) -> Result<Answer> {
         let elements = Accuracy::Elements(self.resolution.elements);
         let problem = problem.clone().with_accuracy(elements);
-        match plan_again(&problem, self.near.method)?.solve_once(&SilentProgress) {
-            Err(SolveError::NotReached { answer, .. }) => Ok(*answer),
-            other => other,
-        }
+        let found = plan_again(&problem, self.near.method)?.solve_once(&SilentProgress);
+        Ok(Solved::of(found)?.answer)
     }
 
     /// A problem at these values of temperature and strain.

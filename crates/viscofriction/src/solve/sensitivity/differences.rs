@@ -103,7 +103,7 @@ fn sensitivity(
         }
     };
     Ok(Sensitivity {
-        parameter: number.path(),
+        parameter: number.path.clone(),
         derivatives: ByQuantity::new(derivative),
     })
 }
@@ -128,8 +128,7 @@ fn log_derivative(
 
 /// The answer of a method to a problem in which `number` has another value; the error names the path of that number.
 fn solved(problem: &Problem, method: Method, number: &Number) -> Result<Answer> {
-    let work =
-        work(problem, method).map_err(|why| SceneError::at(number.path(), why.to_owned()))?;
+    let work = work(problem, method).map_err(|why| SceneError::at(&number.path, why.to_owned()))?;
     Plan {
         problem,
         method,

@@ -11,7 +11,7 @@ mod spectral;
 use std::path::Path;
 
 use numerics::{Estimate, Progress, WorkProgress};
-use serde::ser::{Serialize, SerializeMap as _, Serializer};
+use serde::Serialize;
 
 use super::answer::Answer;
 use super::error::{Result, SolveError};
@@ -40,12 +40,13 @@ pub(super) const MAX_DIFFERENCED_ERROR: f64 = 1e-9;
 /// Derivatives of the quantities of an answer by one number of its scene: d ln(quantity)/d ln(number).
 ///
 /// Quantities that are given, or without derivatives in this method, are missing.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Sensitivity {
     /// The path of the number in the scene, such as `material.prony.branches[0].modulus`.
     pub parameter: String,
     /// Derivatives of the quantities.
+    #[serde(flatten)]
     pub derivatives: ByQuantity<Estimate>,
 }
 
@@ -87,7 +88,7 @@ pub fn with_sensitivity(
     let of_shear = problem.shear_strength_uncertainty()?;
     let budget = budget(&material, scene, &all, &found, &answer, of_shear);
     // Remove the derivative by the temperature, because a temperature in °C has no logarithmic one.
-    let temperature = numbers.uncertain_temperature().map(|number| number.path());
+    let temperature = numbers.uncertain_temperature().map(|number| number.path);
     let mut sensitivity = found.by_numbers;
     sensitivity.retain(|one| Some(&one.parameter) != temperature.as_ref());
     Ok(Answer {
@@ -215,14 +216,5 @@ impl Sensitivity {
         let widened = |of: &Quantity| Some(derivatives.of(of.key)?.widened(error));
         let is_finite = |known: &Estimate| known.value.is_finite() && known.error.is_finite();
         self.derivatives = ByQuantity::new(|quantity| widened(quantity).filter(is_finite));
-    }
-}
-
-impl Serialize for Sensitivity {
-    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("parameter", &self.parameter)?;
-        self.derivatives.serialize_into(&mut map)?;
-        map.end()
     }
 }

@@ -9,7 +9,7 @@ use rheology::KELVIN_AT_ZERO_CELSIUS;
 use toml::{Table, Value};
 
 use crate::files::{Files, ReadFile};
-use crate::scene::{MaterialTable, Scene, SceneError, quoted};
+use crate::scene::{MaterialTable, Scene, SceneError, quoted, split_index, value_at};
 use crate::solve::body::body;
 use crate::solve::half_space::{half_space, material_of_file};
 use crate::solve::problem::Problem;
@@ -66,19 +66,10 @@ pub(crate) struct Numbers<'a> {
 /// A number of a scene that is finite and not 0.
 #[derive(Debug, Clone)]
 pub(crate) struct Number {
-    /// Path from the root of the scene.
-    steps: Vec<Step>,
+    /// Path of the key, such as `material.prony.branches[0].modulus`.
+    pub(crate) path: String,
     /// Value of the number in SI units, of a temperature in \[K].
     pub(crate) value: f64,
-}
-
-/// One step of the path to a number.
-#[derive(Debug, Clone)]
-enum Step {
-    /// A key of a table.
-    Key(String),
-    /// An index of a list, counted from 0.
-    Index(usize),
 }
 
 impl<'a> Numbers<'a> {
@@ -106,7 +97,7 @@ impl<'a> Numbers<'a> {
     /// Standard uncertainty of a number: relative, for a temperature in \[K]; 0 if the scene states none.
     pub(super) fn uncertainty(&self, number: &Number) -> f64 {
         self.uncertainty
-            .get(&number.path())
+            .get(&number.path)
             .copied()
             .unwrap_or_default()
     }
@@ -114,11 +105,9 @@ impl<'a> Numbers<'a> {
     /// Temperature of the surroundings, or else of the material file, \[K]; `None` unless the scene states its uncertainty.
     pub(super) fn uncertain_temperature(&self) -> Option<Number> {
         let (path, value) = self.temperature()?;
-        let steps = path.split('.').map(|key| Step::Key(key.to_owned()));
-        self.uncertainty.contains_key(path).then(|| Number {
-            steps: steps.collect(),
-            value,
-        })
+        let path = path.to_owned();
+        let is_uncertain = self.uncertainty.contains_key(&path);
+        is_uncertain.then_some(Number { path, value })
     }
 
     /// Path and value \[K] of the temperature of the surroundings, or else of the material file; `None` if the scene has neither.
@@ -133,7 +122,7 @@ impl<'a> Numbers<'a> {
 
     /// Rejects uncertainties out of range, and those of paths that are not numbers of the scene.
     fn check_uncertainties(&self) -> Result<(), SceneError> {
-        let known: Vec<String> = self.all().iter().map(Number::path).collect();
+        let known: Vec<String> = self.all().into_iter().map(|one| one.path).collect();
         let has_covariance = self.scene()?.material.covariance().is_some();
         for (path, value) in &self.uncertainty {
             let key = quoted("uncertainty", path);
@@ -179,7 +168,7 @@ impl<'a> Numbers<'a> {
         let mut numbers = Vec::new();
         for table in TABLES {
             if let Some(value) = self.scene.get(table) {
-                collect_numbers(value, &[Step::Key(table.to_owned())], &mut numbers);
+                collect_numbers(value, table, &mut numbers);
             }
         }
         numbers
@@ -206,7 +195,7 @@ impl<'a> Numbers<'a> {
     /// The scene in which `number` has another value; if it is the temperature of the material file, the scene that still names the file.
     pub(super) fn scene_with(&self, number: &Number, value: f64) -> Result<Scene, SceneError> {
         let mut scene = match &self.of_file {
-            Some((written, _)) if number.path() == TEMPERATURE => written.clone(),
+            Some((written, _)) if number.path == TEMPERATURE => written.clone(),
             _ => self.scene.clone(),
         };
         let zero = if number.is_temperature() {
@@ -214,7 +203,7 @@ impl<'a> Numbers<'a> {
         } else {
             0.0
         };
-        replace(&mut scene, number, value - zero);
+        replace(&mut scene, &number.path, value - zero);
         Scene::try_from(scene)
     }
 
@@ -226,7 +215,7 @@ impl<'a> Numbers<'a> {
     ) -> Result<Scene, SceneError> {
         let mut scene = self.scene.clone();
         for (number, value) in values {
-            replace(&mut scene, number, value);
+            replace(&mut scene, &number.path, value);
         }
         Scene::try_from(scene)
     }
@@ -272,34 +261,23 @@ fn as_table(scene: &Scene) -> Result<Table, SceneError> {
     Table::try_from(scene).map_err(|error| SceneError::at("scene", error.to_string()))
 }
 
-/// Writes another value of a number into a scene; a path that the scene does not have changes nothing.
-fn replace(scene: &mut Table, number: &Number, value: f64) {
-    let mut steps = number.steps.iter();
-    let first = steps.next().and_then(|step| match step {
-        Step::Key(key) => scene.get_mut(key),
-        Step::Index(_) => None,
-    });
-    let place = steps.try_fold(first, |place, step| {
-        Some(match (place, step) {
-            (Some(Value::Table(table)), Step::Key(key)) => {
-                // The temperature may be absent from the scene, and then is that of the file.
-                Some(table.entry(key.clone()).or_insert(Value::Float(value)))
-            }
-            (Some(Value::Array(list)), Step::Index(index)) => list.get_mut(*index),
-            _ => None,
-        })
-    });
-    if let Some(Some(place)) = place {
+/// Writes another value of the number at a path into a scene, also where its key is absent; without its table nothing changes.
+fn replace(scene: &mut Table, path: &str, value: f64) {
+    if let Some(place) = value_at(scene, path) {
         *place = Value::Float(value);
+    } else if let Some((tables, key)) = path.rsplit_once('.')
+        && let Some(Value::Table(table)) = value_at(scene, tables)
+    {
+        // The temperature may be absent from the scene, and then is that of the file.
+        table.insert(key.to_owned(), Value::Float(value));
     }
 }
 
-/// Appends the numbers within `value`, which is at the path `steps`, depth first.
-fn collect_numbers(value: &Value, steps: &[Step], numbers: &mut Vec<Number>) {
-    let below = |step: Step| [steps, &[step]].concat();
+/// Appends the numbers within `value`, which is at `path`, depth first.
+fn collect_numbers(value: &Value, path: &str, numbers: &mut Vec<Number>) {
     match value {
         Value::Float(value) if *value != 0.0 && value.is_finite() => numbers.push(Number {
-            steps: steps.to_vec(),
+            path: path.to_owned(),
             value: *value,
         }),
         Value::Table(table) => {
@@ -307,12 +285,12 @@ fn collect_numbers(value: &Value, steps: &[Step], numbers: &mut Vec<Number>) {
                 .iter()
                 .filter(|(key, _)| !EXCLUDED_KEYS.contains(&&key[..]))
             {
-                collect_numbers(value, &below(Step::Key(key.clone())), numbers);
+                collect_numbers(value, &format!("{path}.{key}"), numbers);
             }
         }
         Value::Array(list) => {
             for (index, value) in list.iter().enumerate() {
-                collect_numbers(value, &below(Step::Index(index)), numbers);
+                collect_numbers(value, &format!("{path}[{index}]"), numbers);
             }
         }
         _ => {}
@@ -320,22 +298,9 @@ fn collect_numbers(value: &Value, steps: &[Step], numbers: &mut Vec<Number>) {
 }
 
 impl Number {
-    /// Path of the key, such as `material.prony.branches[0].modulus`.
-    pub(crate) fn path(&self) -> String {
-        let mut path = String::new();
-        for step in &self.steps {
-            match step {
-                Step::Key(key) if path.is_empty() => path.push_str(key),
-                Step::Key(key) => path = format!("{path}.{key}"),
-                Step::Index(index) => path = format!("{path}[{index}]"),
-            }
-        }
-        path
-    }
-
     /// True for the temperature of the material file or of the surroundings.
     pub(super) fn is_temperature(&self) -> bool {
-        [TEMPERATURE, AMBIENT_TEMPERATURE].contains(&&self.path()[..])
+        [TEMPERATURE, AMBIENT_TEMPERATURE].contains(&&self.path[..])
     }
 
     /// The relative standard uncertainty of this number for the stated one `given`. Both are equal, except for the temperature:
@@ -350,11 +315,8 @@ impl Number {
 
     /// First and last key of the path.
     pub(crate) fn ends(&self) -> [&str; 2] {
-        let mut keys = self.steps.iter().filter_map(|step| match step {
-            Step::Key(key) => Some(&key[..]),
-            Step::Index(_) => None,
-        });
-        let first = keys.next().unwrap_or_default();
-        [first, keys.next_back().unwrap_or_default()]
+        let (first, rest) = self.path.split_once('.').unwrap_or_default();
+        let last = rest.rsplit('.').next().unwrap_or_default();
+        [first, split_index(last).0]
     }
 }

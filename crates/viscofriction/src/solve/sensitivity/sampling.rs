@@ -44,7 +44,7 @@ pub fn sampled(
     // Draw all numbers of the scene at its best values before any is replaced: each draw has a fixed place in the sequence.
     let mut values = Vec::new();
     for number in numbers.all() {
-        let relative = scene.uncertainty.get(&number.path());
+        let relative = scene.uncertainty.get(&number.path);
         if let Some(relative) = relative {
             values.push((perturbed(&number, relative * normal.next()), number));
         }
