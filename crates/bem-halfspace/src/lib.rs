@@ -59,9 +59,8 @@ pub mod periodic {
     };
     #[cfg(feature = "rough")]
     pub use crate::stationary::periodic::{
-        PeriodicEstimate, edge_for_bars, elements_for_bars, fewest_elements, gap, gap_at_rest,
-        indent, indent_on_coarse_grid, largest_grid, memory, sensitivity, slide, steady,
-        steady_on_coarse_grid,
+        PeriodicEstimate, edge_for_bars, elements_for_bars, fewest_elements, gap, largest_grid,
+        memory, sensitivity, slide, steady, steady_on_coarse_grid,
     };
 }
 

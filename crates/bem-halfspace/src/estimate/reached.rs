@@ -22,7 +22,7 @@ pub enum Reached {
     /// Result of [`move_along`](crate::move_along).
     Moved(Moved),
     #[cfg(feature = "rough")]
-    /// Result of [`periodic::steady`](crate::periodic::steady) and [`periodic::indent`](crate::periodic::indent).
+    /// Result of [`periodic::steady`](crate::periodic::steady).
     Periodic(PeriodicEstimate<PeriodicSliding>),
     #[cfg(feature = "rough")]
     /// Result of [`periodic::slide`](crate::periodic::slide).

@@ -307,7 +307,11 @@ pub(super) fn rough<'a>(
     let area: f64 = surface.period().iter().product();
     let mean_pressure = force / area;
     let wrong = |_| "the mean pressure must be finite and greater than 0";
-    let mut load = PeriodicLoad::new(mean_pressure, velocity).map_err(wrong)?;
+    let load = match problem.motion() {
+        Pressing(load) => PeriodicLoad::pressed(mean_pressure, load.duration()),
+        _ => PeriodicLoad::new(mean_pressure, velocity),
+    };
+    let mut load = load.map_err(wrong)?;
     if let Some(distance) = problem.motion().sliding_distance() {
         load = load.after(distance).map_err(wrong)?;
     }
@@ -327,8 +331,8 @@ fn periodic_surface<'a>(
 ) -> Offer<'a> {
     let rough = rough(problem, surface)?;
     match (method, problem.motion()) {
-        (BemTransient, Pressing(load)) => on_grids(accuracy, move |request| {
-            elements::periodic_pressed(problem, rough, load.duration(), request)
+        (BemTransient, Pressing(_)) => on_grids(accuracy, move |request| {
+            elements::periodic(problem, rough, request)
         }),
         (_, Pressing(_) | History { .. } | Moving(_)) => Err(NOTHING_SLIDES),
         (BemSteady, Sliding(load)) => {
