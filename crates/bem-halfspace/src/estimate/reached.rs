@@ -11,7 +11,7 @@ use crate::{PeriodicEstimate, PeriodicSliding, PeriodicTransient};
 /// The result in [`BemError::NotReached`](crate::BemError::NotReached), with its error bars, by the function that found it.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Reached {
-    /// Result of [`steady`](crate::steady()) and [`steady_line`](crate::steady_line).
+    /// Result of [`steady`](crate::steady()).
     Steady(SteadyEstimate),
     /// Result of [`slide`](crate::slide()).
     Slide(SlideEstimate),

@@ -33,11 +33,8 @@ impl Problem {
         };
         let elastomer = self.elastomer()?;
         Ok(match (self.motion(), self.body(), answer.stationary) {
-            (Motion::Sliding(load), Body::Cylinder(cylinder), Some(options)) => {
-                steady::line_gap(cylinder, &elastomer, load, &options, &pressure)?
-            }
-            (Motion::Sliding(load), body, Some(options)) => match body.surface() {
-                Some(surface) => steady::gap(surface, &elastomer, load, &options, &pressure)?,
+            (Motion::Sliding(load), body, Some(options)) => match body.steady_body() {
+                Some(body) => steady::gap(body, &elastomer, load, &options, &pressure)?,
                 None => None,
             },
             (Motion::Sliding(_) | Motion::Pressing(_), Body::Periodic(surface), None) => {

@@ -1,7 +1,7 @@
 //! The computation of each method for a problem, or the reason why the method does not answer it.
 
 use bem_halfspace::{
-    PeriodicLoad, indent, indent_along, move_along, periodic, slide, steady, steady_line,
+    PeriodicLoad, SteadyBody, indent, indent_along, move_along, periodic, slide, steady,
 };
 use friction_analytic::{kelvin_voigt_sliding, maxwell_sliding, scaling_factor};
 use indenters::rough::PeriodicSurface;
@@ -278,7 +278,8 @@ fn line_contact<'a>(
             )?;
             require(load.sliding_distance().is_none(), STATIONARY)?;
             on_grids(accuracy, move |request| {
-                let found = steady_line(cylinder, &problem.elastomer()?, load, request)?;
+                let body = SteadyBody::Line(cylinder);
+                let found = steady(body, &problem.elastomer()?, load, request)?;
                 elements::answer_from_steady(problem, found)
             })
         }
