@@ -9,12 +9,12 @@
 //! * [`press()`]: static contact, with the equilibrium modulus;
 //! * [`indent()`]: a constant force or depth for a time;
 //! * [`slide()`]: sliding in time from first touch;
-//! * [`steady()`]: stationary sliding, solved directly; [`steady_line`] in plane strain.
+//! * [`steady()`]: stationary sliding, solved directly, also [in plane strain](SteadyBody::Line).
 //!
 //! The request of a relative error may also be an [`Accuracy::Elements`], or a [`Request`] with a receiver of the [`Progress`], which
 //! decides whether finer grids are begun.
 //!
-//! The variants on one grid are [`slide_on_grid`], [`steady_on_grid`] and [`steady_line_on_grid`]. Histories of force and depth are
+//! The variants on one grid are [`slide_on_grid`] and [`steady_on_grid`]. Histories of force and depth are
 //! in [`mod@indent`], arbitrary motions in [`mod@slide`], single contacts on given heights in [`contact`], and the temperature under
 //! moving heat sources in [`heat`].
 //!
@@ -59,9 +59,8 @@ pub mod periodic {
     };
     #[cfg(feature = "rough")]
     pub use crate::stationary::periodic::{
-        PeriodicEstimate, edge_for_bars, elements_for_bars, fewest_elements, gap, gap_at_rest,
-        indent, indent_on_coarse_grid, largest_grid, memory, sensitivity, slide, steady,
-        steady_on_coarse_grid,
+        PeriodicEstimate, edge_for_bars, elements_for_bars, fewest_elements, gap, largest_grid,
+        memory, sensitivity, slide, steady, steady_on_coarse_grid,
     };
 }
 
@@ -93,7 +92,7 @@ pub use periodic::{
 pub use rheology::layer_factor;
 pub use slide::{PressureField, slide_along, slide_on_grid};
 pub use stationary::steady;
-pub use steady::{steady_line, steady_line_on_grid, steady_on_grid};
+pub use steady::{SteadyBody, steady_on_grid};
 pub use substrate::base::{Base, Elastomer, Substrate};
 pub use substrate::influence::influence;
 pub use substrate::layer::Layer;

@@ -19,7 +19,7 @@ mod hardness;
 mod iteration;
 mod mirror_weights;
 mod multilevel_correction;
-mod patches;
+pub(crate) mod patches;
 mod preconditioner;
 mod problem;
 mod solve;

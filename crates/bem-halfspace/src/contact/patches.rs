@@ -39,45 +39,20 @@ impl ContactProblem<'_> {
     /// [`BemError::LengthMismatch`] for the state of another grid.
     pub fn patches(&self, state: &ContactState) -> Result<Vec<Patch>, BemError> {
         self.check_state(state)?;
-        // Mark all elements in contact, because none is assigned to a patch yet.
-        let mut is_unassigned = vec![false; state.pressure().len()];
-        for &element in state.contact() {
-            is_unassigned[element] = true;
-        }
-        // Collect one patch after the other, each from its first element that is not assigned yet.
-        let mut patches = Vec::new();
-        for &element in state.contact() {
-            if is_unassigned[element] {
-                let elements = self.flood_patch(element, &mut is_unassigned);
-                let area = self.convolution.grid().element_area();
-                let pressures = elements.iter().map(|&element| state.pressure()[element]);
-                patches.push(Patch {
-                    area: elements.len() as f64 * area,
-                    normal_force: pressures.sum::<f64>() * area,
-                    elements,
-                });
+        let n_elements = state.pressure().len();
+        let neighbours = |element| self.neighbours(element);
+        let sets = connected_sets(state.contact().iter().copied(), n_elements, neighbours);
+        let patch = |mut elements: Vec<usize>| {
+            elements.sort_unstable();
+            let area = self.convolution.grid().element_area();
+            let pressures = elements.iter().map(|&element| state.pressure()[element]);
+            Patch {
+                area: elements.len() as f64 * area,
+                normal_force: pressures.sum::<f64>() * area,
+                elements,
             }
-        }
-        Ok(patches)
-    }
-
-    /// Flood fill: indices of all unassigned elements in contact that are connected to one, increasing; marks them as assigned.
-    fn flood_patch(&self, element: usize, is_unassigned: &mut [bool]) -> Vec<usize> {
-        // Search breadth-first: the list is also the queue of elements whose neighbours are still to be visited.
-        is_unassigned[element] = false;
-        let mut elements = vec![element];
-        let mut n_visited = 0;
-        while let Some(&element) = elements.get(n_visited) {
-            n_visited += 1;
-            for neighbour in self.neighbours(element) {
-                if is_unassigned[neighbour] {
-                    is_unassigned[neighbour] = false;
-                    elements.push(neighbour);
-                }
-            }
-        }
-        elements.sort_unstable();
-        elements
+        };
+        Ok(sets.into_iter().map(patch).collect())
     }
 
     /// Indices of the elements that share an edge with one, on a periodic grid also across its boundary.
@@ -114,4 +89,32 @@ impl ContactProblem<'_> {
         check_length("pressure", state.pressure().len(), n_elements)?;
         check_length("separation", self.separation.len(), n_elements)
     }
+}
+
+/// The sets of some of `n_elements` elements that are connected by `neighbours`, in the order of their first elements (flood fill).
+pub(crate) fn connected_sets<N: IntoIterator<Item = usize>>(
+    elements: impl Iterator<Item = usize> + Clone,
+    n_elements: usize,
+    neighbours: impl Fn(usize) -> N,
+) -> Vec<Vec<usize>> {
+    let mut is_unassigned = vec![false; n_elements];
+    elements
+        .clone()
+        .for_each(|element| is_unassigned[element] = true);
+    let mut sets = Vec::new();
+    for first in elements {
+        if !std::mem::take(&mut is_unassigned[first]) {
+            continue;
+        }
+        // Search breadth-first: the set is also the queue of elements whose neighbours are still to be visited.
+        let mut set = vec![first];
+        let mut n_visited = 0;
+        while let Some(&element) = set.get(n_visited) {
+            n_visited += 1;
+            let linked = neighbours(element).into_iter();
+            set.extend(linked.filter(|other| std::mem::take(&mut is_unassigned[*other])));
+        }
+        sets.push(set);
+    }
+    sets
 }

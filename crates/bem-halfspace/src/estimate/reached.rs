@@ -11,7 +11,7 @@ use crate::{PeriodicEstimate, PeriodicSliding, PeriodicTransient};
 /// The result in [`BemError::NotReached`](crate::BemError::NotReached), with its error bars, by the function that found it.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Reached {
-    /// Result of [`steady`](crate::steady()) and [`steady_line`](crate::steady_line).
+    /// Result of [`steady`](crate::steady()).
     Steady(SteadyEstimate),
     /// Result of [`slide`](crate::slide()).
     Slide(SlideEstimate),
@@ -22,7 +22,7 @@ pub enum Reached {
     /// Result of [`move_along`](crate::move_along).
     Moved(Moved),
     #[cfg(feature = "rough")]
-    /// Result of [`periodic::steady`](crate::periodic::steady) and [`periodic::indent`](crate::periodic::indent).
+    /// Result of [`periodic::steady`](crate::periodic::steady).
     Periodic(PeriodicEstimate<PeriodicSliding>),
     #[cfg(feature = "rough")]
     /// Result of [`periodic::slide`](crate::periodic::slide).

@@ -10,14 +10,15 @@ use numerics::{Estimate, finite, not_negative, positive, whole_part};
 use rheology::{Material, ModulusFactors};
 
 use crate::heat::bulk::{BulkHeat, DEPTHS_OF_POWER, DEPTHS_OF_STRAIN, Pressed};
+use crate::heat::contact_kind::coarsened;
 use crate::heat::depth::{Beside, DEPTH_ERROR, DepthHeat, DepthProfile, FoundProfile};
 use crate::heat::depth_below_body::FREE_DEPTH_ERROR;
-use crate::heat::operator::{HeatKernel, HeatOperator};
-use crate::heat::periodic_waves::PeriodicWaves;
-use crate::heat::rise::{TemperatureRise, estimate, sampling_error, wake_length};
+use crate::heat::operator::HeatOperator;
+use crate::heat::rise::{
+    TemperatureRise, estimate, hottest_element, sampling_error, wake_length, weighted_mean,
+};
 use crate::heat::source::SourceDepth;
-use crate::heat::time_rule::TimeRule;
-use crate::heat::{Counterface, HeatConductor};
+use crate::heat::{ContactKind, Counterface, HeatConductor};
 use crate::parallel::chunks::in_pool;
 use crate::transform::fast_length::fast_length;
 use crate::{BemError, Grid, PressureField, WaveShift};
@@ -119,20 +120,6 @@ pub struct SlidingContact<'a> {
     pub bulk_power: f64,
 }
 
-/// What a pressure field is part of.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum ContactKind {
-    /// The contact of a single body.
-    Body,
-    /// A line contact; the field has one column of elements.
-    Line,
-    /// One period of a surface that has been sliding for a time ≥ 0 \[s], with whose root the mean temperature grows.
-    Period {
-        /// Time for which the surface has been sliding, \[s].
-        duration: f64,
-    },
-}
-
 /// Temperatures on the elements of the pressure field, and their averages.
 #[derive(Default)]
 struct Solution {
@@ -207,9 +194,9 @@ impl SlidingContact<'_> {
             ContactKind::Period { .. } => OF_PERIOD,
         };
         let coarse_bulk_grid = bulk_grid.coarser();
-        let half = [self.pressure, &loaded].map(|field| divided(field, 2, kind));
-        let [half, half_loaded] = half;
-        let [half, half_loaded] = [half?, half_loaded?];
+        let coarse_grid = kind.coarse_grid(&self.pressure.grid, 2)?;
+        let [half, half_loaded] =
+            [self.pressure, &loaded].map(|field| coarsened(field, &coarse_grid));
         let [fine, coarse] = in_pool(self.pressure.grid.n_elements(), || {
             [
                 heated.on(self.pressure, &loaded.pressure, bulk_grid),
@@ -363,16 +350,6 @@ impl SlidingContact<'_> {
     }
 }
 
-impl ContactKind {
-    /// Area of an element, \[m²]; of a line contact the edge along x, \[m].
-    fn area_of_element(self, grid: &Grid) -> f64 {
-        match self {
-            Self::Line => grid.spacing()[0],
-            Self::Body | Self::Period { .. } => grid.element_area(),
-        }
-    }
-}
-
 /// The pressure on the grid on which fields below the surface are computed, with elements of a `multiple` of its edges; around a body on a
 /// period in whose middle it is.
 fn surroundings(
@@ -383,7 +360,8 @@ fn surroundings(
 ) -> Result<PressureField, BemError> {
     let longest = pressure.grid.shape().into_iter().max().unwrap_or(1);
     let factor = longest.div_ceil(resolution.most_elements);
-    let around = divided(pressure, factor * multiple, kind)?;
+    let coarse_grid = kind.coarse_grid(&pressure.grid, factor * multiple)?;
+    let around = coarsened(pressure, &coarse_grid);
     if resolution.period_over_contact == 1 {
         return Ok(around);
     }
@@ -398,25 +376,6 @@ fn surroundings(
         around.origin[axis] - before as f64 * spacing[axis]
     });
     Ok(around.resampled(&grid, origin))
-}
-
-/// The field on elements of `factor` times the edges along the axes with more than one element; a period stays the same.
-fn divided(
-    field: &PressureField,
-    factor: usize,
-    kind: ContactKind,
-) -> Result<PressureField, BemError> {
-    let (shape, spacing) = (field.grid.shape(), field.grid.spacing());
-    let new_shape = shape.map(|n| n.div_ceil(factor));
-    let new_spacing = [0, 1].map(|axis| match kind {
-        ContactKind::Period { .. } => spacing[axis] * shape[axis] as f64 / new_shape[axis] as f64,
-        _ if shape[axis] == 1 => spacing[axis],
-        _ => spacing[axis] * factor as f64,
-    });
-    let grid = Grid::new(new_shape, new_spacing)?;
-    let shift = [0, 1].map(|axis| 0.5 * (new_spacing[axis] - spacing[axis]));
-    let origin = [0, 1].map(|axis| field.origin[axis] + shift[axis]);
-    Ok(field.resampled(&grid, origin))
 }
 
 /// A contact with the way in which its heat is conducted.
@@ -502,9 +461,8 @@ impl Heated<'_> {
     ) -> Result<Solution, BemError> {
         let grid = &pressure.grid;
         let area = self.kind.area_of_element(grid);
-        let sum_of = |values: &[f64]| values.iter().sum::<f64>();
         // The shear of the interface heats the elements in contact uniformly.
-        let shear_flux = self.contact.shear_power / (area * sum_of(contact));
+        let shear_flux = self.contact.shear_power / (area * contact.iter().sum::<f64>());
         let flux: Vec<f64> = contact.iter().map(|part| part * shear_flux).collect();
         let absorbed = self.share * self.contact.shear_power;
         let mut by_shear = vec![0.0; grid.n_elements()];
@@ -529,22 +487,15 @@ impl Heated<'_> {
         let temperature: Vec<f64> = (by_shear.iter().zip(&by_bulk))
             .map(|(shear, bulk)| shear + bulk)
             .collect();
-        let hottest = (0..temperature.len())
-            .filter(|element| contact[*element] > 0.0)
-            .max_by(|left, right| temperature[*left].total_cmp(&temperature[*right]));
-        let Some(hottest) = hottest else {
+        let Some(hottest) = hottest_element(&temperature, contact) else {
             return Ok(Solution {
                 temperature,
                 ..Solution::default()
             });
         };
-        let averages_of = |rises: &[f64]| {
-            let in_contact = rises.iter().zip(contact);
-            let of_contact: f64 = in_contact.map(|(rise, part)| rise * part).sum();
-            Averages {
-                largest: rises[hottest],
-                mean: of_contact / sum_of(contact),
-            }
+        let averages_of = |rises: &[f64]| Averages {
+            largest: rises[hottest],
+            mean: weighted_mean(rises, contact),
         };
         let averages = averages_of(&temperature);
         // The contact area is an error of the heat of the interface.
@@ -654,23 +605,10 @@ impl Heated<'_> {
         fluxes: impl IntoIterator<Item = (&'a SourceDepth, &'a [f64])>,
         share: f64,
     ) -> Result<Vec<f64>, BemError> {
-        let unit = grid.spacing()[0];
-        let scaled = Grid::new(grid.shape(), grid.spacing().map(|edge| edge / unit))?;
-        let wake_length = 4.0 * self.conductor.diffusivity() / self.contact.velocity / unit;
-        let kernel = match self.kind {
-            ContactKind::Body => HeatKernel::Free(TimeRule::of_body(&scaled, wake_length)),
-            ContactKind::Line => HeatKernel::Free(TimeRule::of_line(&scaled, wake_length)),
-            ContactKind::Period { duration } => HeatKernel::Periodic(PeriodicWaves {
-                grid: scaled,
-                velocity_over_diffusivity: 4.0 / wake_length,
-                mean_length: 2.0 * (self.conductor.diffusivity().sqrt() * duration.sqrt()) / unit,
-            }),
-        };
-        let factor = share * unit / self.conductor.conductivity();
+        let operator = HeatOperator::new(grid, self.kind, self.conductor, self.contact.velocity)?;
         let mut rise = vec![0.0; grid.n_elements()];
-        let operator = HeatOperator::new(&scaled, unit, kernel);
         for (depth, flux) in fluxes {
-            let mut field: Vec<f64> = flux.iter().map(|flux| factor * flux).collect();
+            let mut field: Vec<f64> = flux.iter().map(|flux| share * flux).collect();
             operator.add_temperature(depth, &mut field, &mut rise);
         }
         Ok(rise)

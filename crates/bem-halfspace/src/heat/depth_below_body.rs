@@ -193,11 +193,10 @@ mod tests {
 
     use super::*;
     use crate::PressureField;
-    use crate::heat::SourceDepth;
     use crate::heat::bulk::{BulkHeat, DEPTHS_OF_POWER, DepthRule, Pressed};
     use crate::heat::depth::Beside;
-    use crate::heat::operator::{HeatKernel, HeatOperator};
-    use crate::heat::time_rule::TimeRule;
+    use crate::heat::operator::HeatOperator;
+    use crate::heat::{ContactKind, HeatConductor, SourceDepth};
 
     /// Elements along the contact.
     const ELEMENTS: usize = 6;
@@ -253,12 +252,13 @@ mod tests {
         };
         let bulk = bulk(pressure, fine);
         let grid = &pressure.grid;
-        let rule = if is_line {
-            TimeRule::of_line(grid, 4.0 * diffusivity)
+        let kind = if is_line {
+            ContactKind::Line
         } else {
-            TimeRule::of_body(grid, 4.0 * diffusivity)
+            ContactKind::Body
         };
-        let operator = HeatOperator::new(grid, 1.0, HeatKernel::Free(rule));
+        let conductor = HeatConductor::new(1.0, diffusivity).expect("a conductor");
+        let operator = HeatOperator::new(grid, kind, &conductor, 1.0).expect("an operator");
         let planes: Vec<_> = bulk.planes().collect();
         let mut sums = [0.0; 3];
         let temperature = |distance: f64, flux: &[f64]| {

@@ -12,7 +12,8 @@
 //!
 //! ```
 //! use bem_halfspace::Grid;
-//! use bem_halfspace::heat::{Counterface, HeatConductor, HeatSource, SourceDepth, SurfaceTemperature};
+//! use bem_halfspace::heat::{ContactKind, Counterface, HeatConductor, HeatSource, SourceDepth};
+//! use bem_halfspace::heat::SurfaceTemperature;
 //!
 //! // A uniform flux on a disc of the radius 1 mm at rest: the largest rise is q a/k.
 //! let (rubber, radius, flux) = (HeatConductor::new(0.25, 1.2e-7)?, 1e-3, 1e4);
@@ -23,7 +24,8 @@
 //! };
 //! let disc: Vec<f64> = (0..grid.n_elements()).map(flux_of).collect();
 //! let source = HeatSource { flux: &disc, depth: &SourceDepth::Surface };
-//! let rise = SurfaceTemperature::new(&grid, &rubber, 0.0)?.of(&[source], Counterface::Insulating)?;
+//! let rise = SurfaceTemperature::new(&grid, ContactKind::Body, &rubber, 0.0)?;
+//! let rise = rise.of(&[source], Counterface::Insulating)?;
 //! assert!((rise.largest.value / (flux * radius / 0.25) - 1.0).abs() < 3e-3, "{}", rise.largest);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -33,6 +35,7 @@
 mod bulk;
 mod conductor;
 mod contact;
+mod contact_kind;
 mod depth;
 mod depth_below_body;
 mod operator;
@@ -42,7 +45,8 @@ mod source;
 mod time_rule;
 
 pub use conductor::{HeatCapacity, HeatConductor};
-pub use contact::{ContactKind, SlidingContact};
+pub use contact::SlidingContact;
+pub use contact_kind::ContactKind;
 pub use depth::{DepthProfile, DepthRise};
 pub use rise::{SurfaceTemperature, TemperatureRise};
 pub use source::{Counterface, DissipatingWave, DissipationProfile, HeatSource, SourceDepth};

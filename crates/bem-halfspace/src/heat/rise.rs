@@ -2,11 +2,12 @@
 
 use numerics::{Estimate, InvalidParameter, finite, in_range, not_negative, positive};
 
-use crate::heat::operator::{HeatKernel, HeatOperator};
-use crate::heat::periodic_waves::PeriodicWaves;
+use crate::contact::check_length;
+use crate::heat::contact_kind::coarsened;
+use crate::heat::operator::HeatOperator;
 use crate::heat::source::SourceDepth;
-use crate::heat::time_rule::{KERNEL_ERROR, TimeRule};
-use crate::heat::{Counterface, DepthProfile, HeatConductor, HeatSource};
+use crate::heat::time_rule::KERNEL_ERROR;
+use crate::heat::{ContactKind, Counterface, DepthProfile, HeatConductor, HeatSource};
 use crate::parallel::chunks::in_pool;
 use crate::{BemError, Grid, PressureField};
 
@@ -21,14 +22,10 @@ const MAX_PECLET_NUMBER: f64 = 1e10;
 /// fluxes, and of the order Δ where the flux jumps and for the largest rise at Péclet numbers ≫ 1.
 #[derive(Debug, Clone)]
 pub struct SurfaceTemperature {
-    /// Grid of the fluxes.
-    grid: Grid,
-    /// Factor from temperatures of the operators to those in kelvin: the edge of an element over the conductivity.
-    scale: f64,
-    /// Operator on the grid, and on the grid of elements with twice the edges.
+    /// What the fluxes are part of.
+    kind: ContactKind,
+    /// Operator on the grid of the fluxes, and on the grid of elements with twice the edges.
     operators: [HeatOperator; 2],
-    /// Whether the elements are infinite along y, so that powers are per length.
-    is_line: bool,
 }
 
 /// Temperature rise of the surface above the temperature far below it.
@@ -75,91 +72,38 @@ struct TotalFlux {
 }
 
 impl SurfaceTemperature {
-    /// The stationary temperature under a body that moves along +x with `velocity` ≥ 0 \[m/s]. Nothing outside the grid is heated, and
-    /// the half space is unbounded.
+    /// The stationary temperature under a contact that moves along +x with `velocity` ≥ 0 \[m/s]. The edges of the grid of a
+    /// [period](ContactKind::Period) are the periods; otherwise the half space is unbounded.
     ///
     /// # Errors
     /// [`BemError::InvalidParameter`] for a velocity that is not finite and at least 0, or elements with an aspect ratio out of the range
-    /// of numbers; [`BemError::DiffusivityTooSmall`] for a Péclet number vL/(4D) of the grid above 1e10.
-    pub fn new(grid: &Grid, conductor: &HeatConductor, velocity: f64) -> Result<Self, BemError> {
-        let wake_length = wake_length(grid, conductor, velocity)?;
-        let coarse = coarse_grid(grid, grid.spacing().map(|edge| 2.0 * edge))?;
-        Self::on_grids([grid, &coarse], conductor, |grid, unit| {
-            HeatKernel::Free(TimeRule::of_body(grid, wake_length / unit))
-        })
-    }
-
-    /// The stationary temperature under a body that is infinite along y and moves along +x with `velocity` > 0 \[m/s]. The grid has
-    /// one element along y, of any length. At rest there is no stationary state: the temperature grows like the logarithm of the time.
-    ///
-    /// # Errors
-    /// As for [`new`](Self::new); for a velocity of 0, and a grid with several elements along y.
-    pub fn line(grid: &Grid, conductor: &HeatConductor, velocity: f64) -> Result<Self, BemError> {
-        let wake_length = wake_length(grid, conductor, velocity)?;
-        let allowed = "greater than 0, because a line source at rest has no stationary temperature";
-        in_range("velocity", velocity, wake_length.is_finite(), allowed)?;
-        let (columns, [edge, length]) = (grid.shape()[1], grid.spacing());
-        in_range(
-            "number of elements along y",
-            columns as f64,
-            columns == 1,
-            "1 on a line",
-        )?;
-        let coarse = coarse_grid(grid, [2.0 * edge, length])?;
-        let operator = Self::on_grids([grid, &coarse], conductor, |grid, unit| {
-            HeatKernel::Free(TimeRule::of_line(grid, wake_length / unit))
-        })?;
-        Ok(Self {
-            is_line: true,
-            ..operator
-        })
-    }
-
-    /// The temperature of a periodic surface that moves along +x with `velocity` ≥ 0 \[m/s], with the edges of the grid as periods.
-    ///
-    /// The mean is that after the `duration` ≥ 0 \[s] of a constant heat flux. All waves are stationary: they are after a multiple of
-    /// L²/(4π²D), with the period L.
-    ///
-    /// # Errors
-    /// As for [`new`](Self::new); for a duration that is not finite and at least 0.
-    pub fn periodic(
+    /// of numbers; for a line at rest, or with several elements along y; and for a duration that is not finite and at least 0.
+    /// [`BemError::DiffusivityTooSmall`] for a Péclet number vL/(4D) of the grid above 1e10.
+    pub fn new(
         grid: &Grid,
+        kind: ContactKind,
         conductor: &HeatConductor,
         velocity: f64,
-        duration: f64,
     ) -> Result<Self, BemError> {
-        wake_length(grid, conductor, velocity)?;
-        not_negative("duration", duration)?;
-        let diffusivity = conductor.diffusivity();
-        let mean_length = 2.0 * diffusivity.sqrt() * duration.sqrt();
-        // Blocks of two elements, or somewhat less where their number along the period is odd.
-        let [n, edges] = [grid.shape().map(|n| n as f64), grid.spacing()];
-        let coarse_edges = [0, 1].map(|axis| edges[axis] * n[axis] / (0.5 * n[axis]).ceil());
-        let coarse = coarse_grid(grid, coarse_edges)?;
-        Self::on_grids([grid, &coarse], conductor, |grid, unit| {
-            HeatKernel::Periodic(PeriodicWaves {
-                grid: *grid,
-                velocity_over_diffusivity: velocity * unit / diffusivity,
-                mean_length: mean_length / unit,
-            })
-        })
-    }
-
-    /// Operators on two grids with the kernel `kernel(scaled grid, unit)`, where the unit is the edge of an element along x, \[m].
-    fn on_grids(
-        grids: [&Grid; 2],
-        conductor: &HeatConductor,
-        kernel: impl Fn(&Grid, f64) -> HeatKernel + Sync,
-    ) -> Result<Self, BemError> {
-        let unit = grids[0].spacing()[0];
-        let scaled = |grid: &Grid| Grid::new(grid.shape(), grid.spacing().map(|edge| edge / unit));
-        let [fine, coarse] = [scaled(grids[0])?, scaled(grids[1])?];
-        let operator = |grid: &Grid| HeatOperator::new(grid, unit, kernel(grid, unit));
+        let wake_length = wake_length(grid, conductor, velocity)?;
+        match kind {
+            ContactKind::Body => {}
+            ContactKind::Line => {
+                let moves =
+                    "greater than 0, because a line source at rest has no stationary temperature";
+                in_range("velocity", velocity, wake_length.is_finite(), moves)?;
+                let columns = grid.shape()[1];
+                let name = "number of elements along y";
+                in_range(name, columns as f64, columns == 1, "1 on a line")?;
+            }
+            ContactKind::Period { duration } => drop(not_negative("duration", duration)?),
+        }
+        let coarse = kind.coarse_grid(grid, 2)?;
+        let operator = |grid| HeatOperator::new(grid, kind, conductor, velocity);
+        let [fine, coarse] = in_pool(grid.n_elements(), || [operator(grid), operator(&coarse)]);
         Ok(Self {
-            grid: *grids[0],
-            scale: unit / conductor.conductivity(),
-            operators: in_pool(fine.n_elements(), || [operator(&fine), operator(&coarse)]),
-            is_line: false,
+            kind,
+            operators: [fine?, coarse?],
         })
     }
 
@@ -187,11 +131,13 @@ impl SurfaceTemperature {
             SourceDepth::Surface => share,
             SourceDepth::Bulk(_) | SourceDepth::Plane(_) => 1.0,
         };
+        let [fine, coarse] = &self.operators;
+        let grid = fine.grid;
         let temperature_on = |operator: &HeatOperator, is_coarse: bool| {
             let mut temperature = vec![0.0; operator.grid.n_elements()];
             for source in sources.iter().filter(|source| absorbed_share(source) > 0.0) {
-                let factor = self.scale * absorbed_share(source);
-                let flux = source.flux.iter().map(|flux| flux * factor).collect();
+                let share = absorbed_share(source);
+                let flux = source.flux.iter().map(|flux| flux * share).collect();
                 let mut field = if is_coarse {
                     self.coarsened(flux)
                 } else {
@@ -201,27 +147,26 @@ impl SurfaceTemperature {
             }
             temperature
         };
-        let [fine, coarse] = &self.operators;
-        let [temperature, coarse_temperature] = in_pool(self.grid.n_elements(), || {
+        let [temperature, coarse_temperature] = in_pool(grid.n_elements(), || {
             [temperature_on(fine, false), temperature_on(coarse, true)]
         });
 
         // Compare the averages on both grids.
-        let total = TotalFlux::of(sources, self.grid.n_elements());
+        let total = TotalFlux::of(sources, grid.n_elements());
         let coarse_total = TotalFlux {
             flux: self.coarsened(total.flux.clone()),
             heated_fraction: self.coarsened(total.heated_fraction.clone()),
         };
         let averages = Averages::over(&temperature, &total);
-        let hottest = total.hottest_element(&temperature);
+        let hottest = hottest_element(&temperature, &total.heated_fraction);
         let sampling_error = hottest.map_or(0.0, |hottest| {
-            sampling_error(&temperature, hottest, self.grid.shape())
+            sampling_error(&temperature, hottest, grid.shape())
         });
         let coarse_averages = Averages::over(&coarse_temperature, &coarse_total);
         let power = |source| self.power(source);
         let absorbed_power = |source| absorbed_share(source) * self.power(source);
         Ok(TemperatureRise {
-            grid: self.grid,
+            grid,
             temperature,
             largest: estimate(averages.largest, coarse_averages.largest)?.widened(sampling_error),
             mean: estimate(averages.mean, coarse_averages.mean)?,
@@ -237,13 +182,7 @@ impl SurfaceTemperature {
 
     /// Checks the length and the values of a flux.
     fn check_flux(&self, flux: &[f64]) -> Result<(), BemError> {
-        if flux.len() != self.grid.n_elements() {
-            return Err(BemError::LengthMismatch {
-                field: "heat flux",
-                length: flux.len(),
-                elements: self.grid.n_elements(),
-            });
-        }
+        check_length("heat flux", flux.len(), self.operators[0].grid.n_elements())?;
         for value in flux {
             not_negative("heat flux", *value)?;
         }
@@ -252,25 +191,18 @@ impl SurfaceTemperature {
 
     /// Power of a source, \[W]; on a line per length, \[W/m].
     fn power(&self, source: &HeatSource<'_>) -> f64 {
-        let area_of_element = if self.is_line {
-            self.grid.spacing()[0]
-        } else {
-            self.grid.element_area()
-        };
-        source.flux.iter().sum::<f64>() * area_of_element
+        source.flux.iter().sum::<f64>() * self.kind.area_of_element(&self.operators[0].grid)
     }
 
     /// Means of a field over the elements of the coarse grid; elements outside of the grid count as 0.
     fn coarsened(&self, field: Vec<f64>) -> Vec<f64> {
-        // A pressure is resampled in the same way: the first edges of both grids agree.
-        let [fine, coarse] = [&self.operators[0].grid, &self.operators[1].grid];
-        let origin = [0, 1].map(|axis| 0.5 * (coarse.spacing()[axis] - fine.spacing()[axis]));
+        let [fine, coarse] = &self.operators;
         let field = PressureField {
-            grid: *fine,
+            grid: fine.grid,
             origin: [0.0; 2],
             pressure: field,
         };
-        field.resampled(coarse, origin).pressure
+        coarsened(&field, &coarse.grid).pressure
     }
 }
 
@@ -289,18 +221,12 @@ impl TotalFlux {
             flux,
         }
     }
-
-    /// The heated element with the largest temperature; `None` if none is heated.
-    fn hottest_element(&self, temperature: &[f64]) -> Option<usize> {
-        let heated = (0..temperature.len()).filter(|element| self.heated_fraction[*element] > 0.0);
-        heated.max_by(|left, right| temperature[*left].total_cmp(&temperature[*right]))
-    }
 }
 
 impl Averages {
     /// Averages of a temperature over the heated elements; 0 if there are none.
     fn over(temperature: &[f64], total: &TotalFlux) -> Self {
-        let Some(hottest) = total.hottest_element(temperature) else {
+        let Some(hottest) = hottest_element(temperature, &total.heated_fraction) else {
             return Self::default();
         };
         Self {
@@ -332,8 +258,14 @@ pub(super) fn sampling_error(
     along(row, rows, columns) + along(column, columns, 1)
 }
 
+/// The element with the largest temperature of those of which a fraction is heated; `None` if none is heated.
+pub(super) fn hottest_element(temperature: &[f64], heated_fraction: &[f64]) -> Option<usize> {
+    let heated = (0..temperature.len()).filter(|element| heated_fraction[*element] > 0.0);
+    heated.max_by(|left, right| temperature[*left].total_cmp(&temperature[*right]))
+}
+
 /// Mean of values with weights whose sum is greater than 0.
-fn weighted_mean(values: &[f64], weights: &[f64]) -> f64 {
+pub(super) fn weighted_mean(values: &[f64], weights: &[f64]) -> f64 {
     let products = values
         .iter()
         .zip(weights)
@@ -366,9 +298,4 @@ pub(super) fn wake_length(
     }
     positive("ratio of the edges", grid.spacing()[1] / grid.spacing()[0])?;
     Ok(wake_length)
-}
-
-/// A grid over the same area with half the number of elements, rounded up, along each axis.
-fn coarse_grid(grid: &Grid, spacing: [f64; 2]) -> Result<Grid, BemError> {
-    Grid::new(grid.shape().map(|n| n.div_ceil(2)), spacing)
 }

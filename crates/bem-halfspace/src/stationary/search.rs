@@ -66,8 +66,11 @@ pub(crate) trait FixedSetSolver {
     const FORCING: ForcingTerms;
     /// Rows and columns of the grid.
     fn shape(&self) -> [usize; 2];
-    /// Row and column of an element.
-    fn row_and_column(&self, element: usize) -> [usize; 2];
+    /// Row and column of an element; row-major over the grid unless given otherwise.
+    fn row_and_column(&self, element: usize) -> [usize; 2] {
+        let columns = self.shape()[1];
+        [element / columns, element % columns]
+    }
     /// Diagonal of K, greater than 0. Where displacements are known up to a constant only, the part of the diagonal that does not
     /// depend on it.
     fn self_influence(&self) -> f64;

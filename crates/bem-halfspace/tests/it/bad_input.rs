@@ -4,7 +4,9 @@ use bem_halfspace::indent::indent_history_on_grid;
 use bem_halfspace::slide::{
     March, Motion, StationaryOptions, Transient, slide, slide_on_grid, slide_to_stationary,
 };
-use bem_halfspace::steady::{SteadyOptions, SteadySliding, steady, steady_line, steady_on_grid};
+use bem_halfspace::steady::{
+    SteadyBody::Line, SteadyOptions, SteadySliding, steady, steady_on_grid,
+};
 use bem_halfspace::{
     BemError, ContactState, Control, Convolution, Footprint, Grid, GridOptions, HistoryPoint,
     indent, press,
@@ -169,7 +171,7 @@ fn bodies_without_numbers_or_without_friction_are_refused() {
             assert_refused(bad, press(&shifted, &whole, control, 1e-2), name);
         }
         assert_refused(bad, steady(&shifted, &whole, &scene.load, 1e-2), name);
-        assert_refused(bad, steady_line(&shifted, &whole, &scene.load, 1e-2), name);
+        assert_refused(bad, steady(Line(&shifted), &whole, &scene.load, 1e-2), name);
         assert_refused(bad, slide(&shifted, &whole, &load, 1e-2), name);
     }
     let nowhere = Formula::new([false; 2], |[x, y]| {
@@ -248,7 +250,7 @@ fn scenes_without_a_state_at_rest_are_refused() {
     let (cylinder, load) = (Cylinder::new(1.0), under_force(1.0, 1.0));
     let cylinder = cylinder.expect("a body");
     for fluid in [prony([0.0, 2.0], &[]), prony([0.0, 0.0], &[(1.0, 2.0)])] {
-        let line = steady_line(&cylinder, &fluid, &load, 1e-2);
+        let line = steady(Line(&cylinder), &fluid, &load, 1e-2);
         assert_refused(&fluid, line, "fluidity");
     }
 }
@@ -367,6 +369,6 @@ fn materials_with_contradictory_spectra_are_refused() {
     assert_refused("marching", slide(&body, &Contradictory, &force, 1e-2), name);
     assert_refused("sliding", steady(&body, &Contradictory, &force, 1e-2), name);
     let cylinder = Cylinder::new(1.0).expect("a body");
-    let line = steady_line(&cylinder, &Contradictory, &force, 1e-2);
+    let line = steady(Line(&cylinder), &Contradictory, &force, 1e-2);
     assert_refused("a line", line, name);
 }

@@ -2,7 +2,9 @@
 
 use std::fmt::Debug;
 
-use bem_halfspace::steady::{SteadyEstimate, SteadyOptions, steady_line, steady_line_on_grid};
+use bem_halfspace::steady::{
+    SteadyBody::Line, SteadyEstimate, SteadyOptions, steady, steady_on_grid,
+};
 use bem_halfspace::{BemError, Footprint};
 use casebook::group;
 use friction_analytic::{CylinderSliding, LineContact, cylinder_sliding};
@@ -46,7 +48,12 @@ impl Scene {
 
     fn solve(&self, relative_error: f64) -> Result<SteadyEstimate, BemError> {
         let load = under_force(self.line_load, self.velocity);
-        steady_line(&unit_cylinder(), &self.material, &load, relative_error)
+        steady(
+            Line(&unit_cylinder()),
+            &self.material,
+            &load,
+            relative_error,
+        )
     }
 
     fn check(&self, what: impl Debug, relative_error: f64, expected: f64) {
@@ -125,7 +132,7 @@ fn one_grid_carries_the_load_between_the_ends_of_the_contact() {
     for (gamma, z) in [(0.1, 0.1), (0.1, 2.0), (0.01, 5.0), (1.0, 0.5), (1.0, 20.0)] {
         let (scene, exact) = Scene::hunter(gamma, z);
         let load = under_force(scene.line_load, scene.velocity);
-        let state = steady_line_on_grid(&unit_cylinder(), &scene.material, &load, &options);
+        let state = steady_on_grid(Line(&unit_cylinder()), &scene.material, &load, &options);
         let state = state.expect("a solution");
         let carried: f64 = state.pressure.pressure.iter().map(|p| p * spacing).sum();
         assert_close((gamma, z), carried, scene.line_load, 1e-12);
@@ -154,7 +161,7 @@ fn a_long_memory_does_not_keep_a_line_from_any_tolerance() {
             max_iterations: 100,
             ..grid(1.0 / 16.0, [-3.0, 3.0])
         };
-        let state = steady_line_on_grid(&unit_cylinder(), &scene.material, &load, &options);
+        let state = steady_on_grid(Line(&unit_cylinder()), &scene.material, &load, &options);
         state.expect("a state").friction_coefficient
     };
     let [rough, fine] = [1e-6, 1e-13].map(friction);

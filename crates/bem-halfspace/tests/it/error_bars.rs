@@ -321,7 +321,7 @@ fn bars_hold_where_a_flat_end_has_an_edge() {
     ];
     for (body, material, load, expected) in cases {
         for accuracy in [Accuracy::RelativeError(0.05), Accuracy::Elements(16)] {
-            let state = steady(&body, &material, &load, accuracy).expect("a state");
+            let state = steady(body, &material, &load, accuracy).expect("a state");
             let widest = if accuracy == Accuracy::Elements(16) {
                 1.0
             } else {

@@ -4,9 +4,9 @@ use std::f64::consts::PI;
 
 use bem_halfspace::indenters::Cylinder;
 use bem_halfspace::slide::{PressureField, slide_on_grid};
-use bem_halfspace::steady::{SteadyOptions, gap, line_gap};
+use bem_halfspace::steady::{SteadyOptions, gap};
 use bem_halfspace::{
-    Accuracy, Control, Footprint, GapField, PressingLoad, indent, steady, steady_line,
+    Accuracy, Control, Footprint, GapField, PressingLoad, SteadyBody::Line, indent, steady,
     steady_on_grid,
 };
 use indenters::FlatPunch;
@@ -119,9 +119,9 @@ fn around_an_elastic_contact_it_is_that_of_hertz() {
     // The half width of a line is √(4 F' R/(π E*)).
     let cylinder = Cylinder::new(1.0).expect("a cylinder");
     let half_width = (force / PI).sqrt();
-    let line = steady_line(&cylinder, &rubber, &load, elements).expect("a state");
-    let found = line_gap(
-        &cylinder,
+    let line = steady(Line(&cylinder), &rubber, &load, elements).expect("a state");
+    let found = gap(
+        Line(&cylinder),
         &rubber,
         &load,
         &line.options,

@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use bem_halfspace::heat::{
-    Counterface, DissipatingWave, DissipationProfile, HeatCapacity, HeatConductor, HeatSource,
-    SourceDepth, SurfaceTemperature, TemperatureRise,
+    ContactKind, Counterface, DissipatingWave, DissipationProfile, HeatCapacity, HeatConductor,
+    HeatSource, SourceDepth, SurfaceTemperature, TemperatureRise,
 };
 use bem_halfspace::{BemError, Grid, InvalidParameter, influence};
 use numerics::{Estimate, integrate};
@@ -97,6 +97,19 @@ fn rise_at(operator: &SurfaceTemperature, flux: &[f64], depth: &SourceDepth) -> 
     rise.expect("a temperature")
 }
 
+/// The operator for rubber, or why there is none.
+fn try_operator(
+    grid: &Grid,
+    kind: ContactKind,
+    velocity: f64,
+) -> Result<SurfaceTemperature, BemError> {
+    SurfaceTemperature::new(grid, kind, &rubber(), velocity)
+}
+
+fn operator(grid: &Grid, kind: ContactKind, velocity: f64) -> SurfaceTemperature {
+    try_operator(grid, kind, velocity).expect("an operator")
+}
+
 /// Bulk sources of one wave.
 fn one_wave(wave_number: f64) -> SourceDepth {
     let wave = DissipatingWave {
@@ -107,14 +120,14 @@ fn one_wave(wave_number: f64) -> SourceDepth {
 }
 
 fn body(n: usize, peclet_number: f64) -> SurfaceTemperature {
-    SurfaceTemperature::new(&square(n), &rubber(), velocity(peclet_number)).expect("an operator")
+    operator(&square(n), ContactKind::Body, velocity(peclet_number))
 }
 
 /// The uniform strip of `n` elements.
 fn strip(n: usize, peclet_number: f64) -> TemperatureRise {
     let grid = Grid::new([n, 1], [2.0 * RADIUS / n as f64, 1.0]).expect("a grid");
-    let operator = SurfaceTemperature::line(&grid, &rubber(), velocity(peclet_number));
-    rise(&operator.expect("an operator"), &vec![1.0; n])
+    let operator = operator(&grid, ContactKind::Line, velocity(peclet_number));
+    rise(&operator, &vec![1.0; n])
 }
 
 /// An estimate in units of q a/k for the flux q = 1.
@@ -244,7 +257,7 @@ fn influence_of_middle(operator: &SurfaceTemperature, n_elements: usize) -> Vec<
 fn elements_at_rest_have_the_influence_coefficients_of_love() {
     let edges = [2e-5, 3e-5];
     let grid = Grid::new([41; 2], edges).expect("a grid");
-    let operator = SurfaceTemperature::new(&grid, &rubber(), 0.0).expect("an operator");
+    let operator = operator(&grid, ContactKind::Body, 0.0);
     let found = influence_of_middle(&operator, grid.n_elements());
     for (element, actual) in found.iter().enumerate() {
         let offset = [
@@ -284,7 +297,7 @@ fn elements_of_lines_are_integrals_of_line_sources() {
         // The Péclet number is that of an element, vΔ/(2D).
         let rate = peclet_number / edge;
         let velocity = 2.0 * DIFFUSIVITY * rate;
-        let operator = SurfaceTemperature::line(&grid, &rubber(), velocity).expect("an operator");
+        let operator = operator(&grid, ContactKind::Line, velocity);
         let found = influence_of_middle(&operator, 9);
         for (element, actual) in found.iter().enumerate() {
             let middle = (element as f64 - 4.0) * edge;
@@ -321,7 +334,7 @@ fn bulk_sources_of_a_small_element_are_point_sources_at_their_depths() {
     let wave_number = 1.0 / (200.0 * edge);
     for wake_length in [1e-4, 1.0, 1e4] {
         let velocity = 4.0 * DIFFUSIVITY / wake_length;
-        let operator = SurfaceTemperature::new(&grid, &rubber(), velocity).expect("an operator");
+        let operator = operator(&grid, ContactKind::Body, velocity);
         let found = rise_at(&operator, &flux, &one_wave(wave_number));
         for [row, column] in [[20, 20], [5, 23], [36, 20]] {
             let offset = [row, column].map(|index: usize| (index as f64 - 20.0) * edge);
@@ -371,7 +384,7 @@ fn the_wake_carries_the_power_of_the_source() {
     let grid = Grid::new([rows, columns], [edge; 2]).expect("a grid");
     // The wake is √(λd) = 20 elements wide, with λ of one element.
     let velocity = 4.0 * DIFFUSIVITY / edge;
-    let operator = SurfaceTemperature::new(&grid, &rubber(), velocity).expect("an operator");
+    let operator = operator(&grid, ContactKind::Body, velocity);
     let mut flux = vec![0.0; grid.n_elements()];
     for row in 421..430 {
         flux[row * columns + 76..row * columns + 84].fill(2.0 + 0.1 * (row % 2) as f64);
@@ -403,12 +416,9 @@ fn a_body_on_a_long_period_is_as_hot_as_alone() {
         let grid = Grid::new([n; 2], [edge; 2]).expect("a grid");
         // Standing waves have grown after the longest one has diffused over many periods.
         let duration = 100.0 * (n as f64 * edge).powi(2) / DIFFUSIVITY;
-        let periodic = SurfaceTemperature::periodic(&grid, &rubber(), velocity, duration);
-        let [alone, periodic] = [
-            SurfaceTemperature::new(&grid, &rubber(), velocity).expect("an operator"),
-            periodic.expect("an operator"),
-        ]
-        .map(|operator| rise(&operator, &flux));
+        let periodic = operator(&grid, ContactKind::Period { duration }, velocity);
+        let [alone, periodic] = [operator(&grid, ContactKind::Body, velocity), periodic]
+            .map(|operator| rise(&operator, &flux));
         let excess = |[row, column]: [usize; 2]| {
             let element = row * n + column;
             periodic.temperature[element] - alone.temperature[element]
@@ -466,8 +476,8 @@ fn one_wave_of_bulk_dissipation_has_its_closed_form() {
                 .map(|element| 1.0 + phase(element).cos())
                 .collect();
             let duration = 100.0 * period * period / DIFFUSIVITY;
-            let operator = SurfaceTemperature::periodic(&grid, &rubber(), velocity, duration);
-            let mut found = rise_at(&operator.expect("an operator"), &flux, &one_wave(depth));
+            let operator = operator(&grid, ContactKind::Period { duration }, velocity);
+            let mut found = rise_at(&operator, &flux, &one_wave(depth));
             // Without the mean, which has grown.
             let mean = found.temperature.iter().sum::<f64>() / (n * n) as f64;
             found.temperature.iter_mut().for_each(|rise| *rise -= mean);
@@ -514,8 +524,7 @@ fn a_standing_wave_grows_by_diffusion() {
         .collect();
     for diffusion_length in [0.2 / q, 1.0 / q, 5.0 / q] {
         let duration = diffusion_length * diffusion_length / (4.0 * DIFFUSIVITY);
-        let operator = SurfaceTemperature::periodic(&grid, &rubber(), 0.1, duration);
-        let operator = operator.expect("an operator");
+        let operator = operator(&grid, ContactKind::Period { duration }, 0.1);
         for depth in [1e-3 / q, 0.3 / q, 1.0 / q] {
             let found = rise_at(&operator, &flux, &SourceDepth::Plane(depth));
             let pulse = |s: f64| (-(depth / s).powi(2) - (0.5 * q * s).powi(2)).exp();
@@ -538,8 +547,7 @@ fn the_mean_of_a_periodic_surface_grows_with_the_root_of_time() {
     // Transforms leave waves of the order of rounding in a uniform flux.
     let rounding = 1e-15 * 3.0 * 1e-4 / CONDUCTIVITY;
     for duration in [0.0, 0.5, 600.0] {
-        let operator = SurfaceTemperature::periodic(&grid, &rubber(), 0.1, duration);
-        let operator = operator.expect("an operator");
+        let operator = operator(&grid, ContactKind::Period { duration }, 0.1);
         let surface = rise(&operator, &flux);
         let expected = 2.0 * 3.0 / CONDUCTIVITY * (DIFFUSIVITY * duration / PI).sqrt();
         for temperature in &surface.temperature {
@@ -655,9 +663,8 @@ fn temperatures_are_the_same_on_one_and_three_threads() {
     let compute = || {
         let grid = square(n);
         let velocity = velocity(7.0);
-        let free = SurfaceTemperature::new(&grid, &rubber(), velocity).expect("an operator");
-        let periodic = SurfaceTemperature::periodic(&grid, &rubber(), velocity, 1.0);
-        let periodic = periodic.expect("an operator");
+        let free = operator(&grid, ContactKind::Body, velocity);
+        let periodic = operator(&grid, ContactKind::Period { duration: 1.0 }, velocity);
         [&free, &periodic].map(|operator| [rise(operator, &flux), rise_at(operator, &flux, &depth)])
     };
     let [one, three] = [1, 3].map(|threads| on_threads(threads, compute));
@@ -673,25 +680,23 @@ fn impossible_input_is_refused() {
     };
     let grid = square(8);
     for velocity in [-1.0, f64::NAN, f64::INFINITY] {
-        refused(
-            SurfaceTemperature::new(&grid, &rubber(), velocity),
-            "velocity",
-        );
+        refused(try_operator(&grid, ContactKind::Body, velocity), "velocity");
     }
-    let fast = SurfaceTemperature::new(&grid, &rubber(), 1e20);
+    let fast = try_operator(&grid, ContactKind::Body, 1e20);
     let Err(BemError::DiffusivityTooSmall { least, .. }) = fast else {
         panic!("{fast:?}");
     };
     let slowest = HeatConductor::new(0.25, 1.001 * least).expect("a conductor");
-    SurfaceTemperature::new(&grid, &slowest, 1e20).expect("the allowed diffusivity");
+    SurfaceTemperature::new(&grid, ContactKind::Body, &slowest, 1e20)
+        .expect("the allowed diffusivity");
     let line = Grid::new([8, 1], [1e-4; 2]).expect("a grid");
-    refused(SurfaceTemperature::line(&line, &rubber(), 0.0), "velocity");
+    refused(try_operator(&line, ContactKind::Line, 0.0), "velocity");
     refused(
-        SurfaceTemperature::line(&grid, &rubber(), 1.0),
+        try_operator(&grid, ContactKind::Line, 1.0),
         "number of elements along y",
     );
     refused(
-        SurfaceTemperature::periodic(&grid, &rubber(), 1.0, -1.0),
+        try_operator(&grid, ContactKind::Period { duration: -1.0 }, 1.0),
         "duration",
     );
 

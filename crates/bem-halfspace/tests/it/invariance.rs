@@ -1,7 +1,9 @@
 //! Neither units nor footprints nor mirrors matter, nor how the equations of a contact are solved.
 
 use bem_halfspace::Footprint;
-use bem_halfspace::steady::{SteadyOptions, SteadySliding, steady_line, steady_on_grid};
+use bem_halfspace::steady::{
+    SteadyBody::Line, SteadyOptions, SteadySliding, steady, steady_on_grid,
+};
 use indenters::{Cylinder, Unmirrored};
 use rheology::Material;
 
@@ -69,7 +71,7 @@ fn line([length, stress, time]: Units) -> Vec<f64> {
     let material = three_elements(0.1 * stress, stress, time);
     let load = under_force(stress * length, length / time);
     let cylinder = Cylinder::new(length).expect("a cylinder");
-    let solved = steady_line(&cylinder, &material, &load, 1e-2).expect("a friction");
+    let solved = steady(Line(&cylinder), &material, &load, 1e-2).expect("a friction");
     vec![solved.friction_coefficient.value]
 }
 

@@ -3,8 +3,8 @@
 use std::f64::consts::{PI, TAU};
 
 use bem_halfspace::{
-    Control, Convolution, Elastomer, Grid, Layer, PeriodicLoad, PeriodicOptions, layer_factor,
-    periodic, press, slide, steady, steady_line,
+    Control, Convolution, Elastomer, Grid, Layer, PeriodicLoad, PeriodicOptions, SteadyBody::Line,
+    layer_factor, periodic, press, slide, steady,
 };
 use casebook::refuses;
 use friction_analytic::{BondedLayer, power_sliding, winkler_line_force};
@@ -128,7 +128,7 @@ fn a_cylinder_slides_as_an_independent_solver_finds() {
     let solid = solid();
     let layer = Layer::new(&solid, 0.1).unwrap();
     let load = under_force(0.02, 0.01);
-    let found = steady_line(&Cylinder::new(1.0).unwrap(), &layer, &load, 1e-5).unwrap();
+    let found = steady(Line(&Cylinder::new(1.0).unwrap()), &layer, &load, 1e-5).unwrap();
     let (peak, depth) = (found.peak_pressure, found.indentation_depth);
     assert_within_bar("μ", found.friction_coefficient, 0.038_570_761_236_354_46);
     assert_within_bar("width", found.contact_area, 2.0 * 0.073_904_070_412_448_22);
@@ -150,7 +150,7 @@ fn what_slides_over_an_elastic_layer_is_pressed_into_it() {
     assert!(slid.error <= 1e-3 * slid.value, "{slid:?}");
     let cylinder = Cylinder::new(1.0).unwrap();
     let [rough, fine] = [1e-3, 1e-4].map(|error| {
-        let found = steady_line(&cylinder, &layer, &load, error).unwrap();
+        let found = steady(Line(&cylinder), &layer, &load, error).unwrap();
         assert_eq!(found.friction_coefficient, Estimate::exact(0.0), "friction");
         found.indentation_depth.unwrap()
     });
@@ -263,7 +263,7 @@ fn a_cylinder_slides_over_a_layer_that_flows() {
     let friction = |thickness: f64, force: f64| {
         let layer = Layer::new(&dashpot, thickness).unwrap();
         let load = under_force(force, 1e-3);
-        let found = steady_line(&Cylinder::new(1e-2).unwrap(), &layer, &load, 1e-3).unwrap();
+        let found = steady(Line(&Cylinder::new(1e-2).unwrap()), &layer, &load, 1e-3).unwrap();
         found.friction_coefficient.value
     };
     let line = paraboloid(25.0);

@@ -24,7 +24,7 @@ fn below_a_periodic_surface_its_mean_is_the_distance_of_the_mean_planes() {
     let elements = Accuracy::Elements(128);
     let found = periodic::steady(&surface, &rubber, &load, elements).expect("a state");
     let state = found.finest;
-    let field = periodic::gap(&surface, &rubber, 0.3, &state.pressure).expect("a gap");
+    let field = periodic::gap(&surface, &rubber, &load, &state.pressure).expect("a gap");
     check_complementary("sliding", &field, &state.pressure, 1e-7);
     let mean = |field: &GapField| field.gap.iter().sum::<f64>() / field.gap.len() as f64;
     let distance = -state.mean_depth;
@@ -43,9 +43,10 @@ fn below_a_periodic_surface_its_mean_is_the_distance_of_the_mean_planes() {
     assert!((mean_gap - distance).abs() <= 1e-7, "{mean_gap} {distance}");
     // On a layer at rest the mean pressure compresses the material.
     let layer = Layer::new(&rubber, 0.3).expect("a layer");
-    let pressed = periodic::indent(&surface, &layer, 0.02, 2.0, elements)
+    let load = PeriodicLoad::pressed(0.02, 2.0).expect("a load");
+    let pressed = periodic::steady(&surface, &layer, &load, elements)
         .expect("a state")
         .finest;
-    let field = periodic::gap_at_rest(&surface, &layer, 2.0, &pressed.pressure).expect("a gap");
+    let field = periodic::gap(&surface, &layer, &load, &pressed.pressure).expect("a gap");
     check_complementary("layer", &field, &pressed.pressure, 3e-7);
 }

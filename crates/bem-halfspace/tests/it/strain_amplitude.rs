@@ -5,7 +5,7 @@ use std::f64::consts::{PI, SQRT_2};
 use bem_halfspace::heat::{ContactKind, SlidingContact};
 use bem_halfspace::steady::SteadyEstimate;
 use bem_halfspace::{BemError, Grid, Layer, PressureField, SlidingLoad, indent, slide, steady};
-use bem_halfspace::{PressingLoad, steady_line};
+use bem_halfspace::{PressingLoad, SteadyBody};
 use indenters::Cylinder;
 use numerics::Estimate;
 use rheology::{ComplexModulus, KelvinVoigt, Material, ModulusFactors, Prony};
@@ -145,7 +145,7 @@ fn friction_is_the_dissipated_power() {
     let slide = |factors: ModulusFactors, kind: ContactKind| -> SteadyEstimate {
         let elastomer = at_strain(&material, factors);
         let found = match kind {
-            ContactKind::Line => steady_line(&cylinder, &elastomer, &line_load, 5e-3),
+            ContactKind::Line => steady(SteadyBody::Line(&cylinder), &elastomer, &line_load, 5e-3),
             _ => steady(&body, &elastomer, &load, 5e-3),
         };
         found.expect("a solution")

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use bem_halfspace::steady::sensitivity::SteadySensitivity;
 use bem_halfspace::steady::{SteadyOptions, SteadySliding, steady_grid, steady_on_grid};
-use bem_halfspace::{BemError, Elastomer, Layer, slide, steady, steady_line};
+use bem_halfspace::{BemError, Elastomer, Layer, SteadyBody::Line, slide, steady};
 use indenters::{Cylinder, IndenterError, SlidingLoad, Sphere};
 use numerics::Accuracy;
 use rheology::{Elastic, Material as _, Maxwell, StandardSolid, StandardSolidParameters};
@@ -159,7 +159,7 @@ fn cylinders_meet_their_tracks_too() {
     let (roll, solid) = (Cylinder::new(RADIUS).expect("a roll"), rubber(8.0));
     let load = under_force(500.0, 0.1);
     let friction = |load: &SlidingLoad| {
-        let state = steady_line(&roll, &solid, load, 1e-3).expect("a state");
+        let state = steady(Line(&roll), &solid, load, 1e-3).expect("a state");
         state.friction_coefficient
     };
     let straight = friction(&load);
@@ -170,7 +170,12 @@ fn cylinders_meet_their_tracks_too() {
         short.value < 0.99 * straight.value,
         "{short:?}, {straight:?}"
     );
-    let elements = steady_line(&roll, &solid, &on(load, 15e-3), Accuracy::Elements(96));
+    let elements = steady(
+        Line(&roll),
+        &solid,
+        &on(load, 15e-3),
+        Accuracy::Elements(96),
+    );
     let elements = elements.expect("a state").friction_coefficient;
     assert_bars_agree("of given elements", elements, short);
 }

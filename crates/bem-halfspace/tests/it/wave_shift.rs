@@ -113,7 +113,8 @@ fn only_periods_that_slide_have_a_shift() {
         phase: 0.0,
     };
     let surface = PeriodicSurface::new([PERIOD; 2], vec![wave]).expect("a surface");
-    is_refused(periodic::indent(&surface, &elastomer, 1e5, 1.0, 0.1).err());
+    let pressed = PeriodicLoad::pressed(1e5, 1.0).expect("a load");
+    is_refused(periodic::steady(&surface, &elastomer, &pressed, 0.1).err());
     let load = PeriodicLoad::new(1e5, VELOCITY).expect("a load");
     let state = periodic::steady(&surface, &elastomer, &load, 0.1).expect("a state");
     let pressure = &state.finest.pressure;

@@ -11,8 +11,8 @@ use std::sync::{Mutex, PoisonError};
 
 use bem_halfspace::Layer;
 use bem_halfspace::steady::sensitivity::SensitivityOnGrid;
-use bem_halfspace::steady::{steady, steady_grid, steady_line, steady_line_grid};
-use indenters::{Control, Cylinder, SlidingLoad, Surface};
+use bem_halfspace::steady::{SteadyBody, steady, steady_grid};
+use indenters::{Control, SlidingLoad};
 use measurements::friction::{FrictionModel, FrictionPoint, ModelledPoint};
 use numerics::{Accuracy, Estimate, SilentProgress};
 #[cfg(feature = "rayon")]
@@ -58,10 +58,8 @@ const DIFFERENCE_STEP: f64 = 1e-4;
 
 /// The body on its model, which decide how the friction of a point is solved.
 enum Forward<'a> {
-    /// A finite body on the half space or layer.
-    Surface(&'a dyn Surface),
-    /// A cylinder on the half space or layer, in plane strain.
-    Cylinder(&'a Cylinder),
+    /// A finite body or a cylinder on the half space or layer.
+    HalfSpace(SteadyBody<'a>),
     /// A body of revolution in the one-dimensional model.
     Line(&'a Revolution),
 }
@@ -162,8 +160,7 @@ impl<'a> Model<'a> {
         let places = || (0..self.points.len()).filter(is_kept);
         Self {
             forward: match self.forward {
-                Forward::Surface(surface) => Forward::Surface(surface),
-                Forward::Cylinder(cylinder) => Forward::Cylinder(cylinder),
+                Forward::HalfSpace(body) => Forward::HalfSpace(body),
                 Forward::Line(body) => Forward::Line(body),
             },
             points: places().map(|index| self.points[index]).collect(),
@@ -288,6 +285,14 @@ impl<'a> Model<'a> {
         Ok(self.track.map_or(Ok(load), |track| load.on_track(track))?)
     }
 
+    /// The body on the half space or layer; an error in the one-dimensional model.
+    fn half_space_body(&self) -> Result<SteadyBody<'_>> {
+        match self.forward {
+            Forward::HalfSpace(body) => Ok(body),
+            Forward::Line(_) => Err(no_derivatives(Method::MdrSteady)),
+        }
+    }
+
     /// Solution on a grid of `self.elements` along the contact, with its adjoint; an error in the one-dimensional model.
     fn coarse_solution(
         &self,
@@ -295,17 +300,9 @@ impl<'a> Model<'a> {
         load: &SlidingLoad,
     ) -> Result<SensitivityOnGrid> {
         let layer = Layer::new(material, self.thickness).map_err(bem_halfspace::BemError::from)?;
-        Ok(match self.forward {
-            Forward::Cylinder(cylinder) => {
-                let grid = steady_line_grid(cylinder, &layer, load, self.elements)?;
-                SensitivityOnGrid::of_line(cylinder, &layer, load, &grid)?
-            }
-            Forward::Surface(surface) => {
-                let grid = steady_grid(surface, &layer, load, self.elements)?;
-                SensitivityOnGrid::new(surface, &layer, load, &grid)?
-            }
-            Forward::Line(_) => return Err(no_derivatives(Method::MdrSteady)),
-        })
+        let body = self.half_space_body()?;
+        let grid = steady_grid(body, &layer, load, self.elements)?;
+        Ok(SensitivityOnGrid::new(body, &layer, load, &grid)?)
     }
 
     /// The parts of the friction of a point on a coarse grid; see [`SensitivityOnGrid::effective_area`] for its area.
@@ -326,14 +323,11 @@ impl<'a> Model<'a> {
         load: &SlidingLoad,
     ) -> Result<Parts<Estimate>> {
         let layer = Layer::new(material, self.thickness).map_err(bem_halfspace::BemError::from)?;
-        let solve = |accuracy: Accuracy| match self.forward {
-            Forward::Cylinder(cylinder) => Ok(steady_line(cylinder, &layer, load, accuracy)?),
-            Forward::Surface(surface) => Ok(steady(surface, &layer, load, accuracy)?),
-            Forward::Line(_) => Err(no_derivatives(Method::MdrSteady)),
-        };
-        let elements = match self.forward {
-            Forward::Cylinder(_) => WIDTH_ELEMENTS,
-            _ => AREA_ELEMENTS,
+        let body = self.half_space_body()?;
+        let solve = |accuracy: Accuracy| steady(body, &layer, load, accuracy);
+        let elements = match body {
+            SteadyBody::Line(_) => WIDTH_ELEMENTS,
+            SteadyBody::Body(_) => AREA_ELEMENTS,
         };
         // The request is for the error of hysteresis. That of the area may be larger, and falls as the elements become shorter.
         let found = solve(Accuracy::RelativeError(CORRECTION_ERROR))?;
@@ -506,11 +500,9 @@ impl FrictionModel for Model<'_> {
 fn forward(problem: &Problem) -> std::result::Result<Forward<'_>, FrictionFitError> {
     match (problem.model(), problem.body()) {
         (Dimensions::Line, Body::Revolution(body)) => Ok(Forward::Line(body)),
-        (Dimensions::HalfSpace, Body::Cylinder(cylinder)) => Ok(Forward::Cylinder(cylinder)),
-        (Dimensions::HalfSpace, body) if body.surface().is_some() => {
-            let surface = body.surface();
+        (Dimensions::HalfSpace, body) => {
             let none = || SceneError::at("indenter", ONE_BODY);
-            Ok(Forward::Surface(surface.ok_or_else(none)?))
+            Ok(Forward::HalfSpace(body.steady_body().ok_or_else(none)?))
         }
         _ => Err(SceneError::at("indenter", ONE_BODY).into()),
     }

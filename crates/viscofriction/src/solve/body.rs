@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use bem_halfspace::SteadyBody;
 use indenters::rough::{PeriodicSurface, SelfAffine};
 use indenters::{Cylinder, HeightMap, Surface};
 
@@ -37,6 +38,14 @@ impl Body {
             Self::Revolution(body) => Some(body.surface()),
             Self::HeightMap(map) => Some(map),
             Self::Cylinder(_) | Self::Periodic(_) => None,
+        }
+    }
+
+    /// The body in stationary sliding on the half space; `None` for a periodic surface.
+    pub(crate) fn steady_body(&self) -> Option<SteadyBody<'_>> {
+        match self {
+            Self::Cylinder(cylinder) => Some(SteadyBody::Line(cylinder)),
+            body => body.surface().map(SteadyBody::Body),
         }
     }
 

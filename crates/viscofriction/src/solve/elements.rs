@@ -75,7 +75,7 @@ pub(crate) struct Rough<'a> {
     pub(crate) mean_pressure: f64,
 }
 
-/// Stationary sliding of a periodic surface; forces and areas are those of one period.
+/// Stationary sliding of a periodic surface, or its indentation without sliding; forces and areas are those of one period.
 pub(crate) fn periodic(problem: &Problem, rough: Rough, request: Request) -> Result<Answer> {
     let elastomer = problem.elastomer()?;
     let solve =
@@ -92,58 +92,32 @@ pub(crate) fn periodic(problem: &Problem, rough: Rough, request: Request) -> Res
     Ok(answer)
 }
 
-/// The answer of a periodic stationary estimate, with Persson's theory.
+/// The answer of a periodic stationary estimate: with Persson's theory if the surface slides, and without friction if it does not.
 fn answer_from_periodic(
     problem: &Problem,
     rough: Rough,
     estimate: PeriodicEstimate<PeriodicSliding>,
 ) -> Result<Answer> {
-    let mut answer = common_periodic_answer(problem, rough, Method::BemSteady, &estimate);
+    let is_pressed = matches!(problem.motion(), Motion::Pressing(_));
+    let method = if is_pressed {
+        Method::BemTransient
+    } else {
+        Method::BemSteady
+    };
+    let mut answer = common_periodic_answer(problem, rough, method, &estimate);
     answer.iterations = estimate.finest.products;
     answer.persson = Persson::of(problem)?;
-    Ok(answer.under(estimate.finest.pressure))
-}
-
-/// Indentation by a periodic surface without sliding, at a time after loading \[s].
-pub(crate) fn periodic_pressed(
-    problem: &Problem,
-    rough: Rough,
-    time: f64,
-    request: Request,
-) -> Result<Answer> {
-    let elastomer = problem.elastomer()?;
-    let solve = |surface: &_, request: Request| {
-        periodic::indent(surface, &elastomer, rough.mean_pressure, time, request)
-    };
-    let estimate = solve(rough.surface, request)?;
-    let finest = estimate.finest.pressure.grid.shape();
-    let mut answer = answer_from_pressed(problem, rough, estimate);
-    answer.cut_off(WithoutShortestOctave::of(
-        rough.surface,
-        request,
-        finest,
-        solve,
-    ));
-    Ok(answer)
-}
-
-/// The answer of a pressed periodic surface, without friction.
-fn answer_from_pressed(
-    problem: &Problem,
-    rough: Rough,
-    estimate: PeriodicEstimate<PeriodicSliding>,
-) -> Answer {
-    let mut answer = common_periodic_answer(problem, rough, Method::BemTransient, &estimate);
-    answer.iterations = estimate.finest.products;
-    answer.friction_coefficient = None;
-    answer.error_parts = ErrorParts::discretisation_only(answer.requested_quantity().error);
-    answer.friction_from_dissipation = None;
     answer = answer.under(estimate.finest.pressure);
-    if !matches!(problem.simple(), Some(Simple::Elastic)) {
+    if is_pressed {
+        answer.friction_coefficient = None;
+        answer.friction_from_dissipation = None;
+        answer.error_parts = ErrorParts::discretisation_only(answer.requested_quantity().error);
         // The pressure of a viscoelastic contact depends on how it has grown, which a single state does not represent.
-        answer.fields.pressure = None;
+        if !matches!(problem.simple(), Some(Simple::Elastic)) {
+            answer.fields.pressure = None;
+        }
     }
-    answer
+    Ok(answer)
 }
 
 /// Solution for a sliding or pressed periodic surface on one coarse grid, without error estimates; and Persson's theory if it
@@ -154,14 +128,8 @@ pub(crate) fn on_coarse_grid(
     finer: usize,
 ) -> Result<(PeriodicSliding, Option<Persson>)> {
     let elastomer = problem.elastomer()?;
-    let Motion::Pressing(load) = problem.motion() else {
-        let found = periodic::steady_on_coarse_grid(rough.surface, &elastomer, &rough.load, finer)?;
-        return Ok((found, Persson::of(problem)?));
-    };
-    let pressure = rough.mean_pressure;
-    let time = load.duration();
-    let found = periodic::indent_on_coarse_grid(rough.surface, &elastomer, pressure, time, finer)?;
-    Ok((found, None))
+    let found = periodic::steady_on_coarse_grid(rough.surface, &elastomer, &rough.load, finer)?;
+    Ok((found, Persson::of(problem)?))
 }
 
 /// The answer of a periodic march in time.
@@ -242,9 +210,13 @@ pub fn persson(problem: &Problem) -> Result<Option<PerssonSliding>> {
 const XU_GAMMA: f64 = 0.45;
 
 impl Persson {
-    /// Evaluates the theory for a problem; `None` if it does not apply.
+    /// Evaluates the theory for a surface that slides; `None` if it does not apply.
     fn of(problem: &Problem) -> Result<Option<Self>> {
-        let Some(theory) = persson(problem)? else {
+        let theory = match problem.motion() {
+            Motion::Pressing(_) => None,
+            _ => persson(problem)?,
+        };
+        let Some(theory) = theory else {
             return Ok(None);
         };
         let friction = |factor| theory.friction_coefficient(factor).value;
@@ -364,9 +336,6 @@ pub(crate) fn reached(problem: &Problem, rough: Option<Rough>, found: Reached) -
         Reached::Press(found) => answer_from_press(found),
         Reached::Curve(found) => answer_from_curve(&found),
         Reached::Moved(found) => answer_from_moved(problem, found),
-        Reached::Periodic(found) if matches!(problem.motion(), Motion::Pressing(_)) => {
-            Ok(answer_from_pressed(problem, rough?, found))
-        }
         Reached::Periodic(found) => answer_from_periodic(problem, rough?, found),
         Reached::PeriodicTransient(found) => {
             Ok(answer_from_periodic_transient(problem, rough?, found))

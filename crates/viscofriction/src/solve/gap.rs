@@ -4,9 +4,11 @@ use bem_halfspace::{GapField, periodic, steady};
 
 use super::answer::Answer;
 use super::body::Body;
+use super::elements::Rough;
 use super::error::Result;
 use super::heat::pressure_field;
 use super::problem::{Motion, Problem};
+use super::work::rough;
 
 impl Problem {
     /// Adds the gap to the answer of a problem that [asks](Self::with_gap) for it. Marches in time have it already, because displacements
@@ -31,20 +33,17 @@ impl Problem {
         };
         let elastomer = self.elastomer()?;
         Ok(match (self.motion(), self.body(), answer.stationary) {
-            (Motion::Sliding(load), Body::Cylinder(cylinder), Some(options)) => {
-                steady::line_gap(cylinder, &elastomer, load, &options, &pressure)?
-            }
-            (Motion::Sliding(load), body, Some(options)) => match body.surface() {
-                Some(surface) => steady::gap(surface, &elastomer, load, &options, &pressure)?,
+            (Motion::Sliding(load), body, Some(options)) => match body.steady_body() {
+                Some(body) => steady::gap(body, &elastomer, load, &options, &pressure)?,
                 None => None,
             },
-            (Motion::Sliding(load), Body::Periodic(surface), None) => {
-                let velocity = load.velocity();
-                Some(periodic::gap(surface, &elastomer, velocity, &pressure)?)
-            }
-            (Motion::Pressing(load), Body::Periodic(surface), None) => {
-                let time = load.duration();
-                Some(periodic::gap_at_rest(surface, &elastomer, time, &pressure)?)
+            (Motion::Sliding(_) | Motion::Pressing(_), Body::Periodic(surface), None) => {
+                match rough(self, surface) {
+                    Ok(Rough { load, .. }) => {
+                        Some(periodic::gap(surface, &elastomer, &load, &pressure)?)
+                    }
+                    Err(_) => None,
+                }
             }
             _ => None,
         })

@@ -1,7 +1,7 @@
 //! The computation of each method for a problem, or the reason why the method does not answer it.
 
 use bem_halfspace::{
-    PeriodicLoad, indent, indent_along, move_along, periodic, slide, steady, steady_line,
+    PeriodicLoad, SteadyBody, indent, indent_along, move_along, periodic, slide, steady,
 };
 use friction_analytic::{kelvin_voigt_sliding, maxwell_sliding, scaling_factor};
 use indenters::rough::PeriodicSurface;
@@ -278,7 +278,8 @@ fn line_contact<'a>(
             )?;
             require(load.sliding_distance().is_none(), STATIONARY)?;
             on_grids(accuracy, move |request| {
-                let found = steady_line(cylinder, &problem.elastomer()?, load, request)?;
+                let body = SteadyBody::Line(cylinder);
+                let found = steady(body, &problem.elastomer()?, load, request)?;
                 elements::answer_from_steady(problem, found)
             })
         }
@@ -307,7 +308,11 @@ pub(super) fn rough<'a>(
     let area: f64 = surface.period().iter().product();
     let mean_pressure = force / area;
     let wrong = |_| "the mean pressure must be finite and greater than 0";
-    let mut load = PeriodicLoad::new(mean_pressure, velocity).map_err(wrong)?;
+    let load = match problem.motion() {
+        Pressing(load) => PeriodicLoad::pressed(mean_pressure, load.duration()),
+        _ => PeriodicLoad::new(mean_pressure, velocity),
+    };
+    let mut load = load.map_err(wrong)?;
     if let Some(distance) = problem.motion().sliding_distance() {
         load = load.after(distance).map_err(wrong)?;
     }
@@ -327,8 +332,8 @@ fn periodic_surface<'a>(
 ) -> Offer<'a> {
     let rough = rough(problem, surface)?;
     match (method, problem.motion()) {
-        (BemTransient, Pressing(load)) => on_grids(accuracy, move |request| {
-            elements::periodic_pressed(problem, rough, load.duration(), request)
+        (BemTransient, Pressing(_)) => on_grids(accuracy, move |request| {
+            elements::periodic(problem, rough, request)
         }),
         (_, Pressing(_) | History { .. } | Moving(_)) => Err(NOTHING_SLIDES),
         (BemSteady, Sliding(load)) => {

@@ -4,11 +4,11 @@
 
 use numerics::{InvalidParameter, in_range};
 
-use crate::parallel::reductions::{larger, mean};
+use crate::parallel::reductions::mean;
 use crate::stationary::periodic::equations::Equations;
 use crate::stationary::periodic::kernel::Sliding;
 use crate::stationary::periodic::{PeriodicControl, PeriodicOptions};
-use crate::stationary::search::{FixedSetSolver, ForcingTerms, Search};
+use crate::stationary::search::Search;
 use crate::{BemError, Grid};
 
 /// Largest allowed ratio of the root mean square of the residual, on any active set, to that of the heights about their mean.
@@ -91,14 +91,10 @@ pub(super) fn solve(
     };
 
     // Search the active set and its pressures, beginning with the guess.
-    let mut contact = PeriodicFixedSetSolver {
-        depth,
-        problem,
-        equations,
-    };
+    (equations.depth, equations.max_products) = (depth, problem.options.max_products);
     let inner_tolerance = INEXACT_TOLERANCE * variance.sqrt();
     let mut search = Search::new(
-        &mut contact,
+        equations,
         heights,
         inner_tolerance,
         problem.options.tolerance,
@@ -140,98 +136,5 @@ impl PeriodicContact<'_> {
         let check = |depth: f64| in_range("mean_depth", depth, is_allowed(depth), allowed);
         self.prescribed_depth()
             .map_or(Ok(()), |depth| check(depth).map(drop))
-    }
-}
-
-/// The equations of the problem, as the active-set search uses them.
-struct PeriodicFixedSetSolver<'a> {
-    /// Prescribed value of h + u in the contact, \[m]; `None` under a mean pressure.
-    depth: Option<f64>,
-    /// Contact problem.
-    problem: PeriodicContact<'a>,
-    /// Equations on the present active set.
-    equations: &'a mut Equations,
-}
-
-impl FixedSetSolver for PeriodicFixedSetSolver<'_> {
-    /// True: the first row of a period follows the last one.
-    const PERIODIC_ALONG_X: bool = true;
-    /// Forcing terms of rough contacts. Chosen on the number of operator applications; the contact that is found is the same.
-    ///
-    /// With a tenth of the area of 4096² elements in contact and moduli that differ by a factor of 1000, there are 115 operator
-    /// applications. If both terms are equal there are 156. With `usual` = 0.1 there are up to a quarter more in light contact.
-    /// If `after_growth` also holds for residuals that fall by less than a half, contacts of dashpots take a fifth more.
-    const FORCING: ForcingTerms = ForcingTerms {
-        usual: 0.2,
-        after_growth: 0.06,
-    };
-
-    /// Rows and columns of the grid of one period.
-    fn shape(&self) -> [usize; 2] {
-        self.problem.grid.shape()
-    }
-
-    /// Row and column of an element, whose index is row-major over the whole period.
-    fn row_and_column(&self, element: usize) -> [usize; 2] {
-        let columns = self.shape()[1];
-        [element / columns, element % columns]
-    }
-
-    /// Displacement of an element under its own unit pressure, \[m/Pa].
-    fn self_influence(&self) -> f64 {
-        self.equations.self_influence
-    }
-
-    /// Writes the displacement K p \[m]; returns the largest displacement from the mean \[m], the scale of the tolerance.
-    fn displace(&mut self, pressure: &[f64], displacement: &mut [f64]) -> f64 {
-        self.equations.displace(pressure, displacement);
-        let mean = mean(displacement);
-        displacement
-            .iter()
-            .fold(0.0, |top, moved| larger(top, (moved - mean).abs()))
-    }
-
-    /// Prescribed value of h + u in the contact, \[m]; `None` under a mean pressure.
-    fn depth(&self, _: &[f64]) -> Option<f64> {
-        self.depth
-    }
-
-    /// Passes the active set, with fields of pressure \[Pa] and gap \[m], to the equations.
-    fn set_active_set(&mut self, contact: &[bool], pressure: &[f64], gap: &[f64]) {
-        self.equations.set_active_set(contact, pressure, gap);
-    }
-
-    /// Root mean square of the gap on the active set, \[m].
-    fn residual_rms(&self) -> f64 {
-        self.equations.residual_rms()
-    }
-
-    /// Solves until the root mean square of the gap is below `mean`, or its maximum below `largest`, \[m].
-    fn solve(&mut self, mean: f64, largest: f64) -> Result<(), BemError> {
-        self.equations.solve(mean, largest);
-        Ok(())
-    }
-
-    /// Copies the pressures of the active set \[Pa] into a field of the period.
-    fn copy_pressure_to(&self, pressure: &mut [f64]) {
-        self.equations.copy_pressure_to(pressure);
-    }
-
-    /// Scales a pressure field to the prescribed mean; at a prescribed depth nothing changes.
-    fn scale_to_force(&self, pressure: &mut [f64]) {
-        if let PeriodicControl::MeanPressure(prescribed) = self.problem.control {
-            let factor = prescribed / mean(pressure);
-            pressure.iter_mut().for_each(|p| *p *= factor);
-        }
-    }
-
-    /// Number of operator applications so far.
-    fn iterations(&self) -> usize {
-        self.equations.products
-    }
-
-    /// True from [`PeriodicOptions::max_products`] operator applications on.
-    fn budget_is_exhausted(&self) -> bool {
-        self.equations.products >= self.problem.options.max_products
     }
 }

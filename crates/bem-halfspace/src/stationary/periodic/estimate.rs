@@ -1,7 +1,7 @@
 //! Periodic surfaces with error bars: stationary sliding, pressing, and sliding from rest, refined to a relative error.
 
 use indenters::rough::PeriodicSurface;
-use numerics::{Estimate, Request, positive};
+use numerics::{Estimate, Request};
 
 use crate::march::periodic::{PeriodicTransient, Steps, slide_with};
 use crate::parallel::reductions::mean;
@@ -14,9 +14,7 @@ use crate::stationary::periodic::refinement::{
     AREA_RATE, FIRST_ORDER_RATE, FRICTION_RATE, GridResult, RefinementGoal, SampledSurface, refine,
 };
 use crate::stationary::periodic::subgrid_gaps::SubgridGapBound;
-use crate::stationary::periodic::{
-    PeriodicControl, PeriodicLoad, PeriodicOptions, PeriodicSliding, solve_from,
-};
+use crate::stationary::periodic::{PeriodicLoad, PeriodicOptions, PeriodicSliding, solve_from};
 use crate::{BemError, ContactOptions, Elastomer, PressureField};
 
 /// Relative error in the request for the shape of a first grid. Chosen: any value serves, because the shape does not depend on
@@ -51,7 +49,8 @@ pub struct PeriodicEstimate<S> {
     pub finest: S,
 }
 
-/// Solves the stationary sliding of a sum of waves to a relative error, or with a number of elements.
+/// Solves the stationary sliding of a sum of waves, or its pressing without sliding, to a relative error, or with a number of
+/// elements.
 ///
 /// The relative error is that of the friction, or of the area without friction, and at a prescribed depth also of the mean
 /// pressure. The number of elements is that along the edge of the period that has more of them.
@@ -87,28 +86,41 @@ pub fn steady<'w>(
     request: impl Into<Request<'w>>,
 ) -> Result<PeriodicEstimate<PeriodicSliding>, BemError> {
     let control = load.require_stationary()?;
-    let sliding = Sliding::new(elastomer, load.velocity())?;
-    refine_stationary(surface, &sliding, control, request.into())
-}
-
-/// Presses a sum of waves into a material with a mean pressure > 0 \[Pa] that is held for a time > 0 \[s].
-///
-/// The relative error of the request is that of the area; a number of elements is that of [`steady`]. The contact grows
-/// everywhere, so that it is that of a spring with the compliance J(t) (Lee & Radok 1960). The pressure of
-/// [`finest`](PeriodicEstimate::finest) is that of the spring too, and differs from the pressure on a material that creeps.
-///
-/// # Errors
-/// Those of [`steady`].
-pub fn indent<'w>(
-    surface: &PeriodicSurface,
-    elastomer: &dyn Elastomer,
-    mean_pressure: f64,
-    time: f64,
-    request: impl Into<Request<'w>>,
-) -> Result<PeriodicEstimate<PeriodicSliding>, BemError> {
-    let spring = Sliding::at_rest(elastomer, positive("time", time)?)?;
-    let control = PeriodicControl::MeanPressure(positive("mean_pressure", mean_pressure)?);
-    refine_stationary(surface, &spring, control, request.into())
+    let sliding = Sliding::under_load(elastomer, load)?;
+    let goal = RefinementGoal {
+        request: request.into(),
+        control,
+        friction: FRICTION_RATE,
+        area: AREA_RATE,
+        steps_per_row: None,
+    };
+    // Each grid starts from the pressure on the grid before.
+    let mut guess = Vec::new();
+    refine(surface, &goal, |sampled, tolerance, _| {
+        let problem = PeriodicContact {
+            sliding: &sliding,
+            grid: &sampled.grid,
+            heights: &sampled.heights,
+            control,
+            options: PeriodicOptions {
+                tolerance,
+                ..PeriodicOptions::default()
+            },
+        };
+        let state = solve_from(&mut guess, problem)?;
+        let found = GridResult {
+            friction: state.friction_coefficient,
+            from_dissipation: Some(state.friction_from_dissipation),
+            area_fraction: area_fraction(&state.pressure.grid, &state.pressure.pressure, surface),
+            in_contact: n_in_contact(&state.pressure),
+            has_all_waves: sampled.has_all_waves,
+            subgrid_gaps: SubgridGapBound::new(&state.pressure, surface),
+            mean_pressure: mean(&state.pressure.pressure),
+            mean_depth: state.mean_depth,
+            residual: state.residual,
+        };
+        Ok((found, state))
+    })
 }
 
 /// The result of [`steady`] on its first grid, or on one with `factor` times the elements along both axes, without an error bar.
@@ -123,43 +135,15 @@ pub fn steady_on_coarse_grid(
     load: &PeriodicLoad,
     factor: usize,
 ) -> Result<PeriodicSliding, BemError> {
-    let sliding = Sliding::new(elastomer, load.velocity())?;
-    on_coarse_grid(surface, &sliding, load.require_stationary()?, factor)
-}
-
-/// The result of [`indent`] on its first grid, or on one with `factor` times the elements along both axes, as
-/// [`steady_on_coarse_grid`].
-///
-/// # Errors
-/// Those of [`indent`] but [`BemError::NotReached`].
-pub fn indent_on_coarse_grid(
-    surface: &PeriodicSurface,
-    elastomer: &dyn Elastomer,
-    mean_pressure: f64,
-    time: f64,
-    factor: usize,
-) -> Result<PeriodicSliding, BemError> {
-    let spring = Sliding::at_rest(elastomer, positive("time", time)?)?;
-    let control = PeriodicControl::MeanPressure(positive("mean_pressure", mean_pressure)?);
-    on_coarse_grid(surface, &spring, control, factor)
-}
-
-/// Solves on the first grid of an estimate, or on one with `factor` times the elements along both axes.
-fn on_coarse_grid(
-    surface: &PeriodicSurface,
-    sliding: &Sliding,
-    control: PeriodicControl,
-    factor: usize,
-) -> Result<PeriodicSliding, BemError> {
     // Sample the waves that the first grid resolves. The relative error of the request has no effect on its shape.
     let first = first_shape(surface, &Request::from(ANY_RELATIVE_ERROR))?;
     let shape = first.map(|edge| factor * edge);
     let SampledSurface { grid, heights, .. } = SampledSurface::new(surface, shape)?;
     let problem = PeriodicContact {
-        sliding,
+        sliding: &Sliding::under_load(elastomer, load)?,
         grid: &grid,
         heights: &heights,
-        control,
+        control: load.require_stationary()?,
         options: PeriodicOptions {
             tolerance: FIRST_TOLERANCE,
             ..PeriodicOptions::default()
@@ -217,49 +201,6 @@ pub fn slide<'w>(
             mean_pressure,
             mean_depth: last.mean_depth,
             residual: tolerance,
-        };
-        Ok((found, state))
-    })
-}
-
-/// Refines the stationary state of a surface on a `sliding` material to the error asked for; errors as for [`steady`].
-fn refine_stationary(
-    surface: &PeriodicSurface,
-    sliding: &Sliding,
-    control: PeriodicControl,
-    request: Request,
-) -> Result<PeriodicEstimate<PeriodicSliding>, BemError> {
-    let goal = RefinementGoal {
-        request,
-        control,
-        friction: FRICTION_RATE,
-        area: AREA_RATE,
-        steps_per_row: None,
-    };
-    // Each grid starts from the pressure on the grid before.
-    let mut guess = Vec::new();
-    refine(surface, &goal, |sampled, tolerance, _| {
-        let problem = PeriodicContact {
-            sliding,
-            grid: &sampled.grid,
-            heights: &sampled.heights,
-            control,
-            options: PeriodicOptions {
-                tolerance,
-                ..PeriodicOptions::default()
-            },
-        };
-        let state = solve_from(&mut guess, problem)?;
-        let found = GridResult {
-            friction: state.friction_coefficient,
-            from_dissipation: Some(state.friction_from_dissipation),
-            area_fraction: area_fraction(&state.pressure.grid, &state.pressure.pressure, surface),
-            in_contact: n_in_contact(&state.pressure),
-            has_all_waves: sampled.has_all_waves,
-            subgrid_gaps: SubgridGapBound::new(&state.pressure, surface),
-            mean_pressure: mean(&state.pressure.pressure),
-            mean_depth: state.mean_depth,
-            residual: state.residual,
         };
         Ok((found, state))
     })

@@ -7,52 +7,30 @@
 //! Theory: docs/theory/stationary-half-space.md, "Periodic surfaces".
 
 use indenters::rough::PeriodicSurface;
-use numerics::positive;
 
 use crate::elements::gap_field::GapField;
 use crate::parallel::chunks::in_pool;
 use crate::stationary::periodic::kernel::{PeriodicKernel, Sliding};
+use crate::stationary::periodic::load::PeriodicLoad;
 use crate::stationary::periodic::refinement::SampledSurface;
 use crate::{BemError, Elastomer, PressureField};
 
-/// Gap between a periodic surface and the elastomer over which it slides at a `velocity` \[m/s], from the pressure of the stationary
-/// state and on its grid.
+/// Gap between a periodic surface and the elastomer under a load, from the pressure of the stationary state or of the pressed
+/// surface, and on its grid.
 ///
 /// # Errors
 /// As for [`steady`](super::steady), before anything is solved.
 pub fn gap(
     surface: &PeriodicSurface,
     elastomer: &dyn Elastomer,
-    velocity: f64,
-    pressure: &PressureField,
-) -> Result<GapField, BemError> {
-    on_grid(surface, &Sliding::new(elastomer, velocity)?, pressure)
-}
-
-/// Gap between a periodic surface and the elastomer into which it has been pressed for a `time` > 0 \[s], from the pressure of
-/// [`indent`](super::indent) and on its grid.
-///
-/// # Errors
-/// As for [`indent`](super::indent), before anything is solved.
-pub fn gap_at_rest(
-    surface: &PeriodicSurface,
-    elastomer: &dyn Elastomer,
-    time: f64,
-    pressure: &PressureField,
-) -> Result<GapField, BemError> {
-    let spring = Sliding::at_rest(elastomer, positive("time", time)?)?;
-    on_grid(surface, &spring, pressure)
-}
-
-/// Gap over a material at its speed.
-fn on_grid(
-    surface: &PeriodicSurface,
-    sliding: &Sliding,
+    load: &PeriodicLoad,
     field: &PressureField,
 ) -> Result<GapField, BemError> {
+    load.require_stationary()?;
+    let sliding = Sliding::under_load(elastomer, load)?;
     let (grid, pressure) = (field.grid, &field.pressure);
     let SampledSurface { heights, .. } = SampledSurface::new(surface, grid.shape())?;
-    let mut kernel = PeriodicKernel::new(sliding, &grid)?;
+    let mut kernel = PeriodicKernel::new(&sliding, &grid)?;
     let gap = in_pool(grid.n_elements(), || {
         let [mut gap, mut raised] = [0; 2].map(|_| vec![0.0; grid.n_elements()]);
         kernel.displace(pressure, &mut gap);

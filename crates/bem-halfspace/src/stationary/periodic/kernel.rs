@@ -13,14 +13,12 @@
 use std::f64::consts::PI;
 
 use numerics::positive;
-#[cfg(feature = "rough")]
-use rheology::CreepSpectrum;
-use rheology::{Material as _, StationaryCreep, check_spectra};
+use rheology::{CreepSpectrum, Material as _, StationaryCreep, check_spectra};
 use rustfft::num_complex::Complex;
 
 use crate::parallel::reductions::mean;
 use crate::stationary::periodic::fourier_multiplier::{FourierMultiplier, Wave};
-#[cfg(feature = "rough")]
+use crate::stationary::periodic::load::PeriodicLoad;
 use crate::substrate::base::check_no_wave_shift;
 use crate::{Base, BemError, Elastomer, Grid, WaveShift};
 
@@ -40,6 +38,17 @@ pub(crate) struct Sliding {
 }
 
 impl Sliding {
+    /// The material under a load: at its sliding speed, or at rest after the duration of its pressure.
+    pub(super) fn under_load(
+        elastomer: &dyn Elastomer,
+        load: &PeriodicLoad,
+    ) -> Result<Self, BemError> {
+        match load.duration() {
+            None => Self::new(elastomer, load.velocity()),
+            Some(duration) => Self::at_rest(elastomer, duration),
+        }
+    }
+
     /// Creep, base and Poisson factor of an elastomer, with the sliding speed \[m/s]. A material that flows is refused as
     /// [`BemError::FlowsUnderWaves`].
     pub(crate) fn new(elastomer: &dyn Elastomer, velocity: f64) -> Result<Self, BemError> {
@@ -62,8 +71,7 @@ impl Sliding {
     }
 
     /// The material at rest, a `time` \[s] after a step of pressure: a spring with its creep compliance at that time.
-    #[cfg(feature = "rough")]
-    pub(super) fn at_rest(elastomer: &dyn Elastomer, time: f64) -> Result<Self, BemError> {
+    fn at_rest(elastomer: &dyn Elastomer, time: f64) -> Result<Self, BemError> {
         check_no_wave_shift(elastomer)?;
         let creep = elastomer.material().creep();
         let spring = CreepSpectrum::new(creep.creep_compliance(time)?, 0.0, Vec::new())?;

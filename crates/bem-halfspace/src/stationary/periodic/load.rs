@@ -16,16 +16,27 @@ pub enum PeriodicControl {
     MeanDepth(f64),
 }
 
-/// A periodic surface that is pressed and slides along x.
+/// A periodic surface that slides along x, or is pressed without sliding.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PeriodicLoad {
     /// Prescribed mean pressure or depth.
     control: PeriodicControl,
-    /// Sliding speed v, \[m/s].
-    velocity: f64,
-    /// Sliding distance from rest, \[m]; `None` for the stationary state.
-    sliding_distance: Option<f64>,
+    /// Motion under the prescribed pressure or depth.
+    motion: PeriodicMotion,
+}
+
+/// Motion of a periodic surface along x.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+enum PeriodicMotion {
+    /// Sliding speed \[m/s], and distance from rest \[m]; `None` for the stationary state.
+    Sliding {
+        velocity: f64,
+        distance: Option<f64>,
+    },
+    /// No sliding for a time since the step of pressure, \[s].
+    AtRest { duration: f64 },
 }
 
 impl PeriodicLoad {
@@ -52,10 +63,26 @@ impl PeriodicLoad {
 
     /// A stationary state at a velocity, which is checked.
     fn stationary(control: PeriodicControl, velocity: f64) -> Result<Self, InvalidParameter> {
-        Ok(Self {
-            control,
+        let motion = PeriodicMotion::Sliding {
             velocity: not_negative("velocity", velocity)?,
-            sliding_distance: None,
+            distance: None,
+        };
+        Ok(Self { control, motion })
+    }
+
+    /// A mean pressure > 0 \[Pa] over the whole period that is held for a time > 0 \[s], without sliding.
+    ///
+    /// The contact grows everywhere, so that it is that of a spring with the compliance J(t) (Lee & Radok 1960). Its pressure is that
+    /// of the spring too, and differs from the pressure on a material that creeps.
+    ///
+    /// # Errors
+    /// [`InvalidParameter`] for numbers out of these ranges.
+    pub fn pressed(mean_pressure: f64, duration: f64) -> Result<Self, InvalidParameter> {
+        Ok(Self {
+            control: PeriodicControl::MeanPressure(positive("mean_pressure", mean_pressure)?),
+            motion: PeriodicMotion::AtRest {
+                duration: positive("duration", duration)?,
+            },
         })
     }
 
@@ -64,10 +91,11 @@ impl PeriodicLoad {
     /// # Errors
     /// [`InvalidParameter`] for a distance out of this range.
     pub fn after(self, sliding_distance: f64) -> Result<Self, InvalidParameter> {
-        Ok(Self {
-            sliding_distance: Some(positive("sliding_distance", sliding_distance)?),
-            ..self
-        })
+        let motion = PeriodicMotion::Sliding {
+            velocity: self.velocity(),
+            distance: Some(positive("sliding_distance", sliding_distance)?),
+        };
+        Ok(Self { motion, ..self })
     }
 
     /// Prescribed mean pressure or depth.
@@ -75,20 +103,34 @@ impl PeriodicLoad {
         self.control
     }
 
-    /// Sliding speed v, \[m/s].
+    /// Sliding speed v, \[m/s]; 0 without sliding.
     pub const fn velocity(&self) -> f64 {
-        self.velocity
+        match self.motion {
+            PeriodicMotion::Sliding { velocity, .. } => velocity,
+            PeriodicMotion::AtRest { .. } => 0.0,
+        }
     }
 
-    /// Sliding distance from rest, \[m]; `None` for the stationary state.
+    /// Sliding distance from rest, \[m]; `None` for the stationary state, and without sliding.
     pub const fn sliding_distance(&self) -> Option<f64> {
-        self.sliding_distance
+        match self.motion {
+            PeriodicMotion::Sliding { distance, .. } => distance,
+            PeriodicMotion::AtRest { .. } => None,
+        }
+    }
+
+    /// Time since the step of pressure of a surface that does not slide, \[s]; `None` if it slides.
+    pub const fn duration(&self) -> Option<f64> {
+        match self.motion {
+            PeriodicMotion::Sliding { .. } => None,
+            PeriodicMotion::AtRest { duration } => Some(duration),
+        }
     }
 
     /// Prescribed mean pressure or depth; fails for a load with a sliding distance.
     pub(super) fn require_stationary(&self) -> Result<PeriodicControl, BemError> {
         let distance = |sliding_distance| IndenterError::OnlyStationary { sliding_distance };
-        match self.sliding_distance {
+        match self.sliding_distance() {
             None => Ok(self.control),
             Some(sliding_distance) => Err(distance(sliding_distance).into()),
         }
@@ -99,10 +141,10 @@ impl PeriodicLoad {
         let PeriodicControl::MeanPressure(pressure) = self.control else {
             return Err(BemError::DepthFromRest);
         };
-        positive("velocity", self.velocity)?;
+        positive("velocity", self.velocity())?;
         let why = "from rest a periodic surface slides over a distance";
         let distance = self
-            .sliding_distance
+            .sliding_distance()
             .ok_or(BemError::SlidingDistanceMissing { why })?;
         Ok((pressure, distance))
     }

@@ -58,11 +58,9 @@ use crate::{BemError, Elastomer, Grid, PressureField};
 use contact::PeriodicContact;
 use equations::Equations;
 #[cfg(feature = "rough")]
-pub use estimate::{
-    PeriodicEstimate, indent, indent_on_coarse_grid, slide, steady, steady_on_coarse_grid,
-};
+pub use estimate::{PeriodicEstimate, slide, steady, steady_on_coarse_grid};
 #[cfg(feature = "rough")]
-pub use gap::{gap, gap_at_rest};
+pub use gap::gap;
 #[cfg(feature = "rough")]
 pub use grid_sizes::{edge_for_bars, elements_for_bars, fewest_elements, largest_grid, memory};
 use kernel::Sliding;
@@ -115,7 +113,7 @@ pub struct PeriodicSliding {
     pub pressure: PressureField,
 }
 
-/// Solves the stationary sliding of a periodic surface on a linear viscoelastic solid.
+/// Solves the stationary sliding of a periodic surface on a linear viscoelastic solid, or its pressing without sliding.
 ///
 /// `heights` \[m] has the height at the centre of every element of the grid, whose edges are the periods; in between the surface
 /// is the trigonometric polynomial through them. The lowest points touch first, and the surface slides towards positive x. At the
@@ -135,7 +133,7 @@ pub fn steady_on_grid(
     options.validate()?;
     check_surface(grid, heights)?;
     let problem = PeriodicContact {
-        sliding: &Sliding::new(elastomer, load.velocity())?,
+        sliding: &Sliding::under_load(elastomer, load)?,
         grid,
         heights,
         control: load.require_stationary()?,

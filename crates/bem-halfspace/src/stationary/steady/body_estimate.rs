@@ -11,10 +11,12 @@ use crate::estimate::plan::GridPlan;
 use crate::estimate::refinement_limits::STATIONARY;
 use crate::stationary::steady::extrapolation::FLAT_END_ORDER;
 use crate::stationary::steady::grid_refinement::{DEFAULT_ASPECT, SteadyProblem, refine};
+use crate::stationary::steady::line::{line_grid, steady_line};
 use crate::stationary::steady::loading::Loading;
 use crate::stationary::steady::patch_resolution::MIN_ELEMENTS_ACROSS;
 use crate::stationary::steady::sliding_creep::SlidingCreep;
 use crate::stationary::steady::solution::SteadyEstimate;
+use crate::stationary::steady::steady_body::SteadyBody;
 use crate::stationary::steady::{RefinementOptions, SteadyOptions, steady_on_grid};
 use crate::{BemError, Elastomer};
 
@@ -81,21 +83,24 @@ fn plan_of_grids(
     GridPlan::sliding(surface, elastomer, &stationary)
 }
 
-/// The grid with about `elements` elements along the contact, at least 1, which are half as wide as long.
+/// The grid with about `elements` elements along the contact, at least 1. Those of a body are half as wide as long.
 ///
 /// # Errors
 /// As for [`steady`], before anything is solved.
-pub fn steady_grid(
-    surface: &dyn Surface,
+pub fn steady_grid<'a>(
+    body: impl Into<SteadyBody<'a>>,
     elastomer: &dyn Elastomer,
     load: &SlidingLoad,
     elements: usize,
 ) -> Result<SteadyOptions, BemError> {
-    positive("elements", elements as f64)?;
-    Ok(grid_of_plan(
-        &plan_of_grids(surface, elastomer, load)?,
-        elements,
-    ))
+    let given = positive("elements", elements as f64)?;
+    match body.into() {
+        SteadyBody::Line(profile) => line_grid(profile, elastomer, load, given),
+        SteadyBody::Body(surface) => {
+            let plan = plan_of_grids(surface, elastomer, load)?;
+            Ok(grid_of_plan(&plan, elements))
+        }
+    }
 }
 
 /// The grid with about `elements` elements along the contact, half as wide as long, in the footprint of a plan.
@@ -104,7 +109,7 @@ fn grid_of_plan(plan: &GridPlan, elements: usize) -> SteadyOptions {
     SteadyOptions::new([dx, DEFAULT_ASPECT * dx], plan.footprint.widened(dx))
 }
 
-/// Solves the stationary sliding of `surface` on a linear viscoelastic half space, under a force or at a depth. The request is a
+/// Solves the stationary sliding of a body on a linear viscoelastic half space, under a force or at a depth. The request is a
 /// relative error of the friction coefficient, and of the normal force where that is not given, or an approximate number of
 /// elements along the contact.
 ///
@@ -131,6 +136,19 @@ fn grid_of_plan(plan: &GridPlan, elements: usize) -> SteadyOptions {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
+/// In plane strain, after Hertz, the half width is √(4 F' R/(π E*)) with E* = 4 G:
+///
+/// ```
+/// use bem_halfspace::indenters::Cylinder;
+/// use bem_halfspace::{SlidingLoad, SteadyBody, rheology::Elastic, steady};
+///
+/// let (roll, rubber) = (Cylinder::new(0.01)?, Elastic::new(1e6)?);
+/// let state = steady(SteadyBody::Line(&roll), &rubber, &SlidingLoad::new(1e3, 0.1)?, 1e-2)?;
+/// let width = 2.0 * (4.0 * 1e3 * 0.01 / (std::f64::consts::PI * 4e6)).sqrt();
+/// assert!((state.contact_area.value - width).abs() <= state.contact_area.error);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// [`BemError::NotReached`] with the result on the finest grid allowed;
 /// [`BemError::GridTooLarge`] where a body is so steep that the grids allowed give no error estimate;
@@ -138,17 +156,22 @@ fn grid_of_plan(plan: &GridPlan, elements: usize) -> SteadyOptions {
 /// friction is infinite, or a surface that nowhere reaches the height needed; on a track [`BemError::NoCycle`] for a material that
 /// flows, and
 /// [`BemError::TrackTooShort`]; and the errors of [`steady_on_grid`].
-pub fn steady<'w>(
-    surface: &dyn Surface,
+pub fn steady<'a, 'w>(
+    body: impl Into<SteadyBody<'a>>,
     elastomer: &dyn Elastomer,
     load: &SlidingLoad,
     request: impl Into<Request<'w>>,
 ) -> Result<SteadyEstimate, BemError> {
-    let options = RefinementOptions::default();
-    refine_state(surface, elastomer, load, &options, request.into())
+    match body.into() {
+        SteadyBody::Line(profile) => steady_line(profile, elastomer, load, request.into()),
+        SteadyBody::Body(surface) => {
+            let options = RefinementOptions::default();
+            refine_state(surface, elastomer, load, &options, request.into())
+        }
+    }
 }
 
-/// Like [`steady`], with the aspect ratio of the elements and the limit of the work as options.
+/// Like [`steady`] of a body in three dimensions, with the aspect ratio of the elements and the limit of the work as options.
 ///
 /// # Errors
 /// As for [`steady`].

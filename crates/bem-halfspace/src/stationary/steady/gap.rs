@@ -8,16 +8,15 @@
 //!
 //! Theory: docs/theory/stationary-half-space.md, "One complementarity problem" and "Where the gap is evaluated".
 
-use indenters::{SlidingLoad, Surface};
+use indenters::SlidingLoad;
 use numerics::whole_part;
 
 use crate::elements::bounds::Bounds;
 use crate::elements::gap_field::{GapField, surroundings};
 use crate::elements::pressure_field::PressureField;
 use crate::stationary::steady::SteadyOptions;
-use crate::stationary::steady::line::strip_on_grid;
-use crate::stationary::steady::loading::Loading;
 use crate::stationary::steady::plans::Plans;
+use crate::stationary::steady::steady_body::SteadyBody;
 use crate::transform::plane_transform::Workspace;
 use crate::{BemError, Elastomer, Grid};
 
@@ -41,39 +40,14 @@ use crate::{BemError, Elastomer, Grid};
 ///
 /// # Errors
 /// As for [`steady_on_grid`](super::steady_on_grid), before anything is solved.
-pub fn gap(
-    surface: &dyn Surface,
+pub fn gap<'a>(
+    body: impl Into<SteadyBody<'a>>,
     elastomer: &dyn Elastomer,
     load: &SlidingLoad,
     options: &SteadyOptions,
     pressure: &PressureField,
 ) -> Result<Option<GapField>, BemError> {
-    let loading = Loading::new(surface, elastomer, load, &options.footprint)?;
-    around(surface, &loading, options, pressure)
-}
-
-/// Gap on either side of the contact of a `profile` that is infinite along y, as [`gap()`], from the `pressure` along x.
-///
-/// # Errors
-/// As for [`steady_line_on_grid`](super::steady_line_on_grid), before anything is solved.
-pub fn line_gap(
-    profile: &dyn Surface,
-    elastomer: &dyn Elastomer,
-    load: &SlidingLoad,
-    options: &SteadyOptions,
-    pressure: &PressureField,
-) -> Result<Option<GapField>, BemError> {
-    let (strip, loading, grid) = strip_on_grid(&profile, elastomer, load, options)?;
-    around(&strip, &loading, &grid, pressure)
-}
-
-/// Gap around the contact of a surface under a loading.
-fn around(
-    surface: &dyn Surface,
-    loading: &Loading,
-    options: &SteadyOptions,
-    pressure: &PressureField,
-) -> Result<Option<GapField>, BemError> {
+    let (surface, loading, options) = body.into().on_grid(elastomer, load, options)?;
     // Find the box of the pressure in the footprint, and the elements around it that the body covers.
     let (spacing, origin) = (options.spacing, pressure.origin);
     let on_grid = loading.on_grid(spacing)?;

@@ -13,7 +13,7 @@
 //! Theory: docs/theory/stationary-half-space.md, "Line contact".
 
 use indenters::{SlidingLoad, Surface};
-use numerics::{Estimate, Request, positive};
+use numerics::{Estimate, Request};
 
 use crate::elements::area::EXCESS_PER_EDGE;
 use crate::estimate::bars;
@@ -23,9 +23,7 @@ use crate::stationary::steady::contact_scale::profile_scale;
 use crate::stationary::steady::grid_refinement::{SteadyProblem, refine};
 use crate::stationary::steady::loading::Loading;
 use crate::stationary::steady::sliding_creep::SlidingCreep;
-use crate::stationary::steady::{
-    RefinementOptions, Reuse, SteadyEstimate, SteadyOptions, SteadySliding, solve,
-};
+use crate::stationary::steady::{RefinementOptions, Reuse, SteadyEstimate, SteadyOptions, solve};
 use crate::{BemError, Elastomer, Footprint};
 
 /// Number of elements of the coarsest grid along half the contact of a cylinder on an elastic half space. Chosen; from 2 to 12
@@ -45,35 +43,13 @@ const FOOTPRINT_FRONT_PER_LOG_MEMORY: f64 = 0.5;
 /// refinement ends before a larger one.
 const MAX_UNKNOWNS_OF_LINE: usize = 2000;
 
-/// Solves the stationary sliding of a smooth `profile` that is infinite along y, under a load whose normal force is per length,
-/// \[N/m]. The request is a relative error of the friction coefficient, or a number of elements along the contact of a cylinder on
-/// an elastic half space.
-///
-/// Only the heights of the profile at y = 0 matter.
-///
-/// ```
-/// use bem_halfspace::indenters::Cylinder;
-/// use bem_halfspace::{SlidingLoad, rheology::Elastic, steady_line};
-///
-/// // Hertz: the half width is √(4 F' R/(π E*)) with E* = 4 G.
-/// let (roll, rubber) = (Cylinder::new(0.01)?, Elastic::new(1e6)?);
-/// let state = steady_line(&roll, &rubber, &SlidingLoad::new(1e3, 0.1)?, 1e-2)?;
-/// let width = 2.0 * (4.0 * 1e3 * 0.01 / (std::f64::consts::PI * 4e6)).sqrt();
-/// assert!((state.contact_area.value - width).abs() <= state.contact_area.error);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-///
-/// # Errors
-/// As for [`steady`](super::steady()); [`BemError::InvalidParameter`] for a half space that flows, and
-/// [`BemError::Indenter`] for a depth, which does not exist on a half space in plane strain.
-pub fn steady_line<'w>(
+/// The stationary state of a smooth profile that is infinite along y; arguments and errors as for [`steady`](super::steady()).
+pub(super) fn steady_line(
     profile: &dyn Surface,
     elastomer: &dyn Elastomer,
     load: &SlidingLoad,
-    request: impl Into<Request<'w>>,
+    request: Request,
 ) -> Result<SteadyEstimate, BemError> {
-    let (profile, request): (&dyn Surface, Request) = (&profile, request.into());
-
     // Replace the infinite profile by a strip of finite length, and plan grids from a few elements along half the contact on.
     let force = load.require_normal_force()?;
     let LineScale {
@@ -154,21 +130,17 @@ fn line_scale(
     })
 }
 
-/// The grid with `elements` elements, at least 1, along the contact of a cylinder on an elastic half space.
-///
-/// # Errors
-/// As for [`steady_line`], before anything is solved.
-pub fn steady_line_grid(
+/// The grid with a number of `elements` along the contact of a cylinder on an elastic half space.
+pub(super) fn line_grid(
     profile: &dyn Surface,
     elastomer: &dyn Elastomer,
     load: &SlidingLoad,
-    elements: usize,
+    elements: f64,
 ) -> Result<SteadyOptions, BemError> {
-    let elements = positive("elements", elements as f64)?;
     let LineScale {
         half_length,
         footprint,
-    } = line_scale(&profile, elastomer, load)?;
+    } = line_scale(profile, elastomer, load)?;
     let spacing = 2.0 * half_length / elements;
     let footprint = Footprint {
         x: footprint,
@@ -177,50 +149,17 @@ pub fn steady_line_grid(
     Ok(SteadyOptions::new([spacing; 2], footprint))
 }
 
-/// Solves the stationary sliding of a `profile` on one grid, under a load whose normal force is per length, \[N/m].
-///
-/// # Errors
-/// As for [`steady_on_grid`](super::steady_on_grid), and [`BemError::InvalidParameter`] for a half space that flows.
-pub fn steady_line_on_grid(
-    profile: &dyn Surface,
-    elastomer: &dyn Elastomer,
-    load: &SlidingLoad,
-    options: &SteadyOptions,
-) -> Result<SteadySliding, BemError> {
-    let profile: &dyn Surface = &profile;
-    let (strip, loading, grid) = strip_on_grid(profile, elastomer, load, options)?;
-    solve(&strip, &loading, &grid, &mut Reuse::default())
-}
-
-/// The strip of a profile with its loading and its grid, from the options of a line, whose values along y have no effect.
-pub(super) fn strip_on_grid<'a>(
-    profile: &'a dyn Surface,
-    elastomer: &dyn Elastomer,
-    load: &SlidingLoad,
-    options: &SteadyOptions,
-) -> Result<(Strip<'a>, Loading, SteadyOptions), BemError> {
-    let loading = Loading::per_length(profile, elastomer, load, options.footprint.x)?;
-    let strip = Strip::new(profile, &loading);
-    let grid = SteadyOptions {
-        spacing: [options.spacing[0], strip.length],
-        phase: [options.phase[0], 0.0],
-        footprint: strip.footprint(options.footprint.x),
-        ..*options
-    };
-    Ok((strip, loading, grid))
-}
-
 /// A profile of the length of one element along y, in place of an infinite one.
 pub(super) struct Strip<'a> {
     /// Profile along x; its heights at y = 0 count.
     profile: &'a dyn Surface,
     /// Length along y, \[m].
-    length: f64,
+    pub(super) length: f64,
 }
 
 impl<'a> Strip<'a> {
     /// Strip that replaces an infinite profile; its length along y is that of `loading`.
-    fn new(profile: &'a dyn Surface, loading: &Loading) -> Self {
+    pub(super) fn new(profile: &'a dyn Surface, loading: &Loading) -> Self {
         Self {
             profile,
             length: loading.strip.unwrap_or(f64::INFINITY),
@@ -228,7 +167,7 @@ impl<'a> Strip<'a> {
     }
 
     /// The footprint between two ends along x, with an empty element on either side along y.
-    fn footprint(&self, x: [f64; 2]) -> Footprint {
+    pub(super) fn footprint(&self, x: [f64; 2]) -> Footprint {
         let y = [-self.length, self.length];
         Footprint { x, y }
     }

@@ -41,6 +41,7 @@ pub mod sensitivity;
 mod sinking_depth;
 mod sliding_creep;
 mod solution;
+mod steady_body;
 mod wake_influence;
 mod wake_table;
 mod wiener_hopf;
@@ -56,14 +57,14 @@ use crate::{BemError, Elastomer, Footprint};
 use body_contact::Solution;
 pub use body_estimate::{steady, steady_grid, steady_memory, steady_refined};
 pub(crate) use contact_scale::depth_scale_of_surface;
-pub use gap::{gap, line_gap};
+pub use gap::gap;
 pub use grid_refinement::RefinementOptions;
-pub use line::{steady_line, steady_line_grid, steady_line_on_grid};
 use loading::Loading;
 use mesh::Mesh;
 use plans::Plans;
 pub use sinking_depth::SinkingDepth;
 pub use solution::{SteadyEstimate, SteadySliding};
+pub use steady_body::SteadyBody;
 pub use wake_influence::wake_influence;
 
 /// One grid for a stationary solution. In plane strain its values along y have no effect.
@@ -102,7 +103,7 @@ impl SteadyOptions {
     }
 }
 
-/// Solves the stationary sliding of `surface` on a linear viscoelastic material on one grid, under a force or at a depth. The sliding
+/// Solves the stationary sliding of a body on a linear viscoelastic material on one grid, under a force or at a depth. The sliding
 /// distance of the load matters only for a depth on a material that flows.
 ///
 /// The active set is found by block principal pivoting (Júdice & Pires 1994, Comput. Oper. Res. 21, 587), with single pivots as the
@@ -115,14 +116,14 @@ impl SteadyOptions {
 /// [`BemError::SlopeNotResolved`]; [`BemError::ContactReachesBoundary`]; [`BemError::ContactNotConverged`];
 /// [`BemError::SingularContact`]; [`BemError::Material`];
 /// [`BemError::Indenter`] for heights that are NaN or −∞.
-pub fn steady_on_grid(
-    surface: &dyn Surface,
+pub fn steady_on_grid<'a>(
+    body: impl Into<SteadyBody<'a>>,
     elastomer: &dyn Elastomer,
     load: &SlidingLoad,
     options: &SteadyOptions,
 ) -> Result<SteadySliding, BemError> {
-    let loading = Loading::new(surface, elastomer, load, &options.footprint)?;
-    solve(surface, &loading, options, &mut Reuse::default())
+    let (surface, loading, grid) = body.into().on_grid(elastomer, load, options)?;
+    solve(&surface, &loading, &grid, &mut Reuse::default())
 }
 
 /// Data that one solution passes on to the next.

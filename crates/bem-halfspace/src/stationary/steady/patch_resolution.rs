@@ -3,6 +3,7 @@
 //! Theory: docs/theory/stationary-half-space.md, "Scatter, order, error bar", "Elements in a patch".
 
 use crate::BemError;
+use crate::contact::patches::connected_sets;
 use crate::elements::bounds::Bounds;
 use crate::error::check_contact_elements;
 use crate::estimate::plan::NEGLIGIBLE_FRACTION;
@@ -20,17 +21,30 @@ type Loaded = ([usize; 2], f64);
 /// [`BemError::GridTooCoarse`].
 pub(super) fn check_patches(loaded: &[Loaded], bounds: &Bounds) -> Result<(), BemError> {
     let total: f64 = loaded.iter().map(|(_, load)| load).sum();
-    for patch in connected_patches(loaded, bounds) {
+    let mut loads = vec![0.0; bounds.n_elements()];
+    for (element, load) in loaded {
+        loads[bounds.index_of(*element)] = *load;
+    }
+    // Patches are connected by edges or corners.
+    let [rows, columns] = bounds.shape();
+    let neighbours = |element: usize| {
+        let around = |index: usize, n: usize| index.saturating_sub(1)..(index + 2).min(n);
+        let across = around(element % columns, columns);
+        around(element / columns, rows)
+            .flat_map(move |row| across.clone().map(move |column| row * columns + column))
+    };
+    let in_box = loaded.iter().map(|(element, _)| bounds.index_of(*element));
+    let elements = in_box.filter(|element| loads[*element] > 0.0);
+    for patch in connected_sets(elements, loads.len(), neighbours) {
         // Skip patches with a negligible load.
-        let load: f64 = patch.iter().map(|(_, load)| load).sum();
+        let load: f64 = patch.iter().map(|element| loads[*element]).sum();
         if load < NEGLIGIBLE_FRACTION * total {
             continue;
         }
-        // Count the loaded elements of the patch in each row and column. It needs enough rows, and enough elements in its widest row.
-        let [mut per_row, mut per_column] = bounds.shape().map(|n| vec![0_usize; n]);
-        for ([row, column], _) in &patch {
-            per_row[row - bounds.lower[0]] += 1;
-            per_column[column - bounds.lower[1]] += 1;
+        // Count the elements of the patch in each row. It needs enough rows, and enough elements in its widest row.
+        let mut per_row = vec![0_usize; rows];
+        for element in patch {
+            per_row[element / columns] += 1;
         }
         check_contact_elements(per_row.iter().filter(|count| **count > 0).count())?;
         let elements = per_row.into_iter().max().unwrap_or(0);
@@ -40,50 +54,6 @@ pub(super) fn check_patches(loaded: &[Loaded], bounds: &Bounds) -> Result<(), Be
         }
     }
     Ok(())
-}
-
-/// The sets of loaded elements that are connected by edges or corners; `bounds` encloses all of them.
-fn connected_patches(loaded: &[Loaded], bounds: &Bounds) -> Vec<Vec<Loaded>> {
-    // Loads in the box of the elements that do not belong to a patch yet.
-    let mut remaining = vec![0.0; bounds.n_elements()];
-    for (element, load) in loaded {
-        remaining[bounds.index_of(*element)] = *load;
-    }
-    let mut patches = Vec::new();
-    for (first, _) in loaded {
-        let mut patch = Vec::new();
-        move_to_patch(*first, &mut remaining, bounds, &mut patch);
-        // Add the loaded neighbours of each element of the patch, until no element of the patch is unvisited (flood fill).
-        let mut n_visited = 0;
-        while let Some(&([row, column], _)) = patch.get(n_visited) {
-            n_visited += 1;
-            for row in row.saturating_sub(1)..=row + 1 {
-                for column in column.saturating_sub(1)..=column + 1 {
-                    move_to_patch([row, column], &mut remaining, bounds, &mut patch);
-                }
-            }
-        }
-        if !patch.is_empty() {
-            patches.push(patch);
-        }
-    }
-    patches
-}
-
-/// Moves an element [row, column] from the loads `remaining` in the box to a patch, if it has a load there.
-fn move_to_patch(
-    element: [usize; 2],
-    remaining: &mut [f64],
-    bounds: &Bounds,
-    patch: &mut Vec<Loaded>,
-) {
-    if !bounds.contains(element) {
-        return;
-    }
-    let load = std::mem::take(&mut remaining[bounds.index_of(element)]);
-    if load > 0.0 {
-        patch.push((element, load));
-    }
 }
 
 #[cfg(test)]

@@ -68,13 +68,9 @@ impl Contact {
         check_surfaces(problem)?;
         let elastomer = problem.elastomer()?;
         Ok(match (problem.body(), answer.stationary) {
-            (Body::Cylinder(cylinder), Some(options)) => {
-                let of_line = SteadySensitivity::of_line(cylinder, &elastomer, load, &options);
-                Self::Single(Box::new(of_line?))
-            }
             (body, Some(options)) => {
-                let surface = body.surface().ok_or(NO_DERIVATIVES)?;
-                let near = SteadySensitivity::new(surface, &elastomer, load, &options);
+                let body = body.steady_body().ok_or(NO_DERIVATIVES)?;
+                let near = SteadySensitivity::new(body, &elastomer, load, &options);
                 Self::Single(Box::new(near?))
             }
             (Body::Periodic(surface), _) => {
@@ -195,10 +191,8 @@ fn change_between_ends(
 
 /// Surface of a finite body or a cylinder.
 fn surface(body: &Body) -> Result<&dyn Surface> {
-    match body {
-        Body::Cylinder(cylinder) => Ok(cylinder),
-        body => body.surface().ok_or(NO_DERIVATIVES),
-    }
+    let body = body.steady_body().ok_or(NO_DERIVATIVES)?;
+    Ok(body.surface())
 }
 
 /// The changes of all quantities, with their errors, times `factor`.

@@ -15,6 +15,7 @@ use super::{AllowedGaps, Equations, MAX_STEPS};
 use crate::parallel::reductions::{add_scaled, mean};
 use crate::parallel::row_blocks::copies;
 use crate::stationary::conjugate_residuals::{GcrLimits, gcr, norm};
+use crate::stationary::search::FixedSetSolver as _;
 
 /// Ratio of the gaps that a solution leaves to those before it, above which there is no other one. Chosen; it decides the time alone.
 const MIN_PROGRESS: f64 = 0.5;
@@ -22,7 +23,7 @@ const MIN_PROGRESS: f64 = 0.5;
 impl Equations {
     /// Whether the gaps of the open elements are fewer unknowns than the pressures in contact, under a mean pressure.
     pub(super) fn has_few_open_elements(&self) -> bool {
-        self.depth_is_free && self.n_open() < self.n_contact()
+        self.depth_is_free() && self.n_open() < self.n_contact()
     }
 
     /// Iterates by GCR until the gaps are allowed, as long as that makes progress; the unknowns are the gaps of the open elements. A basis
@@ -134,6 +135,7 @@ mod tests {
     use crate::stationary::periodic::equations::elimination::tests::stiffening_solid;
     use crate::stationary::periodic::equations::{AllowedGaps, Equations};
     use crate::stationary::periodic::kernel::Sliding;
+    use crate::stationary::search::FixedSetSolver as _;
 
     const SIDE: usize = 64;
 

@@ -57,7 +57,7 @@ impl Equations {
         let gaps = self.gap.iter().map(|gap| f64::from(*gap)).collect();
         let entry = translation_invariant(&image, self.active.columns, &elements);
         let solved = dense::solve(entry, vec![gaps, vec![1.0; elements.len()]])?;
-        let depth = if self.depth_is_free {
+        let depth = if self.depth_is_free() {
             solved[0].iter().sum::<f64>() / solved[1].iter().sum::<f64>()
         } else {
             0.0
@@ -85,7 +85,7 @@ impl Equations {
         image
             .iter_mut()
             .for_each(|load| *load *= self.self_influence);
-        let (last, depth_is_free) = (open.len(), self.depth_is_free);
+        let (last, depth_is_free) = (open.len(), self.depth_is_free());
         let compliance = self.kernel.mean_compliance / self.self_influence;
         let of_open = translation_invariant(&image, self.active.columns, &open);
         let entry = |row: usize, column: usize| match (row < last, column < last) {
@@ -141,6 +141,7 @@ pub(super) mod tests {
     use crate::stationary::periodic::PeriodicControl;
     use crate::stationary::periodic::equations::Equations;
     use crate::stationary::periodic::kernel::Sliding;
+    use crate::stationary::search::FixedSetSolver as _;
     use crate::{Grid, Layer};
 
     const SIDE: usize = 24;

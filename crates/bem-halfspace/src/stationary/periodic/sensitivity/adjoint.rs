@@ -16,6 +16,7 @@ use crate::stationary::periodic::PeriodicControl;
 use crate::stationary::periodic::equations::Equations;
 use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
 use crate::stationary::periodic::kernel::Sliding;
+use crate::stationary::search::FixedSetSolver as _;
 use crate::{BemError, Grid};
 
 /// Tolerance of the residual of the adjoint equations, relative to the initial one. Derived: the rounding of single precision, in
@@ -316,7 +317,7 @@ impl<'a> Adjoint<'a> {
             // Correct the loads by a solution of the equations for this residual, in single precision. Two solutions reach the tolerance.
             self.equations.set_active_set(&self.contact, &loads, &gap);
             let size = self.equations.residual_rms();
-            self.equations.solve(ADJOINT_TOLERANCE.sqrt() * size, 0.0);
+            self.equations.solve(ADJOINT_TOLERANCE.sqrt() * size, 0.0)?;
             self.equations.copy_pressure_to(&mut loads);
         }
         Err(BemError::ContactNotConverged {

@@ -108,7 +108,7 @@ impl PeriodicSensitivity {
     ///
     /// # Errors
     /// Those of [`steady_on_grid`](super::steady_on_grid), and [`BemError::InvalidParameter`] for a grid of other periods, and for
-    /// one that is not twice one on which all waves fit.
+    /// one that is not twice one on which all waves fit, and without sliding.
     pub fn new(
         surface: &PeriodicSurface,
         elastomer: &dyn Elastomer,
@@ -116,6 +116,9 @@ impl PeriodicSensitivity {
         pressure: &PressureField,
     ) -> Result<Self, BemError> {
         check_unchanged_moduli(elastomer)?;
+        if let Some(duration) = load.duration() {
+            in_range("duration", duration, false, "that of a load that slides")?;
+        }
         let sliding = Sliding::new(elastomer, load.velocity())?;
         let control = load.require_stationary()?;
         let grid = pressure.grid;

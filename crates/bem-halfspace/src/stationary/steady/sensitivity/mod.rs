@@ -44,9 +44,9 @@ use rheology::Material;
 use crate::parallel::reductions::mean;
 use crate::stationary::change;
 pub use crate::stationary::change::{ByModuli, Change};
-use crate::stationary::steady::line::strip_on_grid;
 use crate::stationary::steady::loading::Loading;
 use crate::stationary::steady::sliding_creep::SlidingCreep;
+use crate::stationary::steady::steady_body::SteadyBody;
 use crate::stationary::steady::{Reuse, SteadyOptions};
 use crate::substrate::base::check_unchanged_moduli;
 use crate::{BemError, Elastomer};
@@ -113,7 +113,8 @@ pub struct SensitivityOnGrid {
 
 impl SteadySensitivity {
     /// Solves the stationary state on a grid, such as the finest one of an [estimate](super::steady()), and on one with twice the
-    /// spacing. If their derivatives differ, and the contact has few elements, a grid with half the spacing replaces the coarse one.
+    /// spacing. If their derivatives differ, and the contact has few elements, a grid with half the spacing replaces the coarse one. The
+    /// elements of a line have a quarter of the spacing given.
     ///
     /// ```
     /// use bem_halfspace::indenters::Sphere;
@@ -136,31 +137,22 @@ impl SteadySensitivity {
     /// # Errors
     /// As for [`steady_on_grid`](super::steady_on_grid), and [`BemError::InvalidParameter`] at a depth on a half space that
     /// flows, which belongs to a distance.
-    pub fn new(
-        surface: &dyn Surface,
+    pub fn new<'a>(
+        body: impl Into<SteadyBody<'a>>,
         elastomer: &dyn Elastomer,
         load: &SlidingLoad,
         options: &SteadyOptions,
     ) -> Result<Self, BemError> {
-        check_unchanged_moduli(elastomer)?;
-        let loading = loading(surface, elastomer, load, options)?;
-        Self::on_shifted_grids(surface, &loading, options, &SENSITIVITY_PHASES)
-    }
-
-    /// Like [`new`](Self::new), in plane strain as [`steady_line`](super::steady_line()), on elements of a quarter of the spacing.
-    ///
-    /// # Errors
-    /// As for [`steady_line_on_grid`](super::steady_line_on_grid).
-    pub fn of_line(
-        profile: &dyn Surface,
-        elastomer: &dyn Elastomer,
-        load: &SlidingLoad,
-        options: &SteadyOptions,
-    ) -> Result<Self, BemError> {
-        check_unchanged_moduli(elastomer)?;
-        let (strip, loading, mut grid) = strip_on_grid(&profile, elastomer, load, options)?;
-        grid.spacing[0] *= STRIP_SPACING_FACTOR;
-        Self::on_shifted_grids(&strip, &loading, &grid, &STRIP_SENSITIVITY_PHASES)
+        let body = body.into();
+        let (surface, loading, mut grid) = with_derivatives(body, elastomer, load, options)?;
+        let phases = match body {
+            SteadyBody::Body(_) => SENSITIVITY_PHASES,
+            SteadyBody::Line(_) => {
+                grid.spacing[0] *= STRIP_SPACING_FACTOR;
+                STRIP_SENSITIVITY_PHASES
+            }
+        };
+        Self::on_shifted_grids(&surface, &loading, &grid, &phases)
     }
 
     /// Solves on coarse and fine grids with some shifts, and on finer ones where that is needed.
@@ -308,32 +300,15 @@ impl SensitivityOnGrid {
     ///
     /// # Errors
     /// As for [`SteadySensitivity::new`].
-    pub fn new(
-        surface: &dyn Surface,
+    pub fn new<'a>(
+        body: impl Into<SteadyBody<'a>>,
         elastomer: &dyn Elastomer,
         load: &SlidingLoad,
         options: &SteadyOptions,
     ) -> Result<Self, BemError> {
-        check_unchanged_moduli(elastomer)?;
-        let loading = loading(surface, elastomer, load, options)?;
-        let phases = [options.phase];
-        Self::on_shifted_grids(surface, &loading, options, &phases, &mut Reuse::default())
-    }
-
-    /// Like [`new`](Self::new), in plane strain, on a grid such as that of [`steady_line_grid`](super::steady_line_grid).
-    ///
-    /// # Errors
-    /// As for [`SteadySensitivity::of_line`].
-    pub fn of_line(
-        profile: &dyn Surface,
-        elastomer: &dyn Elastomer,
-        load: &SlidingLoad,
-        options: &SteadyOptions,
-    ) -> Result<Self, BemError> {
-        check_unchanged_moduli(elastomer)?;
-        let (strip, loading, grid) = strip_on_grid(&profile, elastomer, load, options)?;
+        let (surface, loading, grid) = with_derivatives(body.into(), elastomer, load, options)?;
         let phases = [grid.phase];
-        Self::on_shifted_grids(&strip, &loading, &grid, &phases, &mut Reuse::default())
+        Self::on_shifted_grids(&surface, &loading, &grid, &phases, &mut Reuse::default())
     }
 
     /// Solves on grids with the shifts `phases`, each from the solution on the one before.
@@ -491,17 +466,19 @@ fn creeps(
     Ok([from?, to?])
 }
 
-/// The loading of a contact that has derivatives: not a depth on a half space that flows.
+/// The problem of a contact that has derivatives, as [`SteadyBody::on_grid`]: not a depth on a half space that flows.
 ///
 /// # Errors
 /// [`BemError::InvalidParameter`] at a depth on a half space that flows.
-fn loading(
-    surface: &dyn Surface,
+fn with_derivatives<'a>(
+    body: SteadyBody<'a>,
     elastomer: &dyn Elastomer,
     load: &SlidingLoad,
     options: &SteadyOptions,
-) -> Result<Loading, BemError> {
-    let loading = Loading::new(surface, elastomer, load, &options.footprint)?;
+) -> Result<(Box<dyn Surface + 'a>, Loading, SteadyOptions), BemError> {
+    check_unchanged_moduli(elastomer)?;
+    let problem = body.on_grid(elastomer, load, options)?;
+    let loading = &problem.1;
     let is_at_depth = matches!(loading.control, Control::IndentationDepth(_));
     let fluidity = loading.creep.fluidity();
     in_range(
@@ -510,7 +487,7 @@ fn loading(
         !is_at_depth || fluidity <= 0.0,
         ALLOWED_FLUIDITY_AT_DEPTH,
     )?;
-    Ok(loading)
+    Ok(problem)
 }
 
 #[cfg(test)]

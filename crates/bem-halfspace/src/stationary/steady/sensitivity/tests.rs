@@ -6,9 +6,7 @@ use indenters::{Cylinder, FlatCone, PowerProfile, Surface};
 use rheology::{Compressible, Elastic, Prony, RelaxationBranch, RelaxationSpectrum, Viscous};
 
 use super::*;
-use crate::stationary::steady::{
-    SteadySliding, steady, steady_grid, steady_line, steady_line_grid,
-};
+use crate::stationary::steady::{SteadyBody, SteadySliding, steady, steady_grid};
 use crate::{Footprint, Layer};
 
 /// Relative step of the differences.
@@ -344,7 +342,7 @@ fn derivatives_of_a_cylinder_do_not_depend_on_the_unit_of_length() {
             max_iterations: 100,
             ..SteadyOptions::new([0.02 * unit; 2], Footprint::square(1.5 * unit))
         };
-        let near = SteadySensitivity::of_line(&cylinder, &material, &load, &options);
+        let near = SteadySensitivity::new(SteadyBody::Line(&cylinder), &material, &load, &options);
         let by_load = near.expect("a sensitivity").by_load().friction_coefficient;
         by_load.error / by_load.value
     };
@@ -374,13 +372,13 @@ fn a_cylinder_adds_up(thickness: f64) {
     let [layer, stiffer] = materials
         .each_ref()
         .map(|material| Layer::new(material, thickness).expect("a layer"));
-    let sensitivity = SteadySensitivity::of_line(&cylinder, &layer, &load, &options);
+    let sensitivity = SteadySensitivity::new(SteadyBody::Line(&cylinder), &layer, &load, &options);
     let sensitivity = sensitivity.expect("a sensitivity");
     let change = sensitivity.to_elastomer(&stiffer, 2.0);
     let expected = change.expect("a change").friction_coefficient.value / STEP;
     let ends = [0.9, 1.1].map(|factor| {
         let load = SlidingLoad::new(0.5 * factor, 2.0).expect("a load");
-        let answer = steady_line(&cylinder, &layer, &load, 1e-4).expect("an answer");
+        let answer = steady(SteadyBody::Line(&cylinder), &layer, &load, 1e-4).expect("an answer");
         answer.friction_coefficient.value
     });
     let slope = (ends[1] / ends[0]).ln() / (1.1_f64 / 0.9).ln();
@@ -505,8 +503,9 @@ fn effective_areas_are_those_of_hertz() {
     let state = SensitivityOnGrid::new(&ball, &rubber, &load, &options).expect("a state");
     let radius = (3.0 * 0.1 / 16.0_f64).cbrt();
     let roll = Cylinder::new(1.0).expect("a body");
-    let options = steady_line_grid(&roll, &rubber, &load, 48).expect("a grid");
-    let line = SensitivityOnGrid::of_line(&roll, &rubber, &load, &options).expect("a state");
+    let options = steady_grid(SteadyBody::Line(&roll), &rubber, &load, 48).expect("a grid");
+    let line =
+        SensitivityOnGrid::new(SteadyBody::Line(&roll), &rubber, &load, &options).expect("a state");
     let half_width = (0.1 / PI).sqrt();
     for (state, expected) in [
         (state, 8.0 / 9.0 * PI * radius * radius),
