@@ -10,6 +10,8 @@
 //! The next evaluation starts from the plain value g(x). The difference between the results of these two evaluations shows how
 //! much still changes. The iteration finds limit cycles of reciprocating motions: docs/tribometer.md, "How it is computed".
 
+use crate::vectors::{add_scaled, dot};
+
 /// Number of evaluations before the first combination: two for a difference, and one that checks it. With any number from 2 to 5,
 /// no answer changes by more than 0.2 % of its error bar (case of `evidence tuning`).
 const PLAIN_EVALUATIONS: usize = 3;
@@ -152,18 +154,6 @@ fn minus(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a - b).collect()
 }
 
-/// Inner product of two vectors of equal length.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-/// Replaces a by a − `factor` b.
-fn subtract(a: &mut [f64], factor: f64, b: &[f64]) {
-    for (a, b) in a.iter_mut().zip(b) {
-        *a -= factor * b;
-    }
-}
-
 /// The weights γ_k that minimise |b − Σ γ_k a_k| for the `vectors` a_k and the `target` b, by modified Gram–Schmidt
 /// orthogonalisation.
 ///
@@ -181,8 +171,8 @@ fn least_squares_weights(vectors: &[Vec<f64>], target: &[f64]) -> Vec<f64> {
         let norm_before = dot(&vector, &vector);
         for [other, other_coefficients] in &basis {
             let component = dot(other, &vector);
-            subtract(&mut vector, component, other);
-            subtract(&mut coefficients, component, other_coefficients);
+            add_scaled(&mut vector, -component, other);
+            add_scaled(&mut coefficients, -component, other_coefficients);
         }
         // Normalise the remainder, unless it is rounding: then the difference depends linearly on the others and is left out.
         let norm = dot(&vector, &vector);
@@ -197,7 +187,7 @@ fn least_squares_weights(vectors: &[Vec<f64>], target: &[f64]) -> Vec<f64> {
     }
     // The projections of the target on the basis give the weights of the given vectors.
     for [vector, coefficients] in &basis {
-        subtract(&mut weights, -dot(vector, target), coefficients);
+        add_scaled(&mut weights, dot(vector, target), coefficients);
     }
     weights
 }

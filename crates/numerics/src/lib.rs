@@ -40,6 +40,7 @@ mod refinement;
 mod root;
 #[cfg(feature = "transforms")]
 pub mod transforms;
+pub mod vectors;
 mod whole_part;
 
 /// Compiles the program of README.md as a test.

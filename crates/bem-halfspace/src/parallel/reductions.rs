@@ -1,6 +1,7 @@
 //! Sums and extremes of long vectors, with several accumulators so that an operation need not wait for the one before.
 
 use numerics::transforms::Real;
+pub(crate) use numerics::vectors::{add_scaled, dot, mean};
 
 /// Number of accumulators of a reduction. Chosen as the additions in flight in a processor, a latency of four cycles times two
 /// additions per cycle; fewer of them wait for each other. Another value changes sums by rounding.
@@ -44,22 +45,4 @@ pub(crate) fn larger(left: f64, right: f64) -> f64 {
 /// Minimum of two numbers; `left` if `right` is NaN. Faster than `f64::min`.
 pub(crate) fn smaller(left: f64, right: f64) -> f64 {
     if right < left { right } else { left }
-}
-
-/// Scalar product of two vectors, summed in their order.
-pub(crate) fn dot(left: &[f64], right: &[f64]) -> f64 {
-    let pairs = left.iter().zip(right);
-    pairs.map(|(left, right)| left * right).sum()
-}
-
-/// Mean of a vector, summed in its order.
-pub(crate) fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len() as f64
-}
-
-/// Adds `factor` times `values` to `sum` (axpy).
-pub(crate) fn add_scaled<T: Real>(sum: &mut [T], factor: T, values: &[T]) {
-    for (sum, value) in sum.iter_mut().zip(values) {
-        *sum += factor * *value;
-    }
 }

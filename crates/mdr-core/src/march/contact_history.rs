@@ -12,6 +12,8 @@
 //! the mean free displacement, and k the mean modulus over the time for which an element is in contact without interruption. M is
 //! symmetric and positive semidefinite: an element that has recovered less carries less load.
 
+use numerics::vectors::{add_scaled, dot};
+
 use super::elements::ElementStep;
 use crate::branches::{Foundation, Mode};
 
@@ -307,14 +309,4 @@ fn accumulate(values: &mut [f64]) {
         *value += sum;
         *value
     });
-}
-
-/// Inner product of two vectors of equal length.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-/// Adds `factor` times b to a.
-fn add_scaled(a: &mut [f64], factor: f64, b: &[f64]) {
-    a.iter_mut().zip(b).for_each(|(a, b)| *a += factor * b);
 }

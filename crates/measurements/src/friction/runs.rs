@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use numerics::vectors::mean;
+
 use super::FrictionPoint;
 use super::read::{Row, rounded};
 use crate::indentation::correlated_points;
@@ -160,11 +162,6 @@ fn check_signs(coefficients: &[f64]) -> Result<(), String> {
          direction, or the mean of its absolute value",
         100.0 * part
     ))
-}
-
-/// Arithmetic mean.
-fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len() as f64
 }
 
 /// Mean, standard deviation s of a value, and standard error s √(τ/n) of the mean of n correlated values, with their integrated

@@ -9,6 +9,8 @@
 //! unbiased by the coarse grid, whose error cancels in the difference. The variance of the difference is smaller the better both
 //! are correlated (multilevel Monte Carlo with two levels: Giles 2008). Without a coarse grid c = f and N = n.
 
+use numerics::vectors::mean;
+
 pub(super) use crate::scene::FEWEST_REALISATIONS as FEWEST;
 
 /// Scatter of a quantity over the surfaces.
@@ -36,11 +38,6 @@ pub(super) struct Sample<'a> {
     pub(super) fine: &'a [f64],
     /// Values cᵢ of all surfaces; the same as `fine` without a coarse grid.
     pub(super) coarse: &'a [f64],
-}
-
-/// Arithmetic mean.
-fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len() as f64
 }
 
 /// Unbiased sample covariance of pairs of values.
