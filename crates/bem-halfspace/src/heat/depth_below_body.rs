@@ -32,8 +32,9 @@ pub(super) const FREE_DEPTH_ERROR: f64 = 2e-2;
 /// Ratio of the period to the surroundings of the contact that are heated. Derived: places at both ends of the surroundings are then at
 /// least as far from the next period as from each other.
 const PERIOD_OVER_SURROUNDINGS: usize = 2;
-/// Largest product of the rate of damping and the period. Derived: the heat of the next period is weaker by e^(−8) = 3e-4.
-const MAX_DAMPING: f64 = 8.0;
+/// Largest product of the rate of damping and the period. Derived: the heat of the next period is weaker by e^(−16) = 1e-7, and is left as it
+/// is, because that of fast contacts stays at its depth.
+const MAX_DAMPING: f64 = 16.0;
 /// Smallest product of v/D and the period with which waves are computed. Derived: slower contacts have the same temperature to this
 /// fraction, but for the logarithm on a line, which the Gaussian source has, too.
 const SLOWEST: f64 = 1e-7;
@@ -81,6 +82,9 @@ impl FreeHeat {
             area: period * width,
             without_others: 0.0,
         };
+        if 0.5 * velocity_over_diffusivity * period >= MAX_DAMPING {
+            return Ok(free);
+        }
         let radius = GAUSSIAN_RADIUS * contact_length;
         let alone = gaussian_alone(radius, heat.velocity_over_diffusivity, is_line);
         Ok(Self {

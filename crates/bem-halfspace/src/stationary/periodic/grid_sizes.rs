@@ -133,8 +133,8 @@ fn bytes_on(elements: f64) -> f64 {
     basis.clamp(MAX_MATRIX_BYTES as f64, MAX_SMALL_BASIS_BYTES) + BYTES_PER_ELEMENT * elements
 }
 
-/// Upper bound of the memory of [`steady`](super::steady), [`indent`](super::indent) and [`slide`](super::slide), \[bytes], for a
-/// number of elements along the edge of the period that has more of them.
+/// Upper bound of the memory of [`steady`](super::steady) and [`slide`](super::slide), \[bytes], for a number of elements along the edge of
+/// the period that has more of them.
 ///
 /// # Errors
 /// [`BemError::PeriodTooCoarse`].
