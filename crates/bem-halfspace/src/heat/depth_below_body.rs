@@ -25,7 +25,7 @@ use crate::heat::depth::{DepthHeat, HeatWaves, Node, WeightedRise, running_wave}
 use crate::heat::periodic_waves::decay_constant;
 use crate::{BemError, Grid};
 
-/// Relative error of the mean rise by the rule over the depth and the waves. Measured: the largest of the unit test below is 1.5e-2, of which
+/// Relative error of the mean rise by the rule over the depth and the waves. Measured: the largest of the unit test below is 1.6e-2, of which
 /// the independent value has a half.
 pub(super) const FREE_DEPTH_ERROR: f64 = 2e-2;
 
