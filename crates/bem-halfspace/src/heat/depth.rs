@@ -171,7 +171,7 @@ fn power_weighted_mean(depths: &[DepthRise]) -> f64 {
     sum / power
 }
 
-/// What is beside the surroundings of a contact.
+/// Half space around the surroundings of a contact that are computed.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Beside {
     /// Other periods.
@@ -202,7 +202,7 @@ pub(super) struct DepthHeat<'a> {
     pub(super) velocity_over_diffusivity: f64,
     /// Conductivity k, \[W/m/K].
     pub(super) conductivity: f64,
-    /// What is beside these elements.
+    /// Half space around these elements.
     pub(super) beside: Beside,
 }
 

@@ -35,9 +35,9 @@ const PERIOD_OVER_SURROUNDINGS: usize = 2;
 /// Largest product of the rate of damping and the period. Derived: the heat of the next period is weaker by e^(−16) = 1e-7, and is left as it
 /// is, because that of fast contacts stays at its depth.
 const MAX_DAMPING: f64 = 16.0;
-/// Smallest product of v/D and the period with which waves are computed. Derived: slower contacts have the same temperature to this
+/// Smallest ratio of the period to the diffusion length D/v of the motion with which waves are computed. Derived: slower contacts have the same temperature to this
 /// fraction, but for the logarithm on a line, which the Gaussian source has, too.
-const SLOWEST: f64 = 1e-7;
+const MIN_PERIOD_OVER_DIFFUSION_LENGTH: f64 = 1e-7;
 /// Radius σ of the Gaussian source over the length of the contact. Chosen: as wide as a Hertzian pressure.
 const GAUSSIAN_RADIUS: f64 = 0.25;
 /// Exponent of e of the smallest terms of sum and integral of the Gaussian source. Derived: e^(−40) is 4e-18.
@@ -69,7 +69,9 @@ impl FreeHeat {
         let ([rows, columns], spacing) = (heat.grid.shape(), heat.grid.spacing());
         let grid = Grid::new([PERIOD_OVER_SURROUNDINGS * rows, columns], spacing)?;
         let period = grid.shape()[0] as f64 * spacing[0];
-        let velocity_over_diffusivity = heat.velocity_over_diffusivity.max(SLOWEST / period);
+        let velocity_over_diffusivity = heat
+            .velocity_over_diffusivity
+            .max(MIN_PERIOD_OVER_DIFFUSION_LENGTH / period);
         let width = if is_line {
             1.0
         } else {
