@@ -6,7 +6,7 @@
 
 use numerics::Estimate;
 
-use crate::moved::{Station, interpolate, peak, stations};
+use crate::moved::{MotionStep, Station, interpolate, peak, stations};
 use crate::{Control, Moved, MovingLoad};
 
 /// Number of intervals of the midpoint rule between two points of a motion. Chosen: about as many as the time steps of a coarse
@@ -74,7 +74,7 @@ impl Moved {
         }))
     }
 
-    /// Work ∫ τ_f A |dx| of the shear and its part of the friction coefficient. Errors of all points have the same sign at worst.
+    /// Work ∫ τ_f A |dx| of the shear and its part of the friction coefficient.
     fn shear_friction<E>(
         &self,
         load: &MovingLoad,
@@ -86,38 +86,32 @@ impl Moved {
             step.time -= load.start_time();
         }
         let is_force = matches!(load.largest_control(), Control::NormalForce(_));
-        let mut work = Estimate::exact(0.0);
         let mut normal_work = Estimate::exact(0.0);
-        for (index, ends) in stations(load).windows(2).enumerate() {
-            let stage = &load.stages()[ends[1].stage];
-            let begin = if ends[0].stage == ends[1].stage {
-                ends[0].part
+        let mut elements = vec![Vec::new(); load.stages().len()];
+        for interval in path_intervals(load) {
+            let PathInterval { point, middle, .. } = interval;
+            let ends = [point, point + 1];
+            let [_, force, _, area] = interpolate(load, &steps, middle).values;
+            let force = if is_force {
+                let prescribed = load.stages()[middle.stage].point_at(middle.part);
+                Estimate::exact(prescribed.control.value())
             } else {
-                0.0
+                let errors = ends.map(|end| self.points[end].normal_force.error);
+                Estimate::new(force, errors[0].max(errors[1]))
             };
-            let width = (ends[1].part - begin) / INTERVALS_PER_POINT as f64;
-            let largest_error = |of: &dyn Fn(usize) -> f64| of(index).max(of(index + 1));
-            let area_error = largest_error(&|point| areas[point].error);
-            let force_error = largest_error(&|point| self.points[point].normal_force.error);
-            for interval in 0..INTERVALS_PER_POINT {
-                let part = begin + interval as f64 * width;
-                let [from, to] = [part, part + width].map(|part| stage.point_at(part));
-                let distance = to.position - from.position;
-                let traction = traction(distance / (to.time - from.time))?;
-                let middle = Station {
-                    stage: ends[1].stage,
-                    part: part + 0.5 * width,
-                };
-                let [_, force, _, area] = interpolate(load, &steps, middle).values;
-                let force = if is_force {
-                    stage.point_at(middle.part).control.value()
-                } else {
-                    force
-                };
-                work = work + Estimate::new(area, area_error) * (traction * distance);
-                normal_work = normal_work + Estimate::new(force, force_error) * distance.abs();
-            }
+            normal_work = normal_work + force * interval.distance.abs();
+            let errors = ends.map(|end| areas[end].error);
+            elements[middle.stage].push(PathElement {
+                length: interval.distance.abs(),
+                traction: traction(interval.velocity)?.abs(),
+                area: Estimate::new(area, errors[0].max(errors[1])),
+            });
         }
+        let mean_areas = self.mean_contact_areas.iter().flatten();
+        let stages = elements.iter().zip(mean_areas);
+        let work = stages
+            .map(|(elements, mean_area)| shear_work(elements, mean_area.error))
+            .fold(Estimate::exact(0.0), |sum, work| sum + work);
         let friction = work.value / normal_work.value;
         let smallest = normal_work.value - normal_work.error;
         let error = (work.error + friction * normal_work.error) / smallest;
@@ -126,6 +120,99 @@ impl Moved {
             work,
         })
     }
+}
+
+/// An interval of the path between two points of a motion.
+struct PathInterval {
+    /// Index of the point before it.
+    point: usize,
+    /// Its middle, in time.
+    middle: Station,
+    /// Distance that the body moves, \[m].
+    distance: f64,
+    /// Mean velocity, \[m/s].
+    velocity: f64,
+}
+
+/// A short part of the path of one stage.
+#[derive(Clone)]
+struct PathElement {
+    /// Length, \[m].
+    length: f64,
+    /// Shear strength, \[Pa].
+    traction: f64,
+    /// Contact area, \[m²].
+    area: Estimate,
+}
+
+/// Equal parts in time of the stages of a motion, [`INTERVALS_PER_POINT`] between two reported points.
+fn path_intervals(load: &MovingLoad) -> impl Iterator<Item = PathInterval> {
+    let stations = stations(load);
+    (0..stations.len() - 1).flat_map(move |point| {
+        let [from, to] = [stations[point], stations[point + 1]];
+        let stage = &load.stages()[to.stage];
+        let begin = if from.stage == to.stage {
+            from.part
+        } else {
+            0.0
+        };
+        let width = (to.part - begin) / INTERVALS_PER_POINT as f64;
+        (0..INTERVALS_PER_POINT).map(move |interval| {
+            let part = begin + interval as f64 * width;
+            let [from, end] = [part, part + width].map(|part| stage.point_at(part));
+            let distance = end.position - from.position;
+            PathInterval {
+                point,
+                middle: Station {
+                    stage: to.stage,
+                    part: part + 0.5 * width,
+                },
+                distance,
+                velocity: distance / (end.time - from.time),
+            }
+        })
+    })
+}
+
+/// Mean contact area ∫ A |dx| / ∫ |dx| over the path of each stage, \[m²]; 0 for a stage at rest. `steps` have times from the beginning
+/// of the load.
+pub(crate) fn mean_areas(load: &MovingLoad, steps: &[MotionStep]) -> Vec<f64> {
+    let mut integrals = vec![[0.0; 2]; load.stages().len()];
+    for interval in path_intervals(load) {
+        let length = interval.distance.abs();
+        let [.., area] = interpolate(load, steps, interval.middle).values;
+        let [area_integral, path] = &mut integrals[interval.middle.stage];
+        *area_integral += area * length;
+        *path += length;
+    }
+    integrals
+        .into_iter()
+        .map(|[integral, path]| if path > 0.0 { integral / path } else { 0.0 })
+        .collect()
+}
+
+/// Work ∫ τ_f A |dx| of the shear over the path of a stage, whose mean contact area has the error `mean_error`, \[J].
+///
+/// With the mean strength τ̄, the error of the work is ∫ τ̄ δA |dx|, which follows from that of the mean area, and ∫ (τ_f − τ̄) δA |dx|,
+/// in which the errors of all points have the same sign at worst.
+fn shear_work(elements: &[PathElement], mean_error: f64) -> Estimate {
+    let integral = |of: &dyn Fn(&PathElement) -> f64| -> f64 {
+        elements
+            .iter()
+            .map(|element| of(element) * element.length)
+            .sum()
+    };
+    let path = integral(&|_| 1.0);
+    if path == 0.0 {
+        return Estimate::exact(0.0);
+    }
+    let mean_traction = integral(&|element| element.traction) / path;
+    let of_points = integral(&|element| element.traction * element.area.error);
+    let of_variation =
+        integral(&|element| (element.traction - mean_traction).abs() * element.area.error);
+    let of_mean = mean_traction * path * mean_error + of_variation;
+    let work = integral(&|element| element.traction * element.area.value);
+    Estimate::new(work, of_points.min(of_mean))
 }
 
 /// Shear along a motion.

@@ -6,6 +6,7 @@
 
 use numerics::{ErrorParts, Estimate, Quantity, Refined};
 
+use crate::motion_shear::mean_areas;
 use crate::{Control, MovingLoad, Stage};
 
 /// Factor on the relative remaining change per cycle of quantities of a single step and of the history variables, in the test for
@@ -88,6 +89,9 @@ pub struct Moved {
     pub dissipated_energy: Option<Estimate>,
     /// Points from the beginning to the end; they include those of the load.
     pub points: Vec<MovedPoint>,
+    /// Mean contact area ∫ A |dx| / ∫ |dx| over the path of each stage, \[m²]; 0 for a stage at rest. `None` in the one-dimensional
+    /// model. Its error is smaller than those at the points, because elements that come and go cancel in the mean.
+    pub mean_contact_areas: Option<Vec<Estimate>>,
     /// Time steps on the finest resolution.
     pub steps: Vec<MotionStep>,
     /// Number of cycles up to the limit cycle.
@@ -271,7 +275,7 @@ pub struct MotionView<'a> {
 
 impl MotionView<'_> {
     /// Quantities of the whole motion (friction, peak friction, work), then of each point (tangential force, normal force,
-    /// depth, contact area).
+    /// depth, contact area), and the mean contact area over the path of each stage.
     ///
     /// The friction coefficient controls a refinement; so do the tangential forces of a single motion.
     pub fn quantities(&self, record: &MotionRecord) -> Vec<Quantity> {
@@ -302,6 +306,11 @@ impl MotionView<'_> {
                 ..Quantity::from(point.values[k])
             }));
         }
+        let mean_areas = mean_areas(self.load, &record.steps).into_iter();
+        quantities.extend(mean_areas.map(|area| Quantity {
+            controls_refinement: false,
+            ..Quantity::from(area)
+        }));
         quantities
     }
 
@@ -394,9 +403,11 @@ impl MotionView<'_> {
         let work = friction * record.normal_work + normal_force / force_scale * record.work.abs();
         let motion_errors = [friction, tangential_force / force_scale, work];
         let all_point_errors = stations(self.load).into_iter().flat_map(|_| point_errors);
+        let [.., area] = point_errors;
         motion_errors
             .into_iter()
             .chain(all_point_errors)
+            .chain(self.load.stages().iter().map(|_| area))
             .map(truncated)
             .collect()
     }
@@ -420,6 +431,10 @@ impl MotionView<'_> {
         let is_force = matches!(self.load.largest_control(), Control::NormalForce(_));
         let is_prescribed = |k: usize| (k == 1 && is_force) || (k == 2 && !is_force);
         let has_area = record.steps.iter().all(|step| step.contact_area.is_some());
+        // The mean areas of the stages are the last quantities.
+        let of_stages = stated.len() - self.load.stages().len();
+        let mean_areas = stated[of_stages..].iter().zip(&error[of_stages..]);
+        let mean_areas = mean_areas.map(|(area, error)| Estimate::new(*area, *error));
         // Collect the values at the points of the output: prescribed quantities are exact, the others have the errors of the
         // refinement.
         let stations = stations(self.load).into_iter().enumerate();
@@ -454,6 +469,7 @@ impl MotionView<'_> {
             peak_friction: Estimate::new(stated[1], error[1]),
             dissipated_energy: is_cycle.then(|| not_negative(stated[2], error[2])),
             points: points.collect(),
+            mean_contact_areas: has_area.then(|| mean_areas.collect()),
             ends: last.map(|ends| ends.map(end)),
             n_cycles: record.n_cycles,
             steps: self.with_absolute_times(record.steps),
