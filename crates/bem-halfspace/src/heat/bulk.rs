@@ -151,7 +151,7 @@ impl BulkHeat {
             .collect();
         for_each_row(&mut planes, 1, |_, plane| {
             for plane in plane {
-                plane.compute((shape, &waves), steps, &filters);
+                plane.compute(shape, &waves, steps, &filters);
             }
         });
         Ok(Self {
@@ -286,12 +286,12 @@ impl Filters {
     fn new(
         contact: &Pressed<'_>,
         waves: &[Complex<f64>],
-        [step_x, step_y]: [f64; 2],
+        steps: [f64; 2],
         rule: DepthRule,
     ) -> Result<Self, BemError> {
         let spectrum = contact.material.relaxation();
         let shape = contact.pressure.grid.shape();
-        let of_filters = FilteredWave::of(contact, [step_x, step_y]);
+        let of_filters = FilteredWave::of(contact, steps);
         let modulus = |wave: &FilteredWave| -> Result<Complex<f64>, BemError> {
             let frequency = wave.q_x.abs() * contact.velocity * wave.time_factor;
             let small = spectrum.complex_modulus(frequency)?;
@@ -302,10 +302,10 @@ impl Filters {
         // Power per area of each wave number along x, or of each wave, up to the square of the filter: the squares of the components of
         // the stress add up to 4 (qz)² e^(−2qz), whose integral over the depth is 1/q.
         let is_by_row = contact.wave_shift.is_none();
-        let rows = wave_numbers(shape[0], step_x);
+        let rows = wave_numbers(shape[0], steps[0]);
         let mut powers = vec![0.0; if is_by_row { rows.len() } else { waves.len() }];
         for (column, waves) in waves.chunks_exact(rows.len()).enumerate() {
-            let q_y = signed_offset(column, shape[1]) as f64 * step_y;
+            let q_y = signed_offset(column, shape[1]) as f64 * steps[1];
             let first = if is_by_row { 0 } else { column * rows.len() };
             let of_rows = powers[first..].iter_mut().zip(waves).zip(&rows);
             for (row, ((power, wave), q_x)) in of_rows.enumerate() {
@@ -479,7 +479,8 @@ impl Plane {
     /// Computes the power dissipated at this depth from the pressure waves of a period of `period` elements.
     fn compute(
         &mut self,
-        (period, waves): ([usize; 2], &[Complex<f64>]),
+        period: [usize; 2],
+        waves: &[Complex<f64>],
         steps: [f64; 2],
         filters: &Filters,
     ) {

@@ -207,7 +207,8 @@ impl SlidingContact<'_> {
         let known = |of: fn(&Averages) -> f64| {
             let rise = estimate(of(&fine.averages), of(&coarse.averages))?;
             let unresolved = layer_error(
-                [of(&fine.by_bulk), of(&coarse.by_bulk)],
+                of(&fine.by_bulk),
+                of(&coarse.by_bulk),
                 fine.halvings_to_layer,
             );
             Ok::<_, BemError>(rise.widened(of(&fine.errors) + unresolved))
@@ -242,7 +243,7 @@ impl SlidingContact<'_> {
 ///
 /// Only heat of this layer reaches the surface of a fast contact, and short waves dissipate there. As long as the elements are larger, the
 /// temperature grows with each halving, by a ratio that falls: the last ratio bounds those to come.
-fn layer_error([fine, coarse]: [f64; 2], halvings: f64) -> f64 {
+fn layer_error(fine: f64, coarse: f64, halvings: f64) -> f64 {
     let ratio = (fine / coarse).min(LARGEST_GROWTH);
     if halvings > 0.0 && ratio > 1.0 {
         let growth = fine * (ratio.powf(halvings) - 1.0);

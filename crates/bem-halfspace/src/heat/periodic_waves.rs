@@ -146,10 +146,11 @@ impl PeriodicWaves {
 ///
 /// β² = (q_x + ia)² + q_y² − i (q_x + ia) v/D with the rate a.
 pub(super) fn decay_constant(
-    [q_x, q_y]: [f64; 2],
+    wave_numbers: [f64; 2],
     velocity_over_diffusivity: f64,
     damping: f64,
 ) -> Complex<f64> {
+    let [q_x, q_y] = wave_numbers;
     let square = q_x * q_x + q_y * q_y + damping * (velocity_over_diffusivity - damping);
     let transport = q_x * (velocity_over_diffusivity - 2.0 * damping);
     let real = (0.5 * (square.hypot(transport) + square)).sqrt();

@@ -240,11 +240,8 @@ impl Averages {
 /// Twice the excess of a temperature over that of the centre of its hottest element. The maximum is at most half an element away, and
 /// up to there the temperature rises by half the mean difference from the neighbours along each axis. The excess counts twice, because
 /// it may also hide as much of the difference from the coarse grid.
-pub(super) fn sampling_error(
-    temperature: &[f64],
-    hottest: usize,
-    [rows, columns]: [usize; 2],
-) -> f64 {
+pub(super) fn sampling_error(temperature: &[f64], hottest: usize, shape: [usize; 2]) -> f64 {
+    let [rows, columns] = shape;
     let [row, column] = [hottest / columns, hottest % columns];
     let along = |index: usize, n: usize, stride: usize| {
         let before = (index > 0).then(|| temperature[hottest - stride]);

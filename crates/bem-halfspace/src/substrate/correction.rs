@@ -104,7 +104,7 @@ impl Correction {
             .take_while(|start| *start < RIGID_BASE_INFLUENCE_RADIUS);
         Self {
             near: starts
-                .map(|start| Panel::new([start, SHORT_PANEL_LENGTH], value))
+                .map(|start| Panel::new(start, SHORT_PANEL_LENGTH, value))
                 .collect(),
             far: far_panels(substrate, poisson_ratio),
             limit: substrate.compliance_excess(0.0, poisson_ratio),
@@ -164,7 +164,7 @@ fn growing_panels(
     let mut panels = Vec::new();
     while start < end {
         let length = PANEL_OVER_SINGULARITY_DISTANCE * f64::hypot(start, SINGULARITY_DISTANCE);
-        panels.push(Panel::new([start, length], &function));
+        panels.push(Panel::new(start, length, &function));
         start += length;
     }
     panels
@@ -183,7 +183,7 @@ struct Panel<const N: usize> {
 
 impl<const N: usize> Panel<N> {
     /// The Chebyshev interpolant of a function on [start, start + length], converted to powers by the recurrence of Clenshaw (1955).
-    fn new([start, length]: [f64; 2], function: impl Fn(f64) -> f64) -> Self {
+    fn new(start: f64, length: f64, function: impl Fn(f64) -> f64) -> Self {
         let angle = |index: usize| PI * (index as f64 + 0.5) / N as f64;
         let value = |index| function(start + 0.5 * length * (1.0 + angle(index).cos()));
         // Evaluate the function at the Chebyshev points, and compute its Chebyshev coefficients from these values.

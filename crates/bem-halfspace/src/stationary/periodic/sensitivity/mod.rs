@@ -335,15 +335,15 @@ impl State {
         }
     }
 
-    /// The changes by relative changes of the storage and of the loss modulus, of equal size at all frequencies in \[`from`, `to`)
-    /// \[rad/s].
-    fn by_moduli(&self, [from, to]: [f64; 2]) -> Result<[Change<f64>; 2], BemError> {
+    /// The changes by relative changes of the storage and of the loss modulus, of equal size at all frequencies of a
+    /// half-open band \[rad/s].
+    fn by_moduli(&self, band: [f64; 2]) -> Result<[Change<f64>; 2], BemError> {
         let compliances = self.sliding.compliances(&self.along_x)?;
         let of = |part: fn(Complex<f64>) -> Complex<f64>| {
             let rows = compliances.iter().zip(&self.along_x);
             let changes = rows.map(|(compliance, q_x)| {
                 let frequency = self.sliding.frequency(*q_x);
-                if frequency < from || frequency >= to {
+                if frequency < band[0] || frequency >= band[1] {
                     return Complex::default();
                 }
                 -compliance * compliance * part(compliance.inv())

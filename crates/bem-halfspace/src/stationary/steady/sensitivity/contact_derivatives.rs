@@ -232,8 +232,9 @@ impl ContactDerivatives {
     /// Change of all quantities to first order when one body replaces another, under the given force or at the given depth.
     pub(super) fn between_bodies(
         &self,
-        [from, to]: [&dyn Surface; 2],
+        bodies: [&dyn Surface; 2],
     ) -> Result<Change<f64>, BemError> {
+        let [from, to] = bodies;
         let change = self.between_heights(&|point| from.height(point), &|point| to.height(point));
         Ok(self.total_change(change?))
     }
