@@ -92,6 +92,7 @@ fn grow_if_penetrating(
     let convolution = problem.convolution;
     let [rows, columns] = convolution.grid().shape();
     let workspace = &mut state.workspace;
+    // Displace the whole grid by the loads of the box.
     convolution.apply_in(
         &Rows {
             loaded: bounds.rows(),
@@ -101,6 +102,7 @@ fn grow_if_penetrating(
         &state.load,
         &mut state.displacement,
     );
+    // Outside the box, a deformed height below the depth violates the contact condition g ≥ 0.
     let highest = solved.indentation_depth - criterion.tolerance * solved.deflection;
     let displacement = &state.displacement;
     let penetrates = |element: [usize; 2]| {

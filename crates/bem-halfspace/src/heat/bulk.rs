@@ -124,6 +124,7 @@ impl BulkHeat {
         let shape = contact.pressure.grid.shape();
         let plans = PlanePlans::new(shape);
         let steps = wave_steps(&contact.pressure.grid);
+        // All depths share one transform of the pressure; stresses decay like qz e^(−qz).
         let mut waves: Coefficients = contact
             .pressure
             .pressure
@@ -315,6 +316,7 @@ impl Filters {
                 }
             }
         }
+        // Around a single contact, cut the response off at half a period, where it would wrap.
         let within_reach = |filter: Filter| {
             if contact.is_periodic {
                 filter
@@ -366,6 +368,7 @@ impl Filters {
 /// for the `powers` of the waves. Those with the smallest powers are left out as long as their sum is at most `negligible_share` of the
 /// whole, to which the others are scaled.
 fn combined(branches: &[Filter], powers: &[f64], negligible_share: f64) -> Vec<Filter> {
+    // Eigenvalues of the Gram matrix of all outputs are the powers of the principal components.
     let n = branches.len();
     let product = |one: usize, other: usize| -> f64 {
         let values = branches[one].iter().zip(&branches[other]);
@@ -375,6 +378,7 @@ fn combined(branches: &[Filter], powers: &[f64], negligible_share: f64) -> Vec<F
             .sum()
     };
     let components = SymmetricEigen::new(DMatrix::from_fn(n, n, product));
+    // Drop components in increasing order of power, up to the negligible share.
     let mut order: Vec<usize> = (0..n).collect();
     order.sort_by(|one, other| {
         let [one, other] = [one, other].map(|index| components.eigenvalues[*index]);
@@ -386,6 +390,7 @@ fn combined(branches: &[Filter], powers: &[f64], negligible_share: f64) -> Vec<F
         left_out += components.eigenvalues[*index];
         left_out > negligible_share * total
     });
+    // Scale the kept components to the whole power.
     let kept: f64 = order
         .iter()
         .map(|index| components.eigenvalues[*index])
@@ -522,6 +527,7 @@ impl Plane {
             |[x, y]| Complex::new(-1.0, SQRT_2 * x * y),
             |[x, y]| Complex::new(-SQRT_2 * y, SQRT_2 * x),
         ];
+        // Filter the stress of all waves, transform it back, and sum the squares of its components.
         let plans = PlanePlans::new(self.shape);
         let square_of = |filter: &Filter, square: &mut [f64]| {
             for pair in components {
@@ -535,6 +541,7 @@ impl Plane {
                 }
             }
         };
+        // The dissipated power is the sum of these squares over all branches of the material.
         let mut power = copies(0.0, self.shape[0] * self.shape[1]);
         for filter in &filters.branches {
             square_of(filter, &mut power);

@@ -69,6 +69,7 @@ impl PeriodicWaves {
         for_each_row(&mut spectrum, rows, |column, values| {
             let across = self.aliases(1, column);
             for (row, (value, along)) in values.iter_mut().zip(&along).enumerate() {
+                // The mean grows in time; a flux constant per element has aliases, too.
                 let mut sum = match [row, column] {
                     [0, 0] => Complex::from(depth.uniform_rise(self.mean_length * unit) / unit),
                     _ => match depth {

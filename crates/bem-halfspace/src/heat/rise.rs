@@ -98,6 +98,7 @@ impl SurfaceTemperature {
             }
             ContactKind::Period { duration } => drop(not_negative("duration", duration)?),
         }
+        // The difference from a grid with twice the edges gives the error bars.
         let coarse = kind.coarse_grid(grid, 2)?;
         let operator = |grid| HeatOperator::new(grid, kind, conductor, velocity);
         let [fine, coarse] = in_pool(grid.n_elements(), || [operator(grid), operator(&coarse)]);
@@ -127,10 +128,12 @@ impl SurfaceTemperature {
         for source in sources {
             self.check_flux(source.flux)?;
         }
+        // Only the heat of the interface is shared with the counterface.
         let absorbed_share = |source: &HeatSource<'_>| match source.depth {
             SourceDepth::Surface => share,
             SourceDepth::Bulk(_) | SourceDepth::Plane(_) => 1.0,
         };
+        // Superpose the temperatures of all sources, on the fine and on the coarse grid.
         let [fine, coarse] = &self.operators;
         let grid = fine.grid;
         let temperature_on = |operator: &HeatOperator, is_coarse: bool| {

@@ -131,6 +131,7 @@ fn far_panels(substrate: &dyn Substrate, poisson_ratio: f64) -> Vec<Panel<LONG_P
         return Vec::new();
     }
     let limit = substrate.compliance_excess(0.0, poisson_ratio);
+    // Hankel transform of the excess over its limit; a window suppresses the truncation at large u.
     let waves: Vec<[f64; 2]> = wave_rule(FAR_WAVE_PANELS, FAR_MAX_WAVE_NUMBER)
         .map(|[u, weight]| {
             let window = (-(u / WINDOW_WAVE_NUMBER).powi(WINDOW_POWER)).exp();

@@ -125,6 +125,7 @@ impl ContactDerivatives {
             normal_force: None,
             contact_area: measures.map(|[area, _]| system.measure_gradient(&adjoint[2], area)),
         };
+        // Add the explicit terms of the friction: slopes of the body or of the displacements.
         let by_slope_term = contact.weighted_by_images(&contact.loads).into_iter();
         let slope_factor = points.slope_unit() / contact.total;
         let friction_gradient = &mut gradients.friction_coefficient;

@@ -212,6 +212,7 @@ impl GridKernel {
     ) -> CreepChange {
         let instantaneous = to.instantaneous - from.instantaneous;
         let flow = self.spacing * (to.flow_per_length - from.flow_per_length);
+        // Each element adds δJ and J δ ln l with its compliance J and its memory length l.
         let ends = from.retardations.iter().zip(&to.retardations);
         let retarded = ends
             .zip(&self.creep.retardations)

@@ -85,6 +85,7 @@ impl KernelWaves<'_> {
         wave_number: f64,
         amplitudes: [Complex<f64>; 2],
     ) {
+        // The mean of a wave over an element is sin(q/2)/(q/2) times its value at the centre.
         let half = 0.5 * wave_number;
         let mean = half.sin() / half;
         let along_y = self.factors_along_y(wave_number, self.max_offsets[1]);
