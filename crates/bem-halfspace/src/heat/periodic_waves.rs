@@ -4,8 +4,8 @@
 //! k T̂(q) = Q̂(q) S(β)/β,   β² = q² − i q_x v/D,   Re β > 0;       q = 0:  k T̄ = (1/√π) ∫_0^√(4Dt) S ds · Q̄
 //! ```
 //!
-//! with the ratio S of the depth of the sources. A flux that is constant per element has all waves q + 2πm/Δ beside the resolved
-//! one, weighted with the transform sinc(q_xΔ_x/2) sinc(q_yΔ_y/2) of an element; at the centres of the elements they add up.
+//! with the ratio S of the depth of the sources. A flux that is constant per element also has the aliases q + 2πm/Δ of the
+//! resolved wave, weighted with the transform sinc(q_xΔ_x/2) sinc(q_yΔ_y/2) of an element; at the centres of the elements they add up.
 //!
 //! Theory: docs/theory/heat.md, "Periodic surfaces".
 
