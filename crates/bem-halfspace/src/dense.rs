@@ -22,6 +22,7 @@ pub(crate) fn solve(
     use faer::{Mat, MatMut, Par};
 
     let n = right_sides.first().map_or(0, Vec::len);
+    // Allocate the memory of the factorisation, and of the solution for one right side at a time.
     let [mut forward, mut backward] = [(); 2].map(|()| vec![0_usize; n]);
     let for_factors = factor::lu_in_place_scratch::<usize, f64>(n, n, Par::Seq, Default::default());
     let for_solution = solve::solve_in_place_scratch::<usize, f64>(n, 1, Par::Seq);
@@ -38,6 +39,7 @@ pub(crate) fn solve(
         stack,
         Default::default(),
     );
+    // A pivot that is zero or not finite means that the matrix is singular.
     let is_regular = |pivot: usize| {
         let pivot = matrix[(pivot, pivot)];
         pivot.is_finite() && pivot != 0.0

@@ -106,6 +106,7 @@ pub fn cylinder_sliding(
     let singular = difference * a * factor;
     let bracket = 2.0 * centre * a * factor + (a * b + a2) * factor;
     let friction_over_slope = difference * bracket / (1.0 + 2.0 * singular);
+    // Scale the results by the slope l/R of the cylinder at the distance l from its lowest point.
     let slope = half_length / cylinder.radius();
     let stress = 2.0 * modulus / material.half_space_factor() * slope;
     let line_load = 0.5 * PI * stress * half_length * (1.0 + 2.0 * singular);

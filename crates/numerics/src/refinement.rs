@@ -412,8 +412,8 @@ impl Goal<'_> {
         elements.powf(self.work_exponent)
     }
 
-    /// Work of the first error estimate on n `elements`: the solutions on 3n/8, n/2, 3n/4 and n elements, of which the first is counted
-    /// even if n is too small for it, and the other errors.
+    /// Work of the first error estimate on n `elements`: the solutions on 3n/8, n/2, 3n/4 and n elements, and the other errors. The
+    /// first solution is counted even if n is too small for it.
     fn initial_work(&self, elements: usize) -> f64 {
         let work = |part: f64| self.work_on(part * elements as f64);
         work(0.375) + work(0.5) + work(0.75) + (1.0 + self.extra_work) * work(1.0)

@@ -221,9 +221,9 @@ impl Level {
 
 /// Restriction to the parent level: `sums` gets, for each parent block, the sum of `load` over its two by two children.
 ///
-/// `load` takes the row-major index of a child on a level of the shape [rows, columns].
+/// `load` takes the row-major index of a child on a level of the shape `shape`.
 fn sum_children(
-    [rows, columns]: [usize; 2],
+    shape: [usize; 2],
     load: impl Fn(usize) -> f64 + Sync,
     parent_columns: usize,
     sums: &mut [f64],
@@ -231,9 +231,9 @@ fn sum_children(
     for_each_row(sums, parent_columns, |row, sums| {
         for (column, sum) in sums.iter_mut().enumerate() {
             *sum = 0.0;
-            for row in 2 * row..(2 * row + 2).min(rows) {
-                for column in 2 * column..(2 * column + 2).min(columns) {
-                    *sum += load(row * columns + column);
+            for row in 2 * row..(2 * row + 2).min(shape[0]) {
+                for column in 2 * column..(2 * column + 2).min(shape[1]) {
+                    *sum += load(row * shape[1] + column);
                 }
             }
         }

@@ -92,6 +92,7 @@ fn grow_if_penetrating(
     let convolution = problem.convolution;
     let [rows, columns] = convolution.grid().shape();
     let workspace = &mut state.workspace;
+    // Displace the whole grid by the loads of the box.
     convolution.apply_in(
         &Rows {
             loaded: bounds.rows(),
@@ -101,6 +102,7 @@ fn grow_if_penetrating(
         &state.load,
         &mut state.displacement,
     );
+    // Outside the box, a deformed height below the depth violates the contact condition g ≥ 0.
     let highest = solved.indentation_depth - criterion.tolerance * solved.deflection;
     let displacement = &state.displacement;
     let penetrates = |element: [usize; 2]| {
@@ -172,13 +174,13 @@ fn prolong_coarse_solution(problem: LoadProblem, state: &mut LoadState) {
 
 /// Restriction of row-major heights \[m] to elements of twice the edges: mean of the finite heights of two by two elements, `+∞` if
 /// there are none.
-fn restrict_heights(heights: &[f64], [rows, columns]: [usize; 2]) -> Vec<f64> {
+fn restrict_heights(heights: &[f64], shape: [usize; 2]) -> Vec<f64> {
     // This closure returns the mean of the finite heights of a block of two by two elements.
     let mean = |row: usize, column: usize| {
         let (mut sum, mut count) = (0.0, 0.0);
-        for row in row..(row + 2).min(rows) {
-            for column in column..(column + 2).min(columns) {
-                let height = heights[row * columns + column];
+        for row in row..(row + 2).min(shape[0]) {
+            for column in column..(column + 2).min(shape[1]) {
+                let height = heights[row * shape[1] + column];
                 if height.is_finite() {
                     sum += height;
                     count += 1.0;
@@ -192,9 +194,9 @@ fn restrict_heights(heights: &[f64], [rows, columns]: [usize; 2]) -> Vec<f64> {
         }
     };
     // Compute this mean for all blocks, which are the elements of the coarser grid.
-    let shape = [rows, columns].map(|n| n.div_ceil(2));
-    let mut means = vec![0.0; shape[0] * shape[1]];
-    for_each_row(&mut means, shape[1], |row, means| {
+    let coarse = shape.map(|n| n.div_ceil(2));
+    let mut means = vec![0.0; coarse[0] * coarse[1]];
+    for_each_row(&mut means, coarse[1], |row, means| {
         for (column, value) in means.iter_mut().enumerate() {
             *value = mean(2 * row, 2 * column);
         }

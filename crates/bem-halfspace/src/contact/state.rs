@@ -247,6 +247,7 @@ impl ContactBox {
                 });
             }
         }
+        // Divide boundary elements where load inside and gap outside place the boundary.
         let edges = self.convolution.grid().spacing();
         let field = BoundaryField {
             shape,

@@ -224,6 +224,7 @@ pub(crate) fn boundary_runs(
                 while end < along.end && side(end) == own_side {
                     end += 1;
                 }
+                // Only an edge with a loaded element on exactly one side belongs to the boundary.
                 if own_side != 0 {
                     let elements = (first..end).filter_map(|one| pair(one)[0].or(pair(one)[1]));
                     runs.push(BoundaryRun {

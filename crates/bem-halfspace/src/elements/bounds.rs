@@ -64,8 +64,8 @@ impl Bounds {
     }
 
     /// True if the element [row, column] of the field lies in the box.
-    pub(crate) fn contains(&self, [row, column]: [usize; 2]) -> bool {
-        self.rows().contains(&row) && self.columns().contains(&column)
+    pub(crate) fn contains(&self, element: [usize; 2]) -> bool {
+        self.rows().contains(&element[0]) && self.columns().contains(&element[1])
     }
 
     /// Range of rows.
@@ -89,8 +89,8 @@ impl Bounds {
     }
 
     /// Index in the box, row-major, of an element [row, column] of the field.
-    pub(crate) const fn index_of(&self, [row, column]: [usize; 2]) -> usize {
-        (row - self.lower[0]) * self.shape()[1] + column - self.lower[1]
+    pub(crate) const fn index_of(&self, element: [usize; 2]) -> usize {
+        (element[0] - self.lower[0]) * self.shape()[1] + element[1] - self.lower[1]
     }
 
     /// Copies the part inside the box from a field with `columns` columns.

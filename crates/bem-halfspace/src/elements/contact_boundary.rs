@@ -177,6 +177,7 @@ impl BoundaryField {
             .iter()
             .filter(|element| self.inside[**element])
             .count();
+        // Four corners in contact enclose the whole rectangle, and none nothing.
         if n_inside % 4 == 0 {
             return PolygonArea {
                 area: (n_inside / 4) as f64,
@@ -197,6 +198,7 @@ impl BoundaryField {
                     [to, from]
                 };
                 let [load, gap] = [inside, outside].map(|corner| self.values[elements[corner]]);
+                // Interpolate the crossing from load and gap, halfway if no gap is known.
                 let fraction = if gap.is_finite() {
                     load / (load + load_gap_ratios[from % 2] * gap.max(0.0))
                 } else {

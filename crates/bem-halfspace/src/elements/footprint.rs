@@ -176,9 +176,9 @@ impl Footprint {
 
     /// Approximate number of all elements with the edges [Δx, Δy] \[m]: area of the footprint over area of an element, without
     /// an upper limit.
-    pub(crate) fn n_elements(&self, [dx, dy]: [f64; 2]) -> f64 {
+    pub(crate) fn n_elements(&self, spacing: [f64; 2]) -> f64 {
         let Self { x, y } = self;
-        (x[1] - x[0]) / dx * ((y[1] - y[0]) / dy)
+        (x[1] - x[0]) / spacing[0] * ((y[1] - y[0]) / spacing[1])
     }
 }
 

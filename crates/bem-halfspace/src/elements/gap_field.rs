@@ -37,6 +37,7 @@ pub(crate) fn surroundings(
     if !is_covered(contact) {
         return None;
     }
+    // Enlarge the box row by row up to the margin, wherever the body covers all added elements.
     let mut grown = *contact;
     for axis in 0..2 {
         let margin = (MARGIN * contact.shape()[axis] as f64).ceil();

@@ -83,8 +83,7 @@ impl Layout {
         rows.flat_map(move |row| columns.clone().map(move |column| [row, column]))
     }
 
-    /// The element in front of the mirrors, counted from the first one there, of which an element [row, column] of the footprint is an
-    /// image.
+    /// Element in front of the mirrors, counted from the first one there, with an element [row, column] of the footprint as its image.
     pub(crate) fn in_front(&self, element: [usize; 2]) -> [usize; 2] {
         let first = self.first();
         [0, 1].map(|axis| match element[axis] {

@@ -124,6 +124,7 @@ impl BulkHeat {
         let shape = contact.pressure.grid.shape();
         let plans = PlanePlans::new(shape);
         let steps = wave_steps(&contact.pressure.grid);
+        // All depths share one transform of the pressure; stresses decay like qz e^(−qz).
         let mut waves: Coefficients = contact
             .pressure
             .pressure
@@ -151,7 +152,7 @@ impl BulkHeat {
             .collect();
         for_each_row(&mut planes, 1, |_, plane| {
             for plane in plane {
-                plane.compute((shape, &waves), steps, &filters);
+                plane.compute(shape, &waves, steps, &filters);
             }
         });
         Ok(Self {
@@ -286,12 +287,12 @@ impl Filters {
     fn new(
         contact: &Pressed<'_>,
         waves: &[Complex<f64>],
-        [step_x, step_y]: [f64; 2],
+        steps: [f64; 2],
         rule: DepthRule,
     ) -> Result<Self, BemError> {
         let spectrum = contact.material.relaxation();
         let shape = contact.pressure.grid.shape();
-        let of_filters = FilteredWave::of(contact, [step_x, step_y]);
+        let of_filters = FilteredWave::of(contact, steps);
         let modulus = |wave: &FilteredWave| -> Result<Complex<f64>, BemError> {
             let frequency = wave.q_x.abs() * contact.velocity * wave.time_factor;
             let small = spectrum.complex_modulus(frequency)?;
@@ -302,10 +303,10 @@ impl Filters {
         // Power per area of each wave number along x, or of each wave, up to the square of the filter: the squares of the components of
         // the stress add up to 4 (qz)² e^(−2qz), whose integral over the depth is 1/q.
         let is_by_row = contact.wave_shift.is_none();
-        let rows = wave_numbers(shape[0], step_x);
+        let rows = wave_numbers(shape[0], steps[0]);
         let mut powers = vec![0.0; if is_by_row { rows.len() } else { waves.len() }];
         for (column, waves) in waves.chunks_exact(rows.len()).enumerate() {
-            let q_y = signed_offset(column, shape[1]) as f64 * step_y;
+            let q_y = signed_offset(column, shape[1]) as f64 * steps[1];
             let first = if is_by_row { 0 } else { column * rows.len() };
             let of_rows = powers[first..].iter_mut().zip(waves).zip(&rows);
             for (row, ((power, wave), q_x)) in of_rows.enumerate() {
@@ -315,6 +316,7 @@ impl Filters {
                 }
             }
         }
+        // Around a single contact, cut the response off at half a period, where it would wrap.
         let within_reach = |filter: Filter| {
             if contact.is_periodic {
                 filter
@@ -366,6 +368,7 @@ impl Filters {
 /// for the `powers` of the waves. Those with the smallest powers are left out as long as their sum is at most `negligible_share` of the
 /// whole, to which the others are scaled.
 fn combined(branches: &[Filter], powers: &[f64], negligible_share: f64) -> Vec<Filter> {
+    // Eigenvalues of the Gram matrix of all outputs are the powers of the principal components.
     let n = branches.len();
     let product = |one: usize, other: usize| -> f64 {
         let values = branches[one].iter().zip(&branches[other]);
@@ -375,6 +378,7 @@ fn combined(branches: &[Filter], powers: &[f64], negligible_share: f64) -> Vec<F
             .sum()
     };
     let components = SymmetricEigen::new(DMatrix::from_fn(n, n, product));
+    // Drop components in increasing order of power, up to the negligible share.
     let mut order: Vec<usize> = (0..n).collect();
     order.sort_by(|one, other| {
         let [one, other] = [one, other].map(|index| components.eigenvalues[*index]);
@@ -386,6 +390,7 @@ fn combined(branches: &[Filter], powers: &[f64], negligible_share: f64) -> Vec<F
         left_out += components.eigenvalues[*index];
         left_out > negligible_share * total
     });
+    // Scale the kept components to the whole power.
     let kept: f64 = order
         .iter()
         .map(|index| components.eigenvalues[*index])
@@ -479,7 +484,8 @@ impl Plane {
     /// Computes the power dissipated at this depth from the pressure waves of a period of `period` elements.
     fn compute(
         &mut self,
-        (period, waves): ([usize; 2], &[Complex<f64>]),
+        period: [usize; 2],
+        waves: &[Complex<f64>],
         steps: [f64; 2],
         filters: &Filters,
     ) {
@@ -521,6 +527,7 @@ impl Plane {
             |[x, y]| Complex::new(-1.0, SQRT_2 * x * y),
             |[x, y]| Complex::new(-SQRT_2 * y, SQRT_2 * x),
         ];
+        // Filter the stress of all waves, transform it back, and sum the squares of its components.
         let plans = PlanePlans::new(self.shape);
         let square_of = |filter: &Filter, square: &mut [f64]| {
             for pair in components {
@@ -534,6 +541,7 @@ impl Plane {
                 }
             }
         };
+        // The dissipated power is the sum of these squares over all branches of the material.
         let mut power = copies(0.0, self.shape[0] * self.shape[1]);
         for filter in &filters.branches {
             square_of(filter, &mut power);

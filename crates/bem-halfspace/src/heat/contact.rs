@@ -186,6 +186,7 @@ impl SlidingContact<'_> {
             kind,
             area: AreaCorrection::new(elements, self.contact_area, kind)?,
         };
+        // Choose the resolution of the bulk, whose stress and power have a grid of their own.
         let bulk_grid = match kind {
             // Where the interface heats more than the bulk, coarser elements suffice.
             ContactKind::Body if share * shear_power > bulk_power => OF_BODY.coarser(),
@@ -204,14 +205,17 @@ impl SlidingContact<'_> {
             ]
         });
         let [fine, coarse] = [fine?, coarse?];
+        // Widen the difference of both grids by the errors that it does not show.
         let known = |of: fn(&Averages) -> f64| {
             let rise = estimate(of(&fine.averages), of(&coarse.averages))?;
             let unresolved = layer_error(
-                [of(&fine.by_bulk), of(&coarse.by_bulk)],
+                of(&fine.by_bulk),
+                of(&coarse.by_bulk),
                 fine.halvings_to_layer,
             );
             Ok::<_, BemError>(rise.widened(of(&fine.errors) + unresolved))
         };
+        // The mean over the depth also has the error of the quadrature over ln z.
         let by_depth = match (fine.by_depth, coarse.by_depth) {
             (Some(fine_profile), Some(coarse)) => {
                 let mean = estimate(fine_profile.mean().value, coarse.mean().value)?;
@@ -242,7 +246,7 @@ impl SlidingContact<'_> {
 ///
 /// Only heat of this layer reaches the surface of a fast contact, and short waves dissipate there. As long as the elements are larger, the
 /// temperature grows with each halving, by a ratio that falls: the last ratio bounds those to come.
-fn layer_error([fine, coarse]: [f64; 2], halvings: f64) -> f64 {
+fn layer_error(fine: f64, coarse: f64, halvings: f64) -> f64 {
     let ratio = (fine / coarse).min(LARGEST_GROWTH);
     if halvings > 0.0 && ratio > 1.0 {
         let growth = fine * (ratio.powf(halvings) - 1.0);
@@ -358,6 +362,7 @@ fn surroundings(
     resolution: BulkGrid,
     multiple: usize,
 ) -> Result<PressureField, BemError> {
+    // Merge elements until the longer side of the grid has no more than the resolution allows.
     let longest = pressure.grid.shape().into_iter().max().unwrap_or(1);
     let factor = longest.div_ceil(resolution.most_elements);
     let coarse_grid = kind.coarse_grid(&pressure.grid, factor * multiple)?;
@@ -365,6 +370,7 @@ fn surroundings(
     if resolution.period_over_contact == 1 {
         return Ok(around);
     }
+    // Put a body or line into the middle of a longer period, of a length with fast transforms.
     let (shape, spacing) = (around.grid.shape(), around.grid.spacing());
     let period = [0, 1].map(|axis| match shape[axis] {
         1 if kind == ContactKind::Line => 1,
@@ -469,6 +475,7 @@ impl Heated<'_> {
         if absorbed > 0.0 {
             by_shear = self.rise_by_shear(grid, &flux, self.share)?;
         }
+        // The bulk heats the surface of its own grid; interpolate from there to the elements.
         let mut by_bulk = vec![0.0; grid.n_elements()];
         let mut around = None;
         let mut halvings_to_layer = 0.0;
@@ -511,6 +518,7 @@ impl Heated<'_> {
             largest: error(of_bulk.largest, of_shear.largest),
             mean: error(of_bulk.mean, of_shear.mean),
         };
+        // Find the temperature over the depth by the bulk and the share of the interface.
         let by_depth = match &around {
             Some(around) => {
                 let flux = PressureField {
@@ -559,6 +567,7 @@ impl Heated<'_> {
     ) -> Result<Option<FoundProfile>, BemError> {
         let (grid, origin) = (&around.pressure.grid, around.pressure.origin);
         let diffusivity = self.conductor.diffusivity();
+        // Standing waves of a period diffuse over √(4Dt); other contacts are alone on a half space.
         let beside = match self.kind {
             ContactKind::Period { duration } => Beside::Periods {
                 mean_length: 2.0 * (diffusivity.sqrt() * duration.sqrt()),

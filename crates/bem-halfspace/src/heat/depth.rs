@@ -238,6 +238,7 @@ impl HeatWaves<'_> {
             for row in 0..rows {
                 let place = [signed_offset(row, rows), column.cast_signed()];
                 let q = [0, 1].map(|axis| self.steps[axis] * place[axis] as f64);
+                // Waves of the power; deeper planes have coarser grids and resolve fewer.
                 let powers_of = |planes: &[Plane]| -> Vec<Complex<f64>> {
                     let waves = planes.iter().map_while(|plane| plane.wave(place));
                     let powers = waves.zip(nodes);
@@ -245,6 +246,7 @@ impl HeatWaves<'_> {
                         .map(|(wave, node)| wave * node.power_of_unit)
                         .collect()
                 };
+                // Parseval: products of waves add up to the mean of the product.
                 let flux = self.surface_flux[column * rows + row];
                 let rises = rises(q, &powers_of(self.sources));
                 for ((sum, weight), rise) in
@@ -255,6 +257,7 @@ impl HeatWaves<'_> {
                 }
             }
         });
+        // Add the columns of waves, which were computed in parallel, for each plane.
         let of_plane = |plane: usize| {
             let mut all = WeightedRise::default();
             for sum in sums.iter().skip(plane).step_by(nodes.len()) {
@@ -296,6 +299,7 @@ pub(super) struct FoundProfile {
 impl DepthHeat<'_> {
     /// The temperature over the depth below a contact area with the mean rise `contact` \[K]; `None` if nothing is dissipated there.
     pub(super) fn profile(&self, contact: f64) -> Result<Option<FoundProfile>, BemError> {
+        // Find the power-weighted temperature of each plane by all planes and the interface.
         let planes = self.bulk.spectra();
         let nodes: Vec<Node> = planes.iter().map(|plane| self.node(plane)).collect();
         let sums = match self.beside {
@@ -309,6 +313,7 @@ impl DepthHeat<'_> {
                 };
                 let standing = StandingWaves::new(&nodes, mean_length);
                 waves.weighted_rises(&nodes, |[q_x, q_y], powers| {
+                    // Waves with crests along x do not move over the elastomer, and grow in time.
                     if q_x == 0.0 {
                         return standing.rises(q_y, powers);
                     }
@@ -321,6 +326,7 @@ impl DepthHeat<'_> {
                 is_line,
             } => FreeHeat::new(self, contact_length, is_line)?.weighted_rises(self, &nodes),
         };
+        // Divide it by the power of the plane; planes without power have no mean.
         let rise_of = |((plane, node), sum): ((&Plane, &Node), &WeightedRise)| {
             let power = plane.mean_power() * node.power_of_unit;
             (power > 0.0).then(|| DepthRise {
@@ -444,6 +450,7 @@ struct StandingWaves {
 impl StandingWaves {
     /// Pulses up to the diffusion length `longest`, \[m].
     fn new(nodes: &[Node], longest: f64) -> Self {
+        // Quadrature over ln s by octaves, down to pulses far narrower than the planes' spacing.
         let narrowest = nodes
             .iter()
             .map(|node| node.spacing)
@@ -461,6 +468,7 @@ impl StandingWaves {
             })
             .filter(|[length, _]| *length > 0.0)
             .collect();
+        // Pulses from plane to plane, with the mirror images at the insulated surface.
         let mut of_surface = Vec::with_capacity(lengths.len() * nodes.len());
         let mut of_planes = Vec::with_capacity(of_surface.capacity() * nodes.len());
         for [length, _] in &lengths {

@@ -66,6 +66,7 @@ impl FreeHeat {
         contact_length: f64,
         is_line: bool,
     ) -> Result<Self, BemError> {
+        // Lengthen the period along x, and damp what is found a period ahead by e^(−aX).
         let ([rows, columns], spacing) = (heat.grid.shape(), heat.grid.spacing());
         let grid = Grid::new([PERIOD_OVER_SURROUNDINGS * rows, columns], spacing)?;
         let period = grid.shape()[0] as f64 * spacing[0];
@@ -84,9 +85,11 @@ impl FreeHeat {
             area: period * width,
             without_others: 0.0,
         };
+        // For a fast contact, damping alone suppresses the heat of the other contacts.
         if 0.5 * velocity_over_diffusivity * period >= MAX_DAMPING {
             return Ok(free);
         }
+        // Otherwise that heat is nearly uniform, and is found from a Gaussian source in the middle.
         let radius = GAUSSIAN_RADIUS * contact_length;
         let alone = gaussian_alone(radius, heat.velocity_over_diffusivity, is_line);
         Ok(Self {
@@ -122,6 +125,7 @@ impl FreeHeat {
             weights: &weights,
             surface_flux: &waves_of_elements(&self.grid, &flux),
         };
+        // Compute the temperatures with the wave numbers q_x + ia of the damped field.
         let mut sums = waves.weighted_rises(nodes, |q, powers| {
             let beta = decay_constant(q, self.velocity_over_diffusivity, self.damping);
             running_wave(beta, nodes, powers)
@@ -152,6 +156,7 @@ impl FreeHeat {
     /// Mean temperature k T/P on the period of a Gaussian source of a radius σ \[m], weighted with the source, \[1/m]; on a line without unit.
     fn gaussian_on_period(&self, radius: f64) -> f64 {
         let steps = wave_steps(&self.grid);
+        // Truncate the sum where the Gaussian e^(−q²σ²/2) is below rounding.
         let largest = (2.0 * LARGEST_EXPONENT).sqrt() / radius;
         let count = |axis: usize| match self.grid.shape()[axis] {
             1 => 0,

@@ -41,6 +41,7 @@ impl HeatOperator {
         conductor: &HeatConductor,
         velocity: f64,
     ) -> Result<Self, BemError> {
+        // With the edge along x as the unit of length, kernels depend on ratios of lengths only.
         let unit = grid.spacing()[0];
         let scaled = Grid::new(grid.shape(), grid.spacing().map(|edge| edge / unit))?;
         let diffusivity = conductor.diffusivity();

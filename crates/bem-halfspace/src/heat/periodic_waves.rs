@@ -4,8 +4,8 @@
 //! k T̂(q) = Q̂(q) S(β)/β,   β² = q² − i q_x v/D,   Re β > 0;       q = 0:  k T̄ = (1/√π) ∫_0^√(4Dt) S ds · Q̄
 //! ```
 //!
-//! with the ratio S of the depth of the sources. A flux that is constant per element has all waves q + 2πm/Δ beside the resolved
-//! one, weighted with the transform sinc(q_xΔ_x/2) sinc(q_yΔ_y/2) of an element; at the centres of the elements they add up.
+//! with the ratio S of the depth of the sources. A flux that is constant per element also has the aliases q + 2πm/Δ of the
+//! resolved wave, weighted with the transform sinc(q_xΔ_x/2) sinc(q_yΔ_y/2) of an element; at the centres of the elements they add up.
 //!
 //! Theory: docs/theory/heat.md, "Periodic surfaces".
 
@@ -69,6 +69,7 @@ impl PeriodicWaves {
         for_each_row(&mut spectrum, rows, |column, values| {
             let across = self.aliases(1, column);
             for (row, (value, along)) in values.iter_mut().zip(&along).enumerate() {
+                // The mean grows in time; a flux constant per element has aliases, too.
                 let mut sum = match [row, column] {
                     [0, 0] => Complex::from(depth.uniform_rise(self.mean_length * unit) / unit),
                     _ => match depth {
@@ -146,10 +147,11 @@ impl PeriodicWaves {
 ///
 /// β² = (q_x + ia)² + q_y² − i (q_x + ia) v/D with the rate a.
 pub(super) fn decay_constant(
-    [q_x, q_y]: [f64; 2],
+    wave_numbers: [f64; 2],
     velocity_over_diffusivity: f64,
     damping: f64,
 ) -> Complex<f64> {
+    let [q_x, q_y] = wave_numbers;
     let square = q_x * q_x + q_y * q_y + damping * (velocity_over_diffusivity - damping);
     let transport = q_x * (velocity_over_diffusivity - 2.0 * damping);
     let real = (0.5 * (square.hypot(transport) + square)).sqrt();

@@ -98,6 +98,7 @@ impl SurfaceTemperature {
             }
             ContactKind::Period { duration } => drop(not_negative("duration", duration)?),
         }
+        // The difference from a grid with twice the edges gives the error bars.
         let coarse = kind.coarse_grid(grid, 2)?;
         let operator = |grid| HeatOperator::new(grid, kind, conductor, velocity);
         let [fine, coarse] = in_pool(grid.n_elements(), || [operator(grid), operator(&coarse)]);
@@ -127,10 +128,12 @@ impl SurfaceTemperature {
         for source in sources {
             self.check_flux(source.flux)?;
         }
+        // Only the heat of the interface is shared with the counterface.
         let absorbed_share = |source: &HeatSource<'_>| match source.depth {
             SourceDepth::Surface => share,
             SourceDepth::Bulk(_) | SourceDepth::Plane(_) => 1.0,
         };
+        // Superpose the temperatures of all sources, on the fine and on the coarse grid.
         let [fine, coarse] = &self.operators;
         let grid = fine.grid;
         let temperature_on = |operator: &HeatOperator, is_coarse: bool| {
@@ -240,11 +243,8 @@ impl Averages {
 /// Twice the excess of a temperature over that of the centre of its hottest element. The maximum is at most half an element away, and
 /// up to there the temperature rises by half the mean difference from the neighbours along each axis. The excess counts twice, because
 /// it may also hide as much of the difference from the coarse grid.
-pub(super) fn sampling_error(
-    temperature: &[f64],
-    hottest: usize,
-    [rows, columns]: [usize; 2],
-) -> f64 {
+pub(super) fn sampling_error(temperature: &[f64], hottest: usize, shape: [usize; 2]) -> f64 {
+    let [rows, columns] = shape;
     let [row, column] = [hottest / columns, hottest % columns];
     let along = |index: usize, n: usize, stride: usize| {
         let before = (index > 0).then(|| temperature[hottest - stride]);

@@ -78,13 +78,13 @@ impl TimeRule {
         };
         let extent = [0, 1].map(|axis| grid.shape()[axis] as f64 * grid.spacing()[axis]);
         let farthest = LAST_NODE_RATIO * extent[0].max(extent[1]);
-        Self::new(grid, [wake_length, farthest], edge_x.min(edge_y), across)
+        Self::new(grid, wake_length, farthest, edge_x.min(edge_y), across)
     }
 
     /// The rule for elements that are infinite along y; `wake_length` is finite.
     pub(super) fn of_line(grid: &Grid, wake_length: f64) -> Self {
         let farthest = f64::INFINITY;
-        Self::new(grid, [wake_length, farthest], grid.spacing()[0], |_| {
+        Self::new(grid, wake_length, farthest, grid.spacing()[0], |_| {
             vec![1.0]
         })
     }
@@ -92,7 +92,8 @@ impl TimeRule {
     /// The rule for elements with the shortest edge `edge` and factors `across(s)` of y, up to the diffusion length `farthest`.
     fn new(
         grid: &Grid,
-        [wake_length, farthest]: [f64; 2],
+        wake_length: f64,
+        farthest: f64,
         edge: f64,
         across: impl Fn(f64) -> Vec<f64>,
     ) -> Self {

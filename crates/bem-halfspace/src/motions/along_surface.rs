@@ -226,7 +226,7 @@ fn record(steps: &[MovingStep], rows: &[MotionRow], spacing: f64) -> MotionRecor
     for (step, ends) in steps.iter().zip(rows.windows(2)) {
         // Add the work of the step to the record, and append the state at the end of the step.
         let (before, row) = (&ends[0], &ends[1]);
-        add_work(&mut record, step, [before, row]);
+        add_work(&mut record, step, before, row);
         record.steps.push(MotionStep {
             stage: step.stage,
             time: step.end.time,
@@ -247,7 +247,7 @@ fn record(steps: &[MovingStep], rows: &[MotionRow], spacing: f64) -> MotionRecor
 /// `before` and `now` are the states at the beginning and at the end of the step. θ = 0 gives the trapezoidal rule in time, ½ Δt
 /// (F_old v_old + F_new v_new), whose errors cancel over a sinusoidal cycle; θ = ½ gives the midpoint rule F_new Δx. In between,
 /// both are blended with the weights 1 − 2θ and 2θ.
-fn add_work(record: &mut MotionRecord, step: &MovingStep, [before, now]: [&MotionRow; 2]) {
+fn add_work(record: &mut MotionRecord, step: &MovingStep, before: &MotionRow, now: &MotionRow) {
     let time_level = now.time_level;
     let distance = now.position - before.position;
     let mean = |[from, to]: [f64; 2]| to + (0.5 - time_level) * (from - to);

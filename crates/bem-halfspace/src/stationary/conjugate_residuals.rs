@@ -14,7 +14,7 @@ use crate::parallel::row_blocks::{RowBlocks, copies};
 /// falls to this fraction by its orthogonalisation, only rounding error is left and the iteration ends (breakdown). If a step
 /// reduces the squared norm ‖r‖² of the residual r by less than this fraction, it stagnates: the next direction is then built from
 /// the last image A p instead of r (Young & Jea 1980).
-const ROUNDING: f64 = f32::EPSILON as f64;
+const EPSILON: f64 = f32::EPSILON as f64;
 
 /// Size of the Krylov basis and length of the iteration.
 #[derive(Debug, Clone, Copy)]
@@ -71,14 +71,14 @@ pub(crate) fn gcr<T: Real>(
         let (factors, products) = orthogonalise(&mut new.image, residual, &basis);
         new.image_square = products.square;
         let square_before = products.square + products.removed_square;
-        if products.square <= ROUNDING * ROUNDING * square_before || products.square.is_nan() {
+        if products.square <= EPSILON * EPSILON * square_before || products.square.is_nan() {
             return;
         }
 
         // Find the step along the direction that minimises the residual. If it hardly reduces the residual, keep the image as the
         // source of the next direction.
         let step = -products.with_residual / products.square;
-        let stagnates = step * step * products.square < ROUNDING * residual_square;
+        let stagnates = step * step * products.square < EPSILON * residual_square;
         stagnant_image = stagnates.then(|| {
             // The image is scaled to the norm of the residual, because a preconditioner that amplifies it in every step would overflow.
             let scale = T::rounded((residual_square / products.square).sqrt());

@@ -104,7 +104,7 @@ impl Correction {
             .take_while(|start| *start < RIGID_BASE_INFLUENCE_RADIUS);
         Self {
             near: starts
-                .map(|start| Panel::new([start, SHORT_PANEL_LENGTH], value))
+                .map(|start| Panel::new(start, SHORT_PANEL_LENGTH, value))
                 .collect(),
             far: far_panels(substrate, poisson_ratio),
             limit: substrate.compliance_excess(0.0, poisson_ratio),
@@ -131,6 +131,7 @@ fn far_panels(substrate: &dyn Substrate, poisson_ratio: f64) -> Vec<Panel<LONG_P
         return Vec::new();
     }
     let limit = substrate.compliance_excess(0.0, poisson_ratio);
+    // Hankel transform of the excess over its limit; a window suppresses the truncation at large u.
     let waves: Vec<[f64; 2]> = wave_rule(FAR_WAVE_PANELS, FAR_MAX_WAVE_NUMBER)
         .map(|[u, weight]| {
             let window = (-(u / WINDOW_WAVE_NUMBER).powi(WINDOW_POWER)).exp();
@@ -164,7 +165,7 @@ fn growing_panels(
     let mut panels = Vec::new();
     while start < end {
         let length = PANEL_OVER_SINGULARITY_DISTANCE * f64::hypot(start, SINGULARITY_DISTANCE);
-        panels.push(Panel::new([start, length], &function));
+        panels.push(Panel::new(start, length, &function));
         start += length;
     }
     panels
@@ -183,7 +184,7 @@ struct Panel<const N: usize> {
 
 impl<const N: usize> Panel<N> {
     /// The Chebyshev interpolant of a function on [start, start + length], converted to powers by the recurrence of Clenshaw (1955).
-    fn new([start, length]: [f64; 2], function: impl Fn(f64) -> f64) -> Self {
+    fn new(start: f64, length: f64, function: impl Fn(f64) -> f64) -> Self {
         let angle = |index: usize| PI * (index as f64 + 0.5) / N as f64;
         let value = |index| function(start + 0.5 * length * (1.0 + angle(index).cos()));
         // Evaluate the function at the Chebyshev points, and compute its Chebyshev coefficients from these values.

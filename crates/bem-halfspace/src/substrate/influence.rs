@@ -31,7 +31,8 @@ pub fn influence(offset: [f64; 2], edges: [f64; 2]) -> f64 {
 
 /// Multipole expansion of K up to order 4 at the offset [x, y] from the centre of a rectangle with the edges [a, b], all in units
 /// of one length. Its terms are means over the rectangle of Legendre polynomials of the angle between field point and source point.
-fn multipoles([x, y]: [f64; 2], [a, b]: [f64; 2]) -> f64 {
+fn multipoles(offset: [f64; 2], edges: [f64; 2]) -> f64 {
+    let ([x, y], [a, b]) = (offset, edges);
     let square = x * x + y * y;
     // Compute the squares of the direction cosines, and the mean moments of the rectangle of the orders 2 and 4.
     let [p, q] = [x * x / square, y * y / square];

@@ -71,14 +71,14 @@ impl<'a, M: Material + ?Sized> Layer<'a, M> {
         }
     }
 
-    /// The same elastomer at the strain amplitude of a stationary state, by which its moduli have factors (equivalent-linear). It slides
-    /// like any other; motions, histories and derivatives refuse it.
+    /// The layer with factors on its moduli, at the strain amplitude of a stationary state (equivalent-linear). It slides like any
+    /// other; motions, histories and derivatives refuse it.
     #[must_use]
     pub fn with_modulus_factors(self, factors: ModulusFactors) -> Self {
         Self { factors, ..self }
     }
 
-    /// The same elastomer with times and moduli that depend on the wavelength of the pressure, as at a temperature that changes with the
+    /// The layer with times and moduli that depend on the wavelength of the pressure, as at a temperature that changes with the
     /// depth. Only the stationary sliding of periodic surfaces has it; all other functions refuse it.
     #[must_use]
     pub fn with_wave_shift(self, shift: WaveShift) -> Self {

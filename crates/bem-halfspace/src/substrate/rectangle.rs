@@ -89,8 +89,9 @@ pub(crate) trait PlaneKernel {
     fn corner(x: f64, y: f64) -> f64;
 }
 
-/// Integral ∬ k(x − x', y − y') dA' over the rectangle with edges [a, b] around the origin, for y ≥ 0; lengths in any one unit.
-pub(crate) fn integrate<K: PlaneKernel>([x, y]: [f64; 2], [a, b]: [f64; 2]) -> f64 {
+/// Integral ∬ k(x − x', y − y') dA' over a rectangle around the origin, at the offset [x, y] with y ≥ 0; lengths in any one unit.
+pub(crate) fn integrate<K: PlaneKernel>(offset: [f64; 2], edges: [f64; 2]) -> f64 {
+    let ([x, y], [a, b]) = (offset, edges);
     // Find the distances from the rectangle to the singularities of the integrands along x and along y.
     let distances = [
         distance(x, (y - 0.5 * b).max(0.0)),
@@ -115,14 +116,15 @@ pub(crate) fn integrate<K: PlaneKernel>([x, y]: [f64; 2], [a, b]: [f64; 2]) -> f
     }
 }
 
-/// Integral ∬ f(x', y') dA' over the rectangle with edges [a, b] around [x, y], for a `function` f of the distance r from the origin
+/// Integral ∬ f(x', y') dA' over a rectangle with its `centre` and `edges`, for a `function` f of the distance r from the origin
 /// alone that is singular at r = ±i `singular` only; lengths in any one unit. Rectangles that are too large for all rules are halved.
 pub(crate) fn integrate_smooth(
     singular: f64,
-    [x, y]: [f64; 2],
-    [a, b]: [f64; 2],
+    centre: [f64; 2],
+    edges: [f64; 2],
     function: &impl Fn(f64, f64) -> f64,
 ) -> f64 {
+    let ([x, y], [a, b]) = (centre, edges);
     // Find the distance from the rectangle to the singularities at r = ±i `singular`.
     let [beside, above] = [x.abs() - 0.5 * a, y.abs() - 0.5 * b].map(|gap| gap.max(0.0));
     let to_singularity = (beside * beside + above * above + singular * singular).sqrt();

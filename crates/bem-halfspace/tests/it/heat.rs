@@ -22,7 +22,7 @@ const BODIES: [[f64; 5]; 6] = [
     [10.0, 0.33838, 0.21284, 0.39413, 0.22262],
     [20.0, 0.24558, 0.15222, 0.28570, 0.15896],
 ];
-/// The same for a uniform strip of the half width a: Péclet number, largest and mean temperature.
+/// Péclet number va/(2D), and largest and mean temperature over q a/k under a strip of the half width a with the uniform flux q.
 const STRIPS: [[f64; 3]; 5] = [
     [0.5, 1.30417, 1.12167],
     [1.0, 0.99185, 0.79986],

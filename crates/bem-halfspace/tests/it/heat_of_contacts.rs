@@ -192,9 +192,9 @@ fn bars_of_a_layer_that_elements_do_not_resolve_overlap() {
     );
 }
 
-/// A wave of pressure q in full contact dissipates p(z) = 4q³ z² e^(−2qz) everywhere alike, of which the surface has the mean temperature
-/// (√(4Dt/π) − 3/(2q)) Q/k at long times, and the material that dissipates (√(4Dt/π) − 63/(32q)) Q/k: the mean of the larger of two depths
-/// of this distribution. A shift of the material changes the power alone.
+/// A wave of pressure q in full contact dissipates p(z) = 4q³ z² e^(−2qz) everywhere alike. At long times the mean temperature of the
+/// surface is (√(4Dt/π) − 3/(2q)) Q/k. That of the material that dissipates is (√(4Dt/π) − 63/(32q)) Q/k, with the mean of the larger of
+/// two depths of this distribution. A shift of the material changes the power alone.
 #[test]
 fn one_wave_in_full_contact_has_its_closed_form() {
     let (n, period, amplitude) = (64, 1e-3, 1e4);

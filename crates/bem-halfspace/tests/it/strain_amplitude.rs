@@ -235,7 +235,7 @@ fn factors_need_a_stationary_state() {
 }
 
 /// A pressure of Hertz that slides slowly over a Kelvin–Voigt solid, from the closed stress field (Huber 1904) by the midpoint rule over
-/// radius and depth (Python, 1600 × 1600 points up to 100 radii): the strain rate is that of the elastic strains, of which the square is
+/// radius and depth (Python, 1600 × 1600 points up to 100 radii): the strain rate is that of the elastic strains, whose square is
 /// weighted with that of the rate. ε G/p₀ = 0.1041, and the power is 1.643 η v² p₀² a/(2G²).
 #[test]
 fn the_strain_of_hertz_follows_from_its_stress_field() {

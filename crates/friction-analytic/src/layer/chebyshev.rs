@@ -56,6 +56,7 @@ impl ChebyshevPair {
     /// The series through n values at the zeros of T_n.
     fn through_values(values: &[[f64; 2]]) -> Self {
         let n = values.len();
+        // Discrete orthogonality of the Chebyshev polynomials gives the coefficients.
         let coefficient = |order: usize| {
             let scale = if order == 0 { 1.0 } else { 2.0 } / n as f64;
             let cosine = |k: usize| (0.5 * PI * (order * (2 * k + 1)) as f64 / n as f64).cos();

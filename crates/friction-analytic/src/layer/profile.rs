@@ -367,7 +367,8 @@ impl<'a> LayerProblem<'a> {
     }
 
     /// A radius of an interval at which a depth is reached, \[m]; the end of the interval if none is.
-    fn radius_reaching(&self, depth: f64, [start, end]: [f64; 2]) -> Result<f64, FrictionError> {
+    fn radius_reaching(&self, depth: f64, interval: [f64; 2]) -> Result<f64, FrictionError> {
+        let [start, end] = interval;
         // Enlarge the contact until it is deep enough.
         let mut previous: Option<ContactOnLayer> = None;
         let mut contact = self.contact(start)?;

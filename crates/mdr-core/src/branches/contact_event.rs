@@ -21,12 +21,13 @@ pub(crate) struct ContactEvent<'a> {
 }
 
 impl ContactEvent<'_> {
-    /// Separates a loaded element when its load vanishes, while the line moves linearly `from` its displacement at the beginning
-    /// of the step `to` another one at the end, \[m].
+    /// Separates a loaded element when its load vanishes; `imposed` are its displacements at the beginning and at the end of the
+    /// step, between which the line moves linearly, \[m].
     ///
     /// Returns the displacement u_∞ to which it recovers \[m], and its work until separation. The energy stored at separation
     /// counts as dissipated, because it does no work during recovery.
-    pub(crate) fn separate(&mut self, [from, to]: [f64; 2]) -> (f64, StepWork) {
+    pub(crate) fn separate(&mut self, imposed: [f64; 2]) -> (f64, StepWork) {
+        let [from, to] = imposed;
         let foundation = self.foundation;
         let n_branches = foundation.branches.len();
         let rise = to - from;
@@ -94,9 +95,10 @@ impl ContactEvent<'_> {
         if foundation.spring > 0.0 { 0.0 } else { limit }
     }
 
-    /// Brings a free element that recovers to the displacement `limit` into contact, when the line meets it; the line imposes a
-    /// displacement that moves linearly `from` one value `to` another within the step, \[m].
-    pub(crate) fn make_contact(&mut self, limit: f64, [from, to]: [f64; 2]) -> StepWork {
+    /// Brings a free element that recovers to the displacement `limit` into contact, when the line meets it; `imposed` are the
+    /// displacements of the line at the beginning and at the end of the step, between which it moves linearly, \[m].
+    pub(crate) fn make_contact(&mut self, limit: f64, imposed: [f64; 2]) -> StepWork {
+        let [from, to] = imposed;
         let foundation = self.foundation;
         let rise = to - from;
         // `gap` returns the height of the line above the recovering element and its derivative by `part`, after the fraction

@@ -150,6 +150,7 @@ impl Approach {
         let branch_rates = branches.map(|branch| branch.relaxation_time.recip());
         let rates: Vec<f64> = branch_rates.chain([0.0]).collect();
         let n = rates.len();
+        // Each branch has integrals of depth and load; those for derivatives on request.
         let now = HistoryIntegrals {
             depth: vec![0.0; n],
             load: vec![0.0; n],
@@ -274,6 +275,7 @@ impl Approach {
                 depth,
             }
         };
+        // A body above the surface begins its step where it touches the surface.
         let mut from = if start.depth < 0.0 { at(0.0) } else { start };
         self.has_recontact |= end.time > start.time && self.edge_turns_outwards();
         let deepest = self.deepest();

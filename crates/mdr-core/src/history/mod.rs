@@ -193,6 +193,7 @@ fn follow_depths(
     };
     let radii = Radii::new(body, deepest)?;
     let spectrum = material.relaxation();
+    // On a parallel dashpot a jump of the depth would take an infinite force.
     for pair in points.windows(2).filter(|_| spectrum.viscosity() > 0.0) {
         positive("time between two depths", pair[1][0] - pair[0][0])?;
     }
@@ -200,6 +201,7 @@ fn follow_depths(
         // A body that begins below the surface would jump to its first point, which a parallel dashpot does not allow.
         positive("time between two depths", 0.0)?;
     }
+    // Integrate in closed form, as long as no element comes into contact again.
     let mut approach = Approach::new(radii.clone(), &spectrum, points.len(), false);
     approach.start(points[0][0], points[0][1]);
     let mut curve = Vec::with_capacity(points.len());
@@ -209,6 +211,7 @@ fn follow_depths(
             if !body.is_exact_where_touched_again() {
                 return Err(MdrError::TouchedAgain { time: point[0] });
             }
+            // With recontact start again at the first point, from event to event.
             errors.largest_force = 0.0;
             return follow_recontact(body, material, points, radii, errors);
         }

@@ -135,8 +135,9 @@ impl Radii {
         self.piece_at(depth).depths[1]
     }
 
-    /// The radius over θ ∈ [0, 1] while the depth increases linearly within a piece.
-    pub(super) fn polynomial_between(&self, [from, to]: [f64; 2]) -> Polynomial {
+    /// The radius over θ ∈ [0, 1] while the depth increases linearly from one to the other of `depths`, within a piece.
+    pub(super) fn polynomial_between(&self, depths: [f64; 2]) -> Polynomial {
+        let [from, to] = depths;
         // The piece is found by the middle of the two depths, because rounding may put the ends into the pieces next to it.
         let piece = self.piece_at(0.5 * (from + to));
         let start = piece.position(from);
@@ -231,19 +232,19 @@ impl RadiusPiece {
     /// Interpolates the radius between two depths \[m] at the zeros of the Chebyshev polynomial T_n; returns also the size of the last
     /// two terms \[m], a measure of the error.
     ///
-    /// `cosines` are T_order at the nodes, one row for each node; `inner` and `outer` are the radii at both depths.
+    /// `cosines` are T_order at the nodes, one row for each node; `radii` are those at both depths.
     fn fitted(
         body: &dyn EquivalentProfile,
         depths: [f64; 2],
-        [inner, outer]: [f64; 2],
+        radii: [f64; 2],
         cosines: &[[f64; N_COEFFICIENTS]; N_COEFFICIENTS],
     ) -> (Self, f64) {
         let [low, high] = depths;
         // The radii at the nodes are found from the outermost inwards, so that each is a bound for the next one.
-        let mut previous_radius = outer;
+        let mut previous_radius = radii[1];
         let values: [f64; N_COEFFICIENTS] = std::array::from_fn(|node| {
             let depth = low + 0.5 * (high - low) * (1.0 + cosines[node][1]);
-            previous_radius = radius(body, depth, [inner, previous_radius]);
+            previous_radius = radius(body, depth, [radii[0], previous_radius]);
             previous_radius
         });
         // The Chebyshev series through these radii is computed first, and from it the coefficients of the powers of ξ.
@@ -293,8 +294,8 @@ fn sum_of_rows(
 
 /// The radius \[m] between two others at which the line reaches a height \[m], from its closed form if it has one; the outer
 /// radius if the line is lower up to there, as the flat end of a punch.
-fn radius(body: &dyn EquivalentProfile, height: f64, [inner, outer]: [f64; 2]) -> f64 {
+fn radius(body: &dyn EquivalentProfile, height: f64, bracket: [f64; 2]) -> f64 {
     let closed = body.closed_position(height);
     let excess = |x: f64| body.height_at(x) - height;
-    closed.unwrap_or_else(|| bracketed_root(excess, [inner, outer]).unwrap_or(outer))
+    closed.unwrap_or_else(|| bracketed_root(excess, bracket).unwrap_or(bracket[1]))
 }

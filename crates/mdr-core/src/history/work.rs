@@ -48,6 +48,7 @@ pub fn work_along(
         let changes = pairs.map(|(one, other)| (one - other).abs());
         let change = changes.fold(0.0, f64::max);
         let largest = work.iter().copied().map(f64::abs).fold(0.0, f64::max);
+        // The last change estimates the error of the quadrature; add that of the curve.
         if change <= options.relative_error * largest {
             let error = change + curve_error;
             let known = |value| Estimate::new(value, error);

@@ -148,13 +148,14 @@ impl HeightRow {
         self.heights[element - self.first]
     }
 
-    /// Extends the row to the elements from `first` to `last`, which are at the positions `x` on the line.
+    /// Extends the row to the elements of a window, [first, last], which are at the positions `x` on the line.
     pub(crate) fn cover(
         &mut self,
         line: &HeightTable<'_>,
-        [first, last]: [usize; 2],
+        window: [usize; 2],
         x: impl Fn(usize) -> f64,
     ) -> Result<(), MdrError> {
+        let [first, last] = window;
         // Without overlap start anew; otherwise append and prepend what is missing.
         let known = self.first..self.first + self.heights.len();
         if !known.contains(&first) && !known.contains(&last) {

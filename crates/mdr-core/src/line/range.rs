@@ -56,8 +56,8 @@ impl Range {
         stops.push(front_end);
         let backwards = stops.windows(2).map(|ends| [ends[1], ends[0]]);
         let forwards = stops.windows(2).rev().map(|ends| [ends[0], ends[1]]);
-        let rear = outermost_of(excess, [anchor, rear_end], backwards)?;
-        let front = outermost_of(excess, [anchor, front_end], forwards)?;
+        let rear = outermost_of(excess, anchor, rear_end, backwards)?;
+        let front = outermost_of(excess, anchor, front_end, forwards)?;
         Ok(Self {
             ends: [rear, front],
             anchor_height,
@@ -109,7 +109,8 @@ pub(crate) fn vertical_edge(line: &dyn RigidLine) -> Result<Option<VerticalEdge>
 /// outermost first; a piece beyond a gap is found by its inner end.
 fn outermost_of(
     excess: impl Fn(f64) -> Result<f64, MdrError> + Copy,
-    [anchor, end]: [f64; 2],
+    anchor: f64,
+    end: f64,
     mut pieces: impl Iterator<Item = [f64; 2]>,
 ) -> Result<f64, MdrError> {
     let found = outermost(excess, anchor, end)?;

@@ -42,8 +42,9 @@ impl Segment {
         end_value(&self.displacements)
     }
 
-    /// The part of the segment between two values of t, as a polynomial of its own −1 ≤ t ≤ 1.
-    pub(crate) fn between(&self, interpolation: &Interpolation, [from, to]: [f64; 2]) -> Self {
+    /// The part of the segment over an interval of t, as a polynomial of its own −1 ≤ t ≤ 1.
+    pub(crate) fn between(&self, interpolation: &Interpolation, interval: [f64; 2]) -> Self {
+        let [from, to] = interval;
         if from <= -1.0 && to >= 1.0 {
             return self.clone();
         }

@@ -87,6 +87,7 @@ impl<'a> Elements<'a> {
             ElementState::Untouched => 0.0,
             ElementState::Loaded { displacement } => {
                 let history = self.history_of(element);
+                // The load after the step is linear in the displacement; find its zero.
                 displacement - step.relaxed_load(displacement, history) / step.stiffness
             }
             ElementState::Free { limit, .. } => {

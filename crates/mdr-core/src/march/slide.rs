@@ -140,6 +140,7 @@ pub fn slide<'w>(
     let converges = apex_exponent > 0.5 || !problem.foundation.has_dashpot();
     let allowed = "above 1/2, where the friction integral (16) converges";
     in_range("apex exponent", apex_exponent, converges, allowed)?;
+    // With a height |x|^p at the apex, ∫ h'² dx over an element has the order Δx^(2p − 1).
     let goal = Goal {
         request: request.into(),
         initial_elements: FIRST_ELEMENTS,
@@ -336,6 +337,7 @@ impl<'a> SlidingProblem<'a> {
             let Some(result) = winkler.advance(time_step, start + spacing, prescribed)? else {
                 return Ok(None);
             };
+            // Feed the error of the force back into the load that the next step prescribes.
             force_error = 1.0 - result.sums.normal_load / load;
             load_factor += force_correction(force_error);
             let number = (steps.len() + 1) as f64;

@@ -191,6 +191,7 @@ impl<'a> WinklerFoundation<'a> {
         self.contact_history.end_step(duration);
         let moved = position - self.body.position;
         self.body = to;
+        // Keep the heights as those at the beginning of the next step.
         std::mem::swap(&mut self.heights, &mut self.heights_before.heights);
         self.heights_before.first = self.window[0];
         self.check_edge(&sums, moved)?;

@@ -78,6 +78,7 @@ fn bracket(
     load: &impl Fn(f64) -> Result<f64, MdrError>,
     target: f64,
 ) -> Result<[f64; 2], MdrError> {
+    // The load at one depth decides whether the other end is sought above or below.
     let (start, at_start) = within_reach(load, SEARCH_START, target)?;
     let exceeds_target = at_start > target;
     let mut near = start;

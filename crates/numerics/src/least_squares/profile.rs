@@ -155,6 +155,7 @@ fn root_rise(
     };
     let held = descend(evaluate, start.collect(), &held_ranges, rule);
     let sum = held.map_or(f64::INFINITY, |held| held.model.sum);
+    // Near the minimum the root of the rise is linear in the step, as the interpolation assumes.
     let relative_rise = (sum - best.model.sum).max(0.0) / end.rise;
     if relative_rise.is_nan() {
         f64::INFINITY

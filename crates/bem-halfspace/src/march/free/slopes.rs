@@ -79,11 +79,11 @@ fn slopes_at(
     march: &March<'_>,
     time_level: f64,
     step: &ScheduledStep,
-    [row, column]: [usize; 2],
+    element: [usize; 2],
 ) -> Result<[f64; 2], BemError> {
     let spacing = march.options.spacing[0];
-    let centre_of_element = march.x_in_elements(row, march.sampled_offset);
-    let y = march.y_of_column(column);
+    let centre_of_element = march.x_in_elements(element[0], march.sampled_offset);
+    let y = march.y_of_column(element[1]);
     let height = |x: f64| march.surface.height([x * spacing, y]);
     // The chord at the time level is as long as an element, or on a dashpot (θ = ½) as the distance of the step.
     let centre = centre_of_element + time_level * step.advance;

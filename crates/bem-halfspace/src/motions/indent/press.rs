@@ -327,6 +327,7 @@ fn refine_press(
         target: Target::Depth,
         has_peak: spring.has_pressure && bars::peak_has_limit(surface, &spring.unit),
     };
+    // A flat punch is replaced by a wider disc of whole elements, and keeps its own area.
     let punch = surface.as_axisymmetric().and_then(radius_of_punch);
     let solve = |elements: usize, _: &dyn Fn(f64)| {
         let mut options = pressed_grid(&plan, elements);

@@ -189,6 +189,7 @@ impl Equations {
 
     /// Iterates by GCR until the gaps are allowed, or to the limits. The unknowns are the pressures on the active set.
     fn iterate_pressures(&mut self, allowed: &AllowedGaps, limits: GcrLimits) {
+        // Solve for changes of the pressures in single precision; the gap is the residual.
         let mut gap = std::mem::take(&mut self.gap);
         let mut added = copies(0.0, gap.len());
         gcr(&mut added, &mut gap, limits, |state, direction, image| {
@@ -200,6 +201,7 @@ impl Equations {
             goes_on
         });
         self.gap = gap;
+        // Accumulate the changes in double precision.
         let unit = self.unit / self.self_influence;
         for (pressure, added) in self.pressure.iter_mut().zip(added) {
             *pressure += unit * f64::from(added);

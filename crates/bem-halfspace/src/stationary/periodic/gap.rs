@@ -33,6 +33,7 @@ pub fn gap(
     let mut kernel = PeriodicKernel::new(&sliding, &grid)?;
     let gap = in_pool(grid.n_elements(), || {
         let [mut gap, mut raised] = [0; 2].map(|_| vec![0.0; grid.n_elements()]);
+        // Add displacements and heights at the collocation points of the kernel.
         kernel.displace(pressure, &mut gap);
         kernel.shifted(&heights, &mut raised);
         // Subtract the depth, which is the mean of height and displacement in the contact.

@@ -101,6 +101,7 @@ fn contact_area(mesh: &Mesh, loads: &[f64], gaps: &[f64]) -> f64 {
         lower: [0, 1].map(|axis| contact.lower[axis].saturating_sub(margin[axis])),
         upper: [0, 1].map(|axis| contact.upper[axis] + margin[axis]),
     };
+    // Loads inside and gaps outside determine where the boundary divides an element.
     let mut field = BoundaryField {
         shape: bounds.shape(),
         is_periodic: false,
@@ -133,6 +134,7 @@ fn contact_area(mesh: &Mesh, loads: &[f64], gaps: &[f64]) -> f64 {
         };
         elastic_ratios[axis] * elastic_difference / field.second_difference[axis]
     });
+    // The mean excess of the polygon per edge grows with the shift of the collocation points.
     let elastic_excess = if is_strip {
         STRIP_EXCESS_PER_EDGE
     } else {

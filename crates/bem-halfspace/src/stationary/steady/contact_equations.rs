@@ -201,6 +201,7 @@ impl<'mesh> ContactEquations<'mesh> {
                     let gaps = state.residual.iter();
                     gaps.fold(0.0, |max, gap| larger(max, gap.abs()))
                 };
+                // The largest |gap| is at least the RMS: find it only if that is small.
                 let residual_rms = (state.residual_square / n).sqrt();
                 let continues = residual_rms > rms && (residual_rms > max || largest() > max);
                 if continues {

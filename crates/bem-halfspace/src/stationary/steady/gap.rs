@@ -69,6 +69,7 @@ pub fn gap<'a>(
     let centre = |axis: usize, index: usize| {
         origin[axis] + (index as f64 - lower[axis] as f64) * spacing[axis]
     };
+    // Take the heights at the collocation points, and grow the box as far as the body reaches.
     let shift = on_grid.creep.collocation_shift * spacing[0];
     let height = |[row, column]: [usize; 2]| {
         surface.height([centre(0, row) + shift, centre(1, column)]) / on_grid.depth_scale

@@ -175,17 +175,17 @@ impl<'a> Strip<'a> {
 
 impl Surface for Strip<'_> {
     /// Height of the profile within the length of the strip, infinite beyond its ends.
-    fn height(&self, [x, y]: [f64; 2]) -> f64 {
-        if y.abs() > 0.5 * self.length {
+    fn height(&self, position: [f64; 2]) -> f64 {
+        if position[1].abs() > 0.5 * self.length {
             f64::INFINITY
         } else {
-            self.profile.height([x, 0.0])
+            self.profile.height([position[0], 0.0])
         }
     }
 
     /// Slopes of the profile at y = 0.
-    fn gradient(&self, [x, _]: [f64; 2]) -> [f64; 2] {
-        self.profile.gradient([x, 0.0])
+    fn gradient(&self, position: [f64; 2]) -> [f64; 2] {
+        self.profile.gradient([position[0], 0.0])
     }
 
     /// Symmetry of the profile about x = 0; every strip is symmetric about y = 0.

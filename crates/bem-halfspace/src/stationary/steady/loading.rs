@@ -90,7 +90,8 @@ impl Loading {
         })
     }
 
-    /// The loading of a profile in plane strain, under a force per length \[N/m], with contact between `rear` and `front`.
+    /// The loading of a profile in plane strain, under a force per length \[N/m], with contact within a footprint
+    /// \[m].
     ///
     /// # Errors
     /// [`BemError::InvalidParameter`] for a material that flows; [`BemError::Indenter`] for a depth.
@@ -98,7 +99,7 @@ impl Loading {
         profile: &dyn Surface,
         elastomer: &dyn Elastomer,
         load: &SlidingLoad,
-        [rear, front]: [f64; 2],
+        footprint: [f64; 2],
     ) -> Result<Self, BemError> {
         let creep = SlidingCreep::for_load(elastomer, load)?;
         let force = load.require_normal_force()?;
@@ -107,7 +108,7 @@ impl Loading {
         // length times its length.
         let length_ratio = MIN_TOLERANCE.sqrt().recip();
         let depth_scale = profile_scale(profile, &creep, force)?.depth_scale;
-        let length = length_ratio * (front - rear + creep.memory_length());
+        let length = length_ratio * (footprint[1] - footprint[0] + creep.memory_length());
         let strip = positive("length of a strip", length)?;
         let force = positive("force on a strip", force * strip)?;
         Ok(Self {
@@ -122,9 +123,9 @@ impl Loading {
     }
 
     /// Edges of an element that is `factor` times as long. The width of a strip does not change.
-    pub(super) fn scaled(&self, [dx, dy]: [f64; 2], factor: f64) -> [f64; 2] {
-        let scaled = [factor * dx, factor * dy];
-        self.strip.map_or(scaled, |_| [factor * dx, dy])
+    pub(super) fn scaled(&self, spacing: [f64; 2], factor: f64) -> [f64; 2] {
+        let factor_across = self.strip.map_or(factor, |_| 1.0);
+        [factor * spacing[0], factor_across * spacing[1]]
     }
 
     /// Scale, control and creep of the loading in the units of a grid with the given spacing \[m].

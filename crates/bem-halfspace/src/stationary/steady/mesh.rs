@@ -360,13 +360,15 @@ impl Mesh {
     /// Central difference of the heights of the two neighbours along x, under a body with edges. Friction from the slope in the
     /// element itself is too low, by a term of the order of √Δx where the contact ends near the edge. `None` under a body without
     /// edges, and where a neighbour is not covered by the body.
-    fn dissipating_slope(&self, surface: &dyn Surface, [x, y]: [f64; 2]) -> Option<f64> {
+    fn dissipating_slope(&self, surface: &dyn Surface, centre: [f64; 2]) -> Option<f64> {
         if !self.loading.has_edges {
             return None;
         }
         let dx = self.options.spacing[0];
-        let height =
-            |shift| surface.height([x + (self.loading.creep.collocation_shift + shift) * dx, y]);
+        let height = |shift| {
+            let x = centre[0] + (self.loading.creep.collocation_shift + shift) * dx;
+            surface.height([x, centre[1]])
+        };
         let slope = (height(1.0) - height(-1.0)) / (2.0 * dx);
         slope.is_finite().then_some(slope)
     }
@@ -409,7 +411,8 @@ impl Mesh {
 
     /// True if the element ahead of a loaded one ends in a vertical wall, or the one behind it, unless only rising elements are
     /// candidates.
-    pub(super) fn faces_wall(&self, [row, column]: [usize; 2]) -> bool {
+    pub(super) fn faces_wall(&self, element: [usize; 2]) -> bool {
+        let [row, column] = element;
         let is_wall = |row: usize| {
             let wall = self.walls.get(row * self.shape[1] + column);
             wall.is_some_and(|wall| *wall)

@@ -350,8 +350,8 @@ impl RetardedPotential {
 }
 
 /// Distance of an interval along x from the edges of the loaded element at ±1/2; `lateral_distance` is the distance along y.
-fn distance_from_edges([start, end]: [f64; 2], lateral_distance: f64) -> f64 {
-    let from_edge = |edge: f64| (start - edge).max(edge - end).max(0.0);
+fn distance_from_edges(interval: [f64; 2], lateral_distance: f64) -> f64 {
+    let from_edge = |edge: f64| (interval[0] - edge).max(edge - interval[1]).max(0.0);
     let along = from_edge(-0.5).min(from_edge(0.5));
     (along * along + lateral_distance * lateral_distance).sqrt()
 }
@@ -363,7 +363,8 @@ fn fewest_points(rules: &[DistanceRule], distance: f64) -> Option<usize> {
 
 /// Panels of an interval along x, from rear to front: divided where the potential is singular, then halved until one of the rules is
 /// accurate on each. `lateral_distance` is the distance from the loaded element along y, in Δx.
-fn panels([start, end]: [f64; 2], lateral_distance: f64) -> Vec<PotentialPanel> {
+fn panels(interval: [f64; 2], lateral_distance: f64) -> Vec<PotentialPanel> {
+    let [start, end] = interval;
     // Divide the interval at the edges of the loaded element, where the potential is singular.
     let mut ends = vec![start, -0.5, 0.5, end];
     ends.retain(|position| (start..=end).contains(position));
@@ -376,9 +377,10 @@ fn panels([start, end]: [f64; 2], lateral_distance: f64) -> Vec<PotentialPanel> 
 }
 
 /// Appends the panels of an interval without a singularity inside, halving it until a rule is accurate.
-fn subdivide([start, end]: [f64; 2], lateral_distance: f64, panels: &mut Vec<PotentialPanel>) {
+fn subdivide(interval: [f64; 2], lateral_distance: f64, panels: &mut Vec<PotentialPanel>) {
+    let [start, end] = interval;
     let length = end - start;
-    let distance = distance_from_edges([start, end], lateral_distance);
+    let distance = distance_from_edges(interval, lateral_distance);
     let rule = fewest_points(&PANEL_RULES, distance / length)
         .or((length <= MIN_PANEL_LENGTH).then_some(PANEL_RULES.len() - 1));
     if let Some(rule) = rule {

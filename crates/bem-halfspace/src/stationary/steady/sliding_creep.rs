@@ -300,6 +300,7 @@ impl SlidingCreep {
     /// Contributions of all parts of the creep to the compliance J(length/v), \[1/Pa], not yet divided by it; `length` is in \[m].
     fn contributions(&self, length: f64) -> Result<ElementCreep, BemError> {
         let time = positive("length / velocity", length / self.velocity)?;
+        // Over the time of passage t an element creeps by its compliance times 1 − e^(−t/τ).
         let over_length = |element: &rheology::RetardationElement| {
             let rate = time / element.retardation_time;
             let rate = positive("length / (velocity × retardation time)", rate)?;

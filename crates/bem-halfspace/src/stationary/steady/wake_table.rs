@@ -198,6 +198,7 @@ impl WakeTable {
 
     /// Adds the advanced elements, and sets the creep within an element to the displacement of a spring.
     fn add_advanced(&mut self) {
+        // An advanced element is a retarded one of the opposite motion: add its mirrored table.
         let creep = ElementCreep {
             collocation_shift: -self.creep.collocation_shift,
             retardations: self.creep.advanced.clone(),

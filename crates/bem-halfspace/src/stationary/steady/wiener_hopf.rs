@@ -150,6 +150,7 @@ impl InverseCreep {
                 (creep.advanced.iter()).map(|element| response(element, difference.conj()));
             retarded.chain(advanced).sum::<Complex<f64>>() + creep.instantaneous
         };
+        // Without advanced elements the filter looks ahead only, and is its own factor.
         if creep.advanced.is_empty() {
             let inverse = |difference: &Complex<f64>| {
                 if creep.flow > 0.0 {
@@ -172,6 +173,7 @@ impl InverseCreep {
             };
             value.ln()
         };
+        // Conjugation swaps ahead and behind, so that both factors come from the same half.
         let mut behind: Vec<Complex<f64>> = differences.iter().map(without_pole).collect();
         let mut ahead: Vec<Complex<f64>> = behind.iter().map(Complex::conj).collect();
         invert_half_of_cepstrum(transform, &mut behind);

@@ -53,10 +53,10 @@ fn multiply_whole(factors: &[f64], values: &mut [Complex<f64>]) {
 /// Multiplies the transform of a column whose real and imaginary parts are two real columns, each by its own real, even factors.
 ///
 /// With the values V_k and V_(−k), the transforms of both columns are (V_k ± V̄_(−k))/2, the second times i.
-fn multiply_pair([first, second]: [&[f64]; 2], values: &mut [Complex<f64>]) {
+fn multiply_pair(factors: [&[f64]; 2], values: &mut [Complex<f64>]) {
     // V_k and V_(−k) together contain both columns, so that they change together.
     let length = values.len();
-    for (k, (first, second)) in first.iter().zip(second).enumerate() {
+    for (k, (first, second)) in factors[0].iter().zip(factors[1]).enumerate() {
         let opposite = (length - k) % length;
         let (mean, half_difference) = (0.5 * (first + second), 0.5 * (first - second));
         let [here, there] = [values[k], values[opposite]];
@@ -66,8 +66,8 @@ fn multiply_pair([first, second]: [&[f64]; 2], values: &mut [Complex<f64>]) {
 }
 
 /// Multiplies the real and imaginary parts of values, which are the real transforms of two columns, each by its own factors.
-fn multiply_about_centre([real, imaginary]: [&[f64]; 2], values: &mut [Complex<f64>]) {
-    for (value, (real, imaginary)) in values.iter_mut().zip(real.iter().zip(imaginary)) {
+fn multiply_about_centre(factors: [&[f64]; 2], values: &mut [Complex<f64>]) {
+    for (value, (real, imaginary)) in values.iter_mut().zip(factors[0].iter().zip(factors[1])) {
         *value = Complex::new(value.re * real, value.im * imaginary);
     }
 }
@@ -75,12 +75,13 @@ fn multiply_about_centre([real, imaginary]: [&[f64]; 2], values: &mut [Complex<f
 /// Multiplies the real part of U_k by one factor and its imaginary part by another, in a column with a mirror at an edge and in
 /// the notation of [`about_edge`](super::about_edge).
 fn multiply_about_edge(
-    [real, imaginary]: [&[f64]; 2],
+    factors: [&[f64]; 2],
     twiddles: &[Complex<f64>],
     values: &mut [Complex<f64>],
 ) {
     let length = values.len();
-    let factors = real.iter().zip(imaginary);
+    let [real, imaginary] = factors;
+    let pairs = real.iter().zip(imaginary);
     let product = |value: Complex<f64>, (real, imaginary): (&f64, &f64)| {
         Complex::new(value.re * real, value.im * imaginary)
     };
@@ -99,11 +100,12 @@ fn multiply_about_edge(
     values[0] = product(2.0 * values[0], (&real[0], &imaginary[0]));
     let (lower, upper) = values[1..].split_at_mut(length / 2);
     // List the factors of the opposite cosine sums U_(L−k) for k = 1, 2, …
-    let opposite = factors.clone().rev().skip(real.len() - length);
+    let opposite = pairs.clone().rev().skip(real.len() - length);
     let opposite_values = lower.iter_mut().zip(upper.iter_mut().rev());
-    let both = factors.skip(1).zip(opposite);
-    for ((twiddle, (here, there)), (one, other)) in
-        twiddles[1..].iter().zip(opposite_values).zip(both)
+    for ((twiddle, (here, there)), (one, other)) in twiddles[1..]
+        .iter()
+        .zip(opposite_values)
+        .zip(pairs.skip(1).zip(opposite))
     {
         [*here, *there] = pair(*twiddle, [*here, *there], [one, other]);
     }

@@ -105,11 +105,11 @@ impl Contact<'_> {
     }
 
     /// Integrals ∫ σ_k dx over one panel of a ring, between two radii \[m], at a time, \[Pa m²].
-    fn panel(&self, ring: &EdgeMove, [inner, outer]: [f64; 2], at: SegmentTime) -> Vec<f64> {
+    fn panel(&self, ring: &EdgeMove, radii: [f64; 2], at: SegmentTime) -> Vec<f64> {
         let mut sums = vec![0.0; self.path.n_branches()];
-        let half = 0.5 * (outer - inner);
+        let half = 0.5 * (radii[1] - radii[0]);
         for (node, weight) in self.rule.nodes.iter().zip(&self.rule.weights) {
-            let stresses = self.stresses_in(ring, inner + half * (1.0 + node), at);
+            let stresses = self.stresses_in(ring, radii[0] + half * (1.0 + node), at);
             for (sum, stress) in sums.iter_mut().zip(stresses) {
                 *sum += half * weight * stress;
             }

@@ -87,6 +87,7 @@ impl Equations {
             for load in &mut packed {
                 *load = lost - *load;
             }
+            // Undo the update if it increases the gaps.
             let kept = (self.pressure.clone(), self.gap.clone());
             self.add_loads(packed);
             let after = self.rms(norm(&self.gap));

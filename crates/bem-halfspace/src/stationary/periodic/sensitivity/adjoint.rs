@@ -337,7 +337,8 @@ pub(super) fn unit_pressure(n: usize) -> Vec<f64> {
 
 /// Coefficients of the second difference of a field along an axis at the first element: its value less the mean of its periodic
 /// neighbours.
-fn second_difference([rows, columns]: [usize; 2], axis: usize) -> Vec<f64> {
+fn second_difference(shape: [usize; 2], axis: usize) -> Vec<f64> {
+    let [rows, columns] = shape;
     let (next, last) = match axis {
         0 => (columns % (rows * columns), (rows - 1) * columns),
         _ => (1 % columns, columns - 1),

@@ -272,6 +272,7 @@ impl State {
         let change = self.total_change(|gradient| {
             dot(&gradient.by_height, &heights) + gradient.by_kernel(&kernel)
         });
+        // Force and contact area also change with the area of the period itself.
         let [from, to] = [from, to].map(|grid| grid.element_area());
         let n_elements = self.pressure.len() as f64;
         Ok(Change {
@@ -335,15 +336,16 @@ impl State {
         }
     }
 
-    /// The changes by relative changes of the storage and of the loss modulus, of equal size at all frequencies in \[`from`, `to`)
-    /// \[rad/s].
-    fn by_moduli(&self, [from, to]: [f64; 2]) -> Result<[Change<f64>; 2], BemError> {
+    /// The changes by relative changes of the storage and of the loss modulus, of equal size at all frequencies of a
+    /// half-open band \[rad/s].
+    fn by_moduli(&self, band: [f64; 2]) -> Result<[Change<f64>; 2], BemError> {
         let compliances = self.sliding.compliances(&self.along_x)?;
+        // A compliance is the inverse of a modulus, so that it changes by δC = −C² δG*.
         let of = |part: fn(Complex<f64>) -> Complex<f64>| {
             let rows = compliances.iter().zip(&self.along_x);
             let changes = rows.map(|(compliance, q_x)| {
                 let frequency = self.sliding.frequency(*q_x);
-                if frequency < from || frequency >= to {
+                if frequency < band[0] || frequency >= band[1] {
                     return Complex::default();
                 }
                 -compliance * compliance * part(compliance.inv())

@@ -125,6 +125,7 @@ impl ContactDerivatives {
             normal_force: None,
             contact_area: measures.map(|[area, _]| system.measure_gradient(&adjoint[2], area)),
         };
+        // Add the explicit terms of the friction: slopes of the body or of the displacements.
         let by_slope_term = contact.weighted_by_images(&contact.loads).into_iter();
         let slope_factor = points.slope_unit() / contact.total;
         let friction_gradient = &mut gradients.friction_coefficient;
@@ -232,8 +233,9 @@ impl ContactDerivatives {
     /// Change of all quantities to first order when one body replaces another, under the given force or at the given depth.
     pub(super) fn between_bodies(
         &self,
-        [from, to]: [&dyn Surface; 2],
+        bodies: [&dyn Surface; 2],
     ) -> Result<Change<f64>, BemError> {
+        let [from, to] = bodies;
         let change = self.between_heights(&|point| from.height(point), &|point| to.height(point));
         Ok(self.total_change(change?))
     }

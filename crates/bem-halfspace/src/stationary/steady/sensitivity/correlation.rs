@@ -21,8 +21,9 @@ pub(super) struct Correlation {
 impl Correlation {
     /// The weights of k(i − j) in Σ y_i k(i − j) x_j for the fields y (`left`) and x (`right`), with one row more on either side.
     /// If the loads x are mirror symmetric, `left` may contain one of two mirror images of y with twice the weight. Both fields
-    /// are row-major over a box of some rows and columns.
-    pub(super) fn between(left: &[f64], right: &[f64], [rows, columns]: [usize; 2]) -> Self {
+    /// are row-major over a box of the shape `shape`.
+    pub(super) fn between(left: &[f64], right: &[f64], shape: [usize; 2]) -> Self {
+        let [rows, columns] = shape;
         // Sum the products of both fields by their offset along x and their signed distance along y.
         let width = 2 * columns - 1;
         let mut signed = vec![0.0; (2 * rows + 1) * width];
@@ -72,7 +73,8 @@ impl Correlation {
     }
 
     /// Adds multiples of the second difference k₀ − (k₁ + k₋₁)/2 of the kernel along each axis.
-    pub(super) fn add_second_difference(&mut self, [along_x, along_y]: [f64; 2]) {
+    pub(super) fn add_second_difference(&mut self, factors: [f64; 2]) {
+        let [along_x, along_y] = factors;
         let columns = self.max_offsets[1] + 1;
         // The second difference has the weights 1 at the offset 0 and −1/2 at both neighbours along each axis.
         let origin = self.max_offsets[0] * columns;

@@ -89,12 +89,12 @@ impl GridKernel {
     /// Kernel of a creep on elements with the edges [Δx, Δy] \[m], up to the largest offsets along x and y.
     pub(super) fn new(
         creep: &SlidingCreep,
-        [dx, dy]: [f64; 2],
+        spacing: [f64; 2],
         max_offsets: [usize; 2],
     ) -> Result<Self, BemError> {
         Ok(Self {
-            spacing: dx,
-            aspect: dy / dx,
+            spacing: spacing[0],
+            aspect: spacing[1] / spacing[0],
             max_offsets,
             material: creep.clone(),
             creep: creep.over_distance(),
@@ -102,7 +102,7 @@ impl GridKernel {
                 instantaneous: 0.0,
                 flow: 0.0,
                 retardations: Vec::new(),
-                ..creep.over_element(dx)?
+                ..creep.over_element(spacing[0])?
             },
         })
     }
@@ -212,6 +212,7 @@ impl GridKernel {
     ) -> CreepChange {
         let instantaneous = to.instantaneous - from.instantaneous;
         let flow = self.spacing * (to.flow_per_length - from.flow_per_length);
+        // Each element adds δJ and J δ ln l with its compliance J and its memory length l.
         let ends = from.retardations.iter().zip(&to.retardations);
         let retarded = ends
             .zip(&self.creep.retardations)
@@ -227,23 +228,23 @@ impl GridKernel {
 
     /// The whole creep of the material as a change from zero creep.
     pub(super) fn whole_creep(&self) -> CreepChange {
-        self.scaled_creep([1.0, 1.0], [1.0, 0.0])
+        self.scaled_creep(1.0, 1.0, [1.0, 0.0])
     }
 
     /// Derivative of the creep over distance by the logarithm of the velocity, to which the memory lengths are proportional.
     pub(super) fn by_velocity(&self) -> CreepChange {
-        self.scaled_creep([0.0, -1.0], [0.0, 1.0])
+        self.scaled_creep(0.0, -1.0, [0.0, 1.0])
     }
 
-    /// The creep with factors on [instantaneous compliance, flow], and on the two entries of each retardation element.
-    fn scaled_creep(&self, [instantaneous, flow]: [f64; 2], factors: [f64; 2]) -> CreepChange {
+    /// The creep with factors on the instantaneous compliance, on the flow, and on the two entries of each retardation element.
+    fn scaled_creep(&self, instantaneous: f64, flow: f64, retarded: [f64; 2]) -> CreepChange {
         let first = [
             instantaneous * self.creep.instantaneous,
             flow * self.spacing * self.creep.flow_per_length,
         ];
         let compliances = self.creep.retardations.iter().map(|one| one.compliance);
-        let retarded = compliances.flat_map(|compliance| factors.map(|one| one * compliance));
-        CreepChange(first.into_iter().chain(retarded).collect())
+        let retardations = compliances.flat_map(|one| retarded.map(|factor| factor * one));
+        CreepChange(first.into_iter().chain(retardations).collect())
     }
 
     /// True if the retardation elements of another creep correspond to those of the material one by one: as many, with distinct memory

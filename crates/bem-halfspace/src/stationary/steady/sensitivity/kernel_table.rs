@@ -13,9 +13,10 @@ pub(super) struct KernelTable {
 
 impl KernelTable {
     /// A zero kernel up to the largest offsets along x and y.
-    pub(super) fn zero([rows, columns]: [usize; 2]) -> Self {
+    pub(super) fn zero(max_offsets: [usize; 2]) -> Self {
+        let [rows, columns] = max_offsets;
         Self {
-            max_offsets: [rows, columns],
+            max_offsets,
             values: vec![0.0; (2 * rows + 1) * (columns + 1)],
         }
     }

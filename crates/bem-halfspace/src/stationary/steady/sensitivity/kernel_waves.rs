@@ -55,9 +55,10 @@ pub(super) struct KernelWaves<'a> {
 }
 
 impl KernelWaves<'_> {
-    /// Nodes and weights [q, w] of an integral over the wave numbers from `from` to `to`, in 1/Δx. The panels resolve the waves
+    /// Nodes and weights [q, w] of an integral over an interval of wave numbers, in 1/Δx. The panels resolve the waves
     /// over the longest distance of the correlation, and functions of the logarithm of the frequency.
-    pub(super) fn nodes(&self, [from, to]: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
+    pub(super) fn nodes(&self, interval: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
+        let [from, to] = interval;
         let rows = (2 * self.max_offsets[0] + 1) as f64;
         let widest = WAVES_PER_PANEL * TAU / rows;
         // Panels cannot grow from a wave number of 0: there the first one is as long as the last.
@@ -84,6 +85,7 @@ impl KernelWaves<'_> {
         wave_number: f64,
         amplitudes: [Complex<f64>; 2],
     ) {
+        // The mean of a wave over an element is sin(q/2)/(q/2) times its value at the centre.
         let half = 0.5 * wave_number;
         let mean = half.sin() / half;
         let along_y = self.factors_along_y(wave_number, self.max_offsets[1]);
@@ -155,8 +157,9 @@ impl KernelWaves<'_> {
     }
 }
 
-/// 2 ∫ K₀(q y) dy between two distances, by the trapezoidal rule in u (head of this file); the sum ends when terms are below rounding.
-fn integral_of_bessel(q: f64, [from, to]: [f64; 2]) -> f64 {
+/// 2 ∫ K₀(q y) dy over an interval of distances, by the trapezoidal rule in u (head of this file); the sum ends when terms are below rounding.
+fn integral_of_bessel(q: f64, interval: [f64; 2]) -> f64 {
+    let [from, to] = interval;
     let integrand = |u: f64| {
         let rate = q * u.cosh();
         let at_start = (-rate * from).exp();
