@@ -117,7 +117,8 @@ class Spheroid(Body):
 class Superposition(Body):
     """A sum of powers.
 
-    ``terms``: The terms; that of the lowest exponent has a positive coefficient.
+    ``terms``: The terms; that of the lowest exponent has a positive coefficient. If that of the highest has a negative one, the body ends at
+    its outermost crest.
     Each is a pair of coefficient and exponent.
     """
 

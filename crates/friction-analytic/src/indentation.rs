@@ -11,7 +11,7 @@
 
 use std::f64::consts::PI;
 
-use indenters::{Axisymmetric, Cylinder, PowerProfile, contact_radius};
+use indenters::{Axisymmetric, Cylinder, IndenterError, PowerProfile, contact_radius};
 use numerics::{Estimate, bracketed_root, golden_section, in_range, not_negative, positive};
 use rheology::Viscous;
 
@@ -81,8 +81,8 @@ pub fn indentation_after_impulse(
     // The contact radius a solves moment(a) = I/(8 η), where I is the impulse.
     let target = representable("impulse over 8 η", 0.125 * impulse / material.viscosity())?;
     let Some(radius) = radius_of_moment(body, target)? else {
-        // Beyond the moment of the whole body only a flat punch sinks further; any other body is not high enough.
-        let end = body.max_radius();
+        // Beyond the largest moment only a flat punch sinks further; any other body is not high enough.
+        let end = largest_contact(body);
         let depth = body.line_height(end) + (target - moment(body, end).value) / end;
         return Ok(Indentation {
             contact_radius: contact_radius(body, depth)?,
@@ -248,9 +248,21 @@ pub(crate) fn checked_moment(body: &dyn Axisymmetric, radius: f64) -> Result<f64
     }
 }
 
-/// The contact radius whose moment is `target` \[m²], or `None` if that of the whole body is smaller.
-fn radius_of_moment(body: &dyn Axisymmetric, target: f64) -> Result<Option<f64>, FrictionError> {
+/// Radius of the largest contact of a body, \[m]: its end, or the radius at which its line turns downwards before.
+fn largest_contact(body: &dyn Axisymmetric) -> f64 {
     let end = body.max_radius();
+    // An endless line need not be followed to infinity: a contact in which it turns downwards is refused when it is found.
+    match end.is_finite().then(|| contact_radius(body, f64::MAX)) {
+        Some(Err(IndenterError::NonMonotoneLine {
+            limiting_radius, ..
+        })) => limiting_radius,
+        _ => end,
+    }
+}
+
+/// The contact radius whose moment is `target` \[m²], or `None` if that of the largest contact is smaller.
+fn radius_of_moment(body: &dyn Axisymmetric, target: f64) -> Result<Option<f64>, FrictionError> {
+    let end = largest_contact(body);
     // A body that ends with a vertical edge, such as a sphere, has an infinite moment there, whatever the quadrature gives.
     let has_vertical_edge = end.is_finite() && body.line_height(end).is_infinite();
     // The moment grows with the radius: bracket its target, and solve.

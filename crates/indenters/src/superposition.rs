@@ -7,7 +7,7 @@
 use crate::power::scaled_power;
 use crate::table::check_min_length;
 use crate::{Axisymmetric, IndenterError, LinePoint, ProfilePoint, stretch, surface_of_revolution};
-use numerics::{in_range, positive};
+use numerics::{bracketed_root, in_range, positive};
 
 /// One term `coefficient · r^exponent` of a [`Superposition`].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,6 +20,9 @@ pub struct PowerTerm {
 }
 
 /// A body of revolution whose profile is a sum of powers, all with different exponents.
+///
+/// If the highest power has a negative coefficient, the body ends at its outermost crest, because the profile falls without limit
+/// beyond it.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Superposition {
@@ -28,6 +31,9 @@ pub struct Superposition {
     /// Terms of the equivalent line by increasing exponent.
     #[cfg_attr(feature = "serde", serde(skip))]
     line_terms: Vec<PowerTerm>,
+    /// Radius at which the body ends, \[m]; `+∞` if it does not.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    max_radius: f64,
 }
 
 impl Superposition {
@@ -62,7 +68,11 @@ impl Superposition {
         for term in &mut line_terms {
             term.coefficient *= stretch(term.exponent)?;
         }
-        Ok(Self { terms, line_terms })
+        Ok(Self {
+            max_radius: outermost_crest(&terms),
+            terms,
+            line_terms,
+        })
     }
 
     /// The terms by increasing exponent.
@@ -73,6 +83,9 @@ impl Superposition {
 
 impl Axisymmetric for Superposition {
     fn profile(&self, radius: f64) -> ProfilePoint {
+        if radius > self.max_radius {
+            return ProfilePoint::ENDED;
+        }
         ProfilePoint {
             height: derivative(&self.terms, 0.0, |_| 1.0, radius),
             slope: derivative(&self.terms, 1.0, |p| p, radius),
@@ -84,7 +97,14 @@ impl Axisymmetric for Superposition {
         self.terms[0].exponent
     }
 
+    fn max_radius(&self) -> f64 {
+        self.max_radius
+    }
+
     fn closed_line(&self, x: f64) -> Option<LinePoint> {
+        if x > self.max_radius {
+            return Some(LinePoint::ENDED);
+        }
         Some(LinePoint {
             height: derivative(&self.line_terms, 0.0, |_| 1.0, x),
             slope: derivative(&self.line_terms, 1.0, |p| p, x),
@@ -112,4 +132,92 @@ fn derivative(terms: &[PowerTerm], order: f64, weight: impl Fn(f64) -> f64, radi
     };
     let mantissa: f64 = terms.iter().map(|term| power(term, shift)).sum();
     scaled_power(mantissa, radius, shift - order)
+}
+
+/// Largest radius at which the slope of a sum of powers changes from rising to falling, \[m]; `+∞` if the highest power rises.
+fn outermost_crest(terms: &[PowerTerm]) -> f64 {
+    if terms.last().is_none_or(|highest| highest.coefficient > 0.0) {
+        return f64::INFINITY;
+    }
+    let slope: Vec<PowerTerm> = terms
+        .iter()
+        .map(|term| PowerTerm {
+            coefficient: term.coefficient * term.exponent,
+            ..*term
+        })
+        .collect();
+    sign_changes(&slope)
+        .last()
+        .map_or(f64::INFINITY, |logarithm| logarithm.exp())
+}
+
+/// Logarithms t of the radii at which a sum Σ a e^(p t) of powers, by increasing exponent, changes its sign, in increasing order.
+///
+/// Divided by its first power the sum has a derivative with one term fewer, between whose sign changes it is monotone and changes its
+/// own sign once at most. This is the proof of Descartes' rule of signs for real exponents (Pólya & Szegő 1971, Part V, no. 77).
+fn sign_changes(terms: &[PowerTerm]) -> Vec<f64> {
+    let ([first, rest @ ..], [others @ .., last]) = (terms, terms) else {
+        return Vec::new();
+    };
+    let derivative: Vec<PowerTerm> = rest
+        .iter()
+        .map(|term| PowerTerm {
+            coefficient: term.coefficient * (term.exponent - first.exponent),
+            exponent: term.exponent - first.exponent,
+        })
+        .collect();
+    // Below the first of these bounds the first term, and above the second one the last term exceeds the sum of all others.
+    let size = |term: &PowerTerm| (terms.len() as f64 * term.coefficient.abs()).ln();
+    let equal = |dominant: &PowerTerm, other: &PowerTerm| {
+        (size(other) - dominant.coefficient.abs().ln()) / (dominant.exponent - other.exponent)
+    };
+    let lowest = rest.iter().map(|term| equal(first, term));
+    let highest = others.iter().map(|term| equal(last, term));
+    let mut bounds = vec![lowest.fold(f64::INFINITY, f64::min)];
+    bounds.extend(sign_changes(&derivative));
+    bounds.push(highest.fold(f64::NEG_INFINITY, f64::max));
+    bounds.sort_by(f64::total_cmp);
+    let sum = |t: f64| {
+        let logarithm = |term: &PowerTerm| term.coefficient.abs().ln() + term.exponent * t;
+        let largest = terms
+            .iter()
+            .map(logarithm)
+            .fold(f64::NEG_INFINITY, f64::max);
+        let scaled = |term| (logarithm(term) - largest).exp().copysign(term.coefficient);
+        terms.iter().map(scaled).sum::<f64>()
+    };
+    bounds
+        .windows(2)
+        .filter_map(|ends| bracketed_root(sum, [ends[0], ends[1]]))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sum_whose_highest_power_falls_ends_at_its_outermost_crest() {
+        // Its slope is r (1 − r²) (4 − r²) (9 − r²): crests at 1 and 3, with a valley between them.
+        let power = |coefficient: f64, exponent: f64| PowerTerm {
+            coefficient: coefficient / exponent,
+            exponent,
+        };
+        let terms = vec![
+            power(36.0, 2.0),
+            power(-49.0, 4.0),
+            power(14.0, 6.0),
+            power(-1.0, 8.0),
+        ];
+        let body = Superposition::new(terms).expect("a body");
+        assert!((body.max_radius() - 3.0).abs() < 1e-14, "{body:?}");
+        assert!(body.profile(2.999_999).slope > 0.0, "{body:?}");
+        assert_eq!(body.profile(3.000_001), ProfilePoint::ENDED);
+        // Squares of this crest, and ratios of these coefficients, are beyond the range of f64.
+        let sum = |c: f64| Superposition::new(vec![power(2e-200, 2.0), power(-4.0 * c, 4.0)]);
+        let crest = sum(1e200).expect("a body").max_radius() * 1e200;
+        assert!((crest - 0.5_f64.sqrt()).abs() < 1e-12, "{crest}");
+        let rising = Superposition::new(vec![power(1.0, 2.0), power(-1.0, 3.0), power(1.0, 5.0)]);
+        assert_eq!(rising.expect("a body").max_radius(), f64::INFINITY);
+    }
 }

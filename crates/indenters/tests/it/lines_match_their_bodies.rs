@@ -48,7 +48,11 @@ fn collinear_rows_are_no_kink() {
 fn closed_lines_equal_the_numerical_transform() {
     // The quadrature is asked for 1e-14 of the integral of the modulus; 1e-12 leaves room for cancellation.
     for (name, body) in all_shapes() {
-        for x in [1e-6, 0.01, 0.3, 0.50001, 0.55, 0.9, 1.05] {
+        let inside = |x: &f64| *x <= body.max_radius();
+        for x in [1e-6, 0.01, 0.3, 0.50001, 0.55, 0.9, 1.05]
+            .into_iter()
+            .filter(inside)
+        {
             assert_close!(abel_height(&*body, x) => body.line_height(x), within 1e-12; "{name}, x = {x}");
             assert_close!(abel_slope(&*body, x) => body.line_slope(x), within 1e-12; "{name}, x = {x}");
             let radius = body.closed_radius(body.line_height(x));

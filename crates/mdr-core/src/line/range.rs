@@ -68,10 +68,15 @@ impl Range {
 
     /// Refuses a line that ends in front before it reaches the height limit.
     ///
-    /// `lowest` is relative to the anchor.
-    pub(crate) fn check_front(&self, lowest: f64, depth: f64) -> Result<(), MdrError> {
+    /// `lowest` is the lowest height relative to the anchor, \[m], known to the `tolerance` in depths.
+    pub(crate) fn check_front(
+        &self,
+        lowest: f64,
+        depth: f64,
+        tolerance: f64,
+    ) -> Result<(), MdrError> {
         let available = self.front_height - lowest;
-        if self.ends_in_front && available < depth {
+        if self.ends_in_front && available < depth * (1.0 - tolerance) {
             return Err(MdrError::DepthBeyondEdge {
                 position: self.ends[1],
                 available,

@@ -197,7 +197,7 @@ impl<'a> LineProblem<'a> {
             tolerance,
         };
         let profile = Profile::new(self.line, &range, resolution)?;
-        range.check_front(depth * profile.lowest, depth)?;
+        range.check_front(depth * profile.lowest, depth, tolerance)?;
         match self.track {
             None => Ok(sweep(&self.foundation, &profile, FreeSurface::untouched(), loads)?.0),
             Some(track) => sweep_until_periodic(&self.foundation, &profile, track, loads),

@@ -61,7 +61,8 @@ pub enum Indenter {
     },
     /// A sum of powers.
     Superposition {
-        /// The terms; that of the lowest exponent has a positive coefficient.
+        /// The terms; that of the lowest exponent has a positive coefficient. If that of the highest has a negative one, the body ends at
+        /// its outermost crest.
         terms: Vec<Term>,
     },
     /// A flat end with a vertical wall.
