@@ -74,8 +74,9 @@ pub enum SolveError {
     /// The sum of hysteresis and shear does not have the requested error.
     #[error(
         "the friction coefficient was not reached to the relative error {}: it is {friction}, of which {shear} from the shear of the \
-         contact area; give a larger solve.relative_error",
-        MessageNumber(*asked)
+         contact area; give a larger solve.relative_error{}",
+        MessageNumber(*asked),
+        hysteresis.as_ref().map_or_else(String::new, |why| format!(" (of the part from hysteresis alone: {why})"))
     )]
     ShearNotReached {
         /// Relative error asked for.
@@ -84,6 +85,8 @@ pub enum SolveError {
         friction: Estimate,
         /// Its part from the shear of the contact area.
         shear: Estimate,
+        /// Reason why the part from hysteresis misses the error that the sum needs; `None` if it does not.
+        hysteresis: Option<Box<SolveError>>,
     },
     /// The friction at the temperature of the contact does not have the requested error.
     #[error(

@@ -213,15 +213,14 @@ pub(super) fn solve(first: Plan, watch: &dyn Progress) -> Result<Answer> {
         // An elastic body that moves has no friction but shear, on any grid, so that no request refines the area.
         let is_elastic = problem.simple() == Some(&Simple::Elastic);
         let is_stuck = is_elastic && matches!(problem.motion(), Motion::Moving(_));
-        let too_coarse = (is_stuck || solutions == MAX_SOLUTIONS).then(|| {
-            Box::new(SolveError::ShearNotReached {
+        if missed.is_some() || is_stuck || solutions == MAX_SOLUTIONS {
+            let why = SolveError::ShearNotReached {
                 asked,
                 friction,
                 shear: answer.friction_from_shear.unwrap_or(friction),
-            })
-        });
-        let missed = missed.or(too_coarse);
-        if missed.is_some() {
+                hysteresis: missed,
+            };
+            let missed = Some(Box::new(why));
             return Solved { answer, missed }.into_result();
         }
         let [smallest, largest] = REQUEST_RATIOS;
