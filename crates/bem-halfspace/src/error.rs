@@ -319,3 +319,19 @@ pub(crate) const fn check_contact_elements(elements: usize) -> Result<(), BemErr
     }
     Err(BemError::GridTooCoarse { elements, needed })
 }
+
+/// Checks that a field has one value per element.
+pub(crate) fn check_length(
+    field: &'static str,
+    length: usize,
+    elements: usize,
+) -> Result<(), BemError> {
+    if length == elements {
+        return Ok(());
+    }
+    Err(BemError::LengthMismatch {
+        field,
+        length,
+        elements,
+    })
+}

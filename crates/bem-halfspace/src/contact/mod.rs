@@ -27,6 +27,7 @@ mod state;
 
 use std::f64::consts::PI;
 
+use crate::error::check_length;
 use crate::parallel::chunks::in_pool;
 use crate::parallel::reductions::mean;
 use crate::transform::convolution::Surroundings;
@@ -216,22 +217,6 @@ fn validate(problem: &ContactProblem, state: &ContactState) -> Result<(), BemErr
         in_range("indentation_depth", value, is_allowed, allowed)?;
     }
     Ok(())
-}
-
-/// Checks that a field has one value per element.
-pub(crate) fn check_length(
-    field: &'static str,
-    length: usize,
-    elements: usize,
-) -> Result<(), BemError> {
-    if length == elements {
-        return Ok(());
-    }
-    Err(BemError::LengthMismatch {
-        field,
-        length,
-        elements,
-    })
 }
 
 /// Checks that the heights of a body over a grid, row-major with `columns` columns, are numbers above −∞.

@@ -3,7 +3,8 @@
 //! Theory: docs/theory/contact.md, "Patches, gaps and the edge of the grid".
 
 use crate::BemError;
-use crate::contact::{Contact, ContactProblem, ContactState, check_length};
+use crate::contact::{Contact, ContactProblem, ContactState};
+use crate::error::check_length;
 use crate::transform::convolution::Surroundings;
 
 /// A connected patch: elements in contact that are linked by common edges, on a periodic grid also across its boundary.

@@ -1,11 +1,12 @@
 //! Pressure on the elements of a grid.
 
 use indenters::Surface;
-use numerics::whole_part;
+use numerics::{positive, whole_part};
 
 use crate::elements::area;
 use crate::elements::bounds::Bounds;
 use crate::elements::mirror::NO_MIRRORS;
+use crate::error::check_length;
 use crate::{BemError, Grid};
 
 /// Pressure in the contact, on a grid of elements.
@@ -42,6 +43,13 @@ impl PressureField {
             origin,
             pressure,
         })
+    }
+
+    /// Refuses a field without one pressure per element, and one without a positive pressure.
+    pub(crate) fn check_contact(&self) -> Result<(), BemError> {
+        check_length("pressure", self.pressure.len(), self.grid.n_elements())?;
+        positive("largest pressure", self.largest())?;
+        Ok(())
     }
 
     /// The field on another `grid` whose first element has its centre at `origin` relative to the lowest point, \[m].

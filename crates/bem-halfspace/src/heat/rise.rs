@@ -2,7 +2,7 @@
 
 use numerics::{Estimate, InvalidParameter, finite, in_range, not_negative, positive};
 
-use crate::contact::check_length;
+use crate::error::check_length;
 use crate::heat::contact_kind::coarsened;
 use crate::heat::operator::HeatOperator;
 use crate::heat::source::SourceDepth;

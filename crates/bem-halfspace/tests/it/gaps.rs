@@ -11,7 +11,9 @@ use bem_halfspace::{
 };
 use indenters::FlatPunch;
 
-use crate::support::{after, elastic, every_kind_of_material, paraboloid, squares, under_force};
+use crate::support::{
+    after, assert_refused, elastic, every_kind_of_material, paraboloid, squares, under_force,
+};
 
 /// Distance of the centre from the lowest point \[m], and gap \[m], of each element.
 fn by_distance(field: &GapField) -> impl Iterator<Item = (f64, f64)> {
@@ -156,6 +158,10 @@ fn on_any_material_it_is_complementary_to_the_pressure() {
         let field = gap(&ball, &material, &load, &options, &state.pressure);
         let field = field.expect("a gap").expect("a field");
         check_complementary(name, &field, &state.pressure, 1e-9);
+        let mut unloaded = state.pressure.clone();
+        unloaded.pressure.fill(0.0);
+        let refused = gap(&ball, &material, &load, &options, &unloaded);
+        assert_refused(name, refused, "largest pressure");
         let marched = slide_on_grid(&ball, &material, &after(load, 0.3), &of_march);
         let marched = marched.expect("a march");
         let field = marched.gap.expect("a field");

@@ -1,11 +1,11 @@
 //! The gap below a periodic surface is complementary to the pressure, and its mean the distance of the mean planes.
 
 use bem_halfspace::periodic;
-use bem_halfspace::{Accuracy, GapField, Layer, PeriodicLoad};
+use bem_halfspace::{Accuracy, GapField, Grid, Layer, PeriodicLoad};
 use indenters::rough::SelfAffine;
 
 use crate::gaps::check_complementary;
-use crate::support::prony;
+use crate::support::{assert_refused, prony};
 
 #[test]
 fn below_a_periodic_surface_its_mean_is_the_distance_of_the_mean_planes() {
@@ -33,6 +33,22 @@ fn below_a_periodic_surface_its_mean_is_the_distance_of_the_mean_planes() {
         "{} {distance}",
         mean(&field)
     );
+    // A field that is no contact of this surface is refused.
+    let mut short = state.pressure.clone();
+    short.pressure.pop();
+    let mut unloaded = state.pressure.clone();
+    unloaded.pressure.fill(0.0);
+    let mut wider = state.pressure.clone();
+    wider.grid = Grid::new(wider.grid.shape(), [0.1; 2]).expect("a grid");
+    let refused = [
+        (short, "LengthMismatch"),
+        (unloaded, "largest pressure"),
+        (wider, "period"),
+    ];
+    for (pressure, expected) in refused {
+        let found = periodic::gap(&surface, &rubber, &load, &pressure);
+        assert_refused(expected, found, expected);
+    }
     // On the way from rest to the stationary state.
     let marched = load.after(0.5).expect("a distance");
     let marched = periodic::slide(&surface, &rubber, &marched, elements);

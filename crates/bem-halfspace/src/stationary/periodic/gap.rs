@@ -10,6 +10,7 @@ use indenters::rough::PeriodicSurface;
 
 use crate::elements::gap_field::GapField;
 use crate::parallel::chunks::in_pool;
+use crate::stationary::periodic::check_periods;
 use crate::stationary::periodic::kernel::{PeriodicKernel, Sliding};
 use crate::stationary::periodic::load::PeriodicLoad;
 use crate::stationary::periodic::refinement::SampledSurface;
@@ -19,7 +20,8 @@ use crate::{BemError, Elastomer, PressureField};
 /// surface, and on its grid.
 ///
 /// # Errors
-/// As for [`steady`](super::steady), before anything is solved.
+/// As for [`steady`](super::steady), before anything is solved; [`BemError::LengthMismatch`] and [`BemError::InvalidParameter`] for a
+/// field without one pressure per element, without a positive one, or with another period than the surface.
 pub fn gap(
     surface: &PeriodicSurface,
     elastomer: &dyn Elastomer,
@@ -27,6 +29,8 @@ pub fn gap(
     field: &PressureField,
 ) -> Result<GapField, BemError> {
     load.require_stationary()?;
+    field.check_contact()?;
+    check_periods(surface, &field.grid)?;
     let sliding = Sliding::under_load(elastomer, load)?;
     let (grid, pressure) = (field.grid, &field.pressure);
     let SampledSurface { heights, .. } = SampledSurface::new(surface, grid.shape())?;

@@ -39,7 +39,8 @@ use crate::{BemError, Elastomer, Grid};
 /// ```
 ///
 /// # Errors
-/// As for [`steady_on_grid`](super::steady_on_grid), before anything is solved.
+/// As for [`steady_on_grid`](super::steady_on_grid), before anything is solved; [`BemError::LengthMismatch`] and
+/// [`BemError::InvalidParameter`] for a field without one pressure per element or without a positive one.
 pub fn gap<'a>(
     body: impl Into<SteadyBody<'a>>,
     elastomer: &dyn Elastomer,
@@ -47,6 +48,7 @@ pub fn gap<'a>(
     options: &SteadyOptions,
     pressure: &PressureField,
 ) -> Result<Option<GapField>, BemError> {
+    pressure.check_contact()?;
     let (surface, loading, options) = body.into().on_grid(elastomer, load, options)?;
     // Find the box of the pressure in the footprint, and the elements around it that the body covers.
     let (spacing, origin) = (options.spacing, pressure.origin);

@@ -23,22 +23,21 @@ use numerics::{Estimate, in_range};
 use rheology::Material;
 use rustfft::num_complex::Complex;
 
-use crate::contact::check_length;
+use crate::error::check_length;
 use crate::parallel::chunks::in_pool;
 use crate::parallel::reductions::{add_scaled, dot, mean};
 use crate::stationary::change;
 use crate::stationary::periodic::contact::PeriodicContact;
 use crate::stationary::periodic::kernel::{PeriodicKernel, Sliding};
 use crate::stationary::periodic::nested::interpolated;
-use crate::stationary::periodic::{PeriodicControl, PeriodicLoad, PeriodicOptions, solve_from};
+use crate::stationary::periodic::{
+    PeriodicControl, PeriodicLoad, PeriodicOptions, check_periods, solve_from,
+};
 use crate::steady::sensitivity::{ByModuli, Change, TwoGridExtrapolation};
 use crate::substrate::base::check_unchanged_moduli;
 use crate::{BemError, Elastomer, Grid, PressureField};
 use adjoint::{Adjoint, Gradient, KernelChange, unit_pressure};
 
-/// Largest relative difference of two periods that count as equal. Chosen above the rounding 5e-10 of numbers of ten digits in a
-/// file; it only decides whether a surface is refused.
-const PERIOD_TOLERANCE: f64 = 1e-9;
 /// Derivatives and error bars from two grids. The derivatives are those on the fine grid, because the elements at the contact
 /// boundary differ from grid to grid without a common order. The error bar is 2.5 times the difference of the grids. The factor
 /// is chosen: an error of the first order would need 1, one of the order 1/2 needs 2.4.
@@ -374,15 +373,4 @@ impl State {
         let area = self.grid.element_area() * self.grid.n_elements() as f64;
         self.gradients.map(|gradient| gradient.by_pressure / area)
     }
-}
-
-/// Refuses a surface whose periods are not those of the grid.
-fn check_periods(surface: &PeriodicSurface, grid: &Grid) -> Result<(), BemError> {
-    let edges = grid.shape().into_iter().zip(grid.spacing());
-    for (period, (edge, spacing)) in surface.period().into_iter().zip(edges) {
-        let own = edge as f64 * spacing;
-        let is_own = (period - own).abs() <= PERIOD_TOLERANCE * own;
-        in_range("period", period, is_own, "that of the grid")?;
-    }
-    Ok(())
 }
