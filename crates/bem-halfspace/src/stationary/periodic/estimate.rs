@@ -5,7 +5,7 @@ use numerics::{Estimate, Request};
 
 use crate::march::periodic::{PeriodicTransient, Steps, slide_with};
 use crate::parallel::reductions::mean;
-use crate::stationary::FIRST_TOLERANCE;
+use crate::stationary::COARSE_GRID_TOLERANCE;
 use crate::stationary::periodic::contact::PeriodicContact;
 use crate::stationary::periodic::grid_sizes::first_shape;
 use crate::stationary::periodic::kernel::Sliding;
@@ -145,7 +145,7 @@ pub fn steady_on_coarse_grid(
         heights: &heights,
         control: load.require_stationary()?,
         options: PeriodicOptions {
-            tolerance: FIRST_TOLERANCE,
+            tolerance: COARSE_GRID_TOLERANCE,
             ..PeriodicOptions::default()
         },
     };

@@ -8,7 +8,7 @@ use rustfft::num_complex::Complex;
 
 use crate::elements::grid::MIN_COARSEST_EDGE;
 use crate::parallel::reductions::mean;
-use crate::stationary::FIRST_TOLERANCE;
+use crate::stationary::COARSE_GRID_TOLERANCE;
 use crate::stationary::periodic::contact::{self, PeriodicContact, PeriodicSolution};
 use crate::stationary::periodic::equations::Equations;
 use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
@@ -60,7 +60,7 @@ fn solve_on_coarser_grids(
         grid: &grid,
         heights: &heights,
         options: PeriodicOptions {
-            tolerance: problem.options.tolerance.max(FIRST_TOLERANCE),
+            tolerance: problem.options.tolerance.max(COARSE_GRID_TOLERANCE),
             max_products: problem.options.max_products.min(COARSE_MAX_PRODUCTS),
         },
         ..*problem
