@@ -155,7 +155,7 @@ impl OfWaves {
 ///
 /// A mean pressure compresses a layer, and leaves the mean of a half space where it is.
 pub(super) struct PeriodicKernel {
-    /// Transforms of the grid, with the stiffness |q|/M of each wave.
+    /// Transforms of the grid, with the reduced wave number |q|/M of each wave.
     waves: FourierMultiplier,
     /// Displacement per mean pressure, \[m/Pa]; 0 for a half space.
     pub(super) mean_compliance: f64,
@@ -211,7 +211,7 @@ impl PeriodicKernel {
 
     /// Displacements \[m] under a pressure field \[Pa], at the points where the gaps are evaluated.
     pub(super) fn displace(&mut self, pressure: &[f64], result: &mut [f64]) {
-        let symbol = |wave: &Wave| self.at_gap.of(wave) / wave.stiffness;
+        let symbol = |wave: &Wave| self.at_gap.of(wave) / wave.reduced_wave_number;
         self.waves.apply(pressure, result, symbol);
         set_mean(result, self.mean_compliance * mean(pressure));
     }
@@ -219,7 +219,7 @@ impl PeriodicKernel {
     /// Displacements \[m] under a pressure field \[Pa], at the centres of the elements; the mean has no meaning.
     #[cfg(feature = "rough")]
     pub(super) fn displace_centres(&mut self, pressure: &[f64], result: &mut [f64]) {
-        let symbol = |wave: &Wave| self.at_centre.of(wave) / wave.stiffness;
+        let symbol = |wave: &Wave| self.at_centre.of(wave) / wave.reduced_wave_number;
         self.waves.apply(pressure, result, symbol);
     }
 
@@ -228,7 +228,8 @@ impl PeriodicKernel {
     ///
     /// The inverse has the mean of the longest wave, so that it exists on a half space too.
     pub(super) fn symbols(&self, self_influence: f64) -> [Vec<Complex<f32>>; 2] {
-        let factor = |wave: &Wave| self.at_gap.of(wave) / (wave.stiffness * self_influence);
+        let factor =
+            |wave: &Wave| self.at_gap.of(wave) / (wave.reduced_wave_number * self_influence);
         let mean = self.mean_compliance / self_influence;
         [
             self.waves.symbols(Some(mean), factor),
@@ -238,14 +239,14 @@ impl PeriodicKernel {
 
     /// The pressure without mean \[Pa] under which the points where gaps are evaluated are displaced by a field \[m] less its mean.
     pub(super) fn invert(&mut self, field: &[f64], result: &mut [f64]) {
-        let symbol = |wave: &Wave| self.at_gap.of(wave).inv() * wave.stiffness;
+        let symbol = |wave: &Wave| self.at_gap.of(wave).inv() * wave.reduced_wave_number;
         self.waves.apply(field, result, symbol);
         set_mean(result, 0.0);
     }
 
     /// The pressure \[Pa] under which the centres of all elements are displaced by a field \[m]; its mean has no meaning.
     pub(super) fn invert_at_centre(&mut self, field: &[f64], result: &mut [f64]) {
-        let symbol = |wave: &Wave| self.at_centre.of(wave).inv() * wave.stiffness;
+        let symbol = |wave: &Wave| self.at_centre.of(wave).inv() * wave.reduced_wave_number;
         self.waves.apply(field, result, symbol);
     }
 
@@ -255,7 +256,7 @@ impl PeriodicKernel {
         self.waves
             .symbols(Some(mean / (mean * weight + 1.0)), |wave| {
                 let kernel = self.at_centre.of(wave) / self_influence;
-                kernel / (kernel * weight + wave.stiffness)
+                kernel / (kernel * weight + wave.reduced_wave_number)
             })
     }
 
@@ -287,8 +288,9 @@ impl PeriodicKernel {
     /// The field −∂u/∂x of the displacement u under a pressure field, of which only the dissipative part is kept. Its mean product with
     /// the pressure is the dissipated power per area and velocity, \[Pa].
     pub(super) fn dissipate(&mut self, pressure: &[f64], result: &mut [f64]) {
-        let symbol =
-            |wave: &Wave| Complex::from(wave.q_x * self.at_centre.of(wave).im / wave.stiffness);
+        let symbol = |wave: &Wave| {
+            Complex::from(wave.q_x * self.at_centre.of(wave).im / wave.reduced_wave_number)
+        };
         self.waves.apply(pressure, result, symbol);
     }
 }

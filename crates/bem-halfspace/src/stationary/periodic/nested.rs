@@ -83,7 +83,7 @@ fn restrict(grid: &Grid, heights: &[f64]) -> Vec<f64> {
     let cut_off = 0.5 * PI * (1.0 - f64::EPSILON.sqrt());
     let mut field = vec![0.0; heights.len()];
     FourierMultiplier::new(grid, &Base::default()).apply(heights, &mut field, |wave| {
-        let (q_x, q) = (wave.q_x, wave.stiffness);
+        let (q_x, q) = (wave.q_x, wave.reduced_wave_number);
         // For the mean, q is that of the longest wave; this changes nothing but the depth of a guess.
         let q_y = if wave.row == 0 {
             q

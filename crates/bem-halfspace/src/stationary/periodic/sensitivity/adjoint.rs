@@ -64,7 +64,7 @@ pub(super) struct Adjoint<'a> {
     equations: Equations,
     /// The active set, reversed along x.
     contact: Vec<bool>,
-    /// Fourier transforms of the grid, with the stiffness |q|/M of each wave.
+    /// Fourier transforms of the grid, with the reduced wave number |q|/M of each wave.
     pub(super) waves: FourierMultiplier,
     /// Material and speed.
     sliding: &'a Sliding,
@@ -162,7 +162,7 @@ impl<'a> Adjoint<'a> {
         let mean = mean(loads);
         let without_mean: Vec<f64> = loads.iter().map(|load| load - mean).collect();
         self.waves.apply(&without_mean, &mut response, |wave| {
-            wave.stiffness.recip().into()
+            wave.reduced_wave_number.recip().into()
         });
         response
     }
