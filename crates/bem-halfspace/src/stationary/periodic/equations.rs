@@ -4,8 +4,8 @@
 //! h + K p − d = 0  on the active set,   p = 0 outside,   mean of p or depth d given
 //! ```
 //!
-//! for the heights h, the pressures p, the kernel K and the depth d of h + u in the contact. If the depth is free, it is
-//! eliminated: the mean over the active set is subtracted from gaps, and search directions have no mean.
+//! for the heights h, the pressures p, the kernel K (`kernel.rs`) and the depth d, the value of h + u in the contact. If the depth is
+//! free, it is eliminated: the mean over the active set is subtracted from gaps, and search directions have no mean.
 //!
 //! GCR (Eisenstat, Elman & Schultz 1983) keeps pressure and gap known after every step. The preconditioner is the inverse S of K
 //! on the whole grid, restricted to the active set, less a coarse-space correction (`block_correction.rs`). Problems with few
@@ -81,9 +81,10 @@ pub(super) struct Equations {
     unit: f64,
     /// Packed gap, less its mean if the depth is free, in `unit`.
     gap: Vec<f32>,
-    /// Packed pressures S 1 under the unit gap on the active set, without coarse-space correction.
-    weights: Vec<f32>,
-    /// Packed pressures M 1 under the unit gap on the active set, with coarse-space correction.
+    /// Packed conductances w = S 1: pressures under the unit gap on the active set, by the preconditioner without coarse-space correction.
+    conductances: Vec<f32>,
+    /// Packed pressures C 1 under the unit gap on the active set, by the preconditioner C with coarse-space correction: the response to a
+    /// unit change of the depth. A multiple of it makes the mean of a search direction zero.
     unit_depth_response: Vec<f32>,
     /// Sum of that response over the active set.
     total_unit_depth_response: f64,
@@ -150,7 +151,7 @@ impl Equations {
             pressure: Vec::new(),
             unit: 1.0,
             gap: Vec::new(),
-            weights: Vec::new(),
+            conductances: Vec::new(),
             unit_depth_response: Vec::new(),
             total_unit_depth_response: 0.0,
             scattered: field(),
@@ -238,7 +239,7 @@ impl Equations {
         }
         self.apply_inverse(direction);
         if let Some(correction) = &mut self.correction {
-            correction.correct(&self.active, &self.weights, direction);
+            correction.correct(&self.active, &self.conductances, direction);
         }
         // If the mean pressure is given, change the depth so that the mean of the direction is zero.
         if self.depth_is_free() {
@@ -319,16 +320,16 @@ impl FixedSetSolver for Equations {
         // Pack the pressures and gaps of the active elements into vectors.
         self.pressure = self.gather(pressure);
         self.set_gap(self.gather(gap));
-        // Apply the preconditioner to the unit gap, without and with the coarse-space correction. Directions are made free of a
-        // mean with the result.
-        let mut weights = copies(1.0, self.active.len());
-        self.apply_inverse(&mut weights);
-        self.weights = weights;
-        self.unit_depth_response = self.weights.clone();
+        // Apply the preconditioner to the unit gap, without and with the coarse-space correction. A multiple of the result makes the
+        // mean of search directions zero.
+        let mut conductances = copies(1.0, self.active.len());
+        self.apply_inverse(&mut conductances);
+        let mut response = conductances.clone();
         if let Some(correction) = &mut self.correction {
-            correction.set_weights(&self.active, &self.weights, &mut self.unit_depth_response);
+            correction.set_conductances(&self.active, &conductances, &mut response);
         }
-        self.total_unit_depth_response = self.total(&self.unit_depth_response);
+        self.total_unit_depth_response = self.total(&response);
+        (self.conductances, self.unit_depth_response) = (conductances, response);
     }
 
     /// Root mean square of the gap on the active set, \[m].

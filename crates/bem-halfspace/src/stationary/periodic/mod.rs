@@ -164,7 +164,7 @@ fn solve_in_pool(
     let weighted_mean = |field: &[f64]| dot(field, &pressure) / pressure.iter().sum::<f64>();
     equations.kernel.slopes(problem.heights, &mut field);
     let from_slopes = weighted_mean(&field);
-    equations.kernel.dissipate(&pressure, &mut field);
+    equations.kernel.negative_loss_slopes(&pressure, &mut field);
     let from_dissipation = weighted_mean(&field);
     Ok(PeriodicSliding {
         friction_coefficient: from_slopes,

@@ -16,7 +16,7 @@ use crate::stationary::periodic::{PeriodicControl, PeriodicOptions};
 use crate::transform::plane_transform::ZERO;
 use crate::{Base, BemError, Grid};
 
-/// Largest number of operator applications (products) on a coarser grid. Chosen to limit the time, at twice the largest number
+/// Largest number of operator applications on a coarser grid. Chosen to limit the time, at twice the largest number
 /// measured on 300 contacts on a hundred-thousandth to all of the area. An unconverged pressure is an initial guess too, so that the solution does
 /// not depend on it.
 const COARSE_MAX_PRODUCTS: usize = 300;

@@ -47,7 +47,7 @@ impl Equations {
             self.active.scatter(&gaps, &mut field);
             self.apply_exact_inverse(&field, &mut loads);
             // Find the gaps of the open elements that remove the loads on them. The residual is the displacement by the remaining loads,
-            // because soft waves of small loads displace the contact far; on the open elements it is as small as an allowed gap.
+            // because small loads on the most compliant waves displace the contact far; on the open elements it is as small as an allowed gap.
             let mut of_open = vec![0.0; open.len()];
             let mut remaining: Vec<f64> = open.iter().map(|element| -loads[*element]).collect();
             let mut work = [(); 2].map(|()| vec![0.0; n]);

@@ -129,7 +129,7 @@ impl<'a> Adjoint<'a> {
         // The friction is the mean dissipation weighted with the pressure: quadratic in the pressures over linear, hence the
         // factor 2. Its derivative by the displacements is the slope of the pressure over the sum of the pressures.
         let kernel = &mut self.equations.kernel;
-        kernel.dissipate(pressure, &mut by_pressures);
+        kernel.negative_loss_slopes(pressure, &mut by_pressures);
         let mean = dot(&by_pressures, pressure) / total;
         for value in &mut by_pressures {
             *value = (2.0 * *value - mean) / total;
@@ -355,7 +355,7 @@ fn reversed(field: &[f64], grid: &Grid) -> Vec<f64> {
     rows.rev().flatten().copied().collect()
 }
 
-/// Cross-spectrum of two fields by rows: for each q_x the sum over q_y of conj(left) right, over the number of rows.
+/// Cross-spectrum of two fields by rows of the transform: for each q_x the sum over q_y of conj(left) right, over the number of rows.
 ///
 /// If each row of the transform of `right` is multiplied by a factor, the scalar product of both fields is the sum of the products
 /// of these values and the factors (Parseval).
