@@ -30,7 +30,7 @@ use crate::elements::area;
 use crate::elements::grid::elements_along;
 use crate::parallel::reductions::{add_scaled, dot, mean};
 use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
-use crate::stationary::periodic::kernel::Sliding;
+use crate::stationary::periodic::kernel::MaterialAtSpeed;
 use crate::stationary::periodic::{PeriodicLoad, check_surface};
 use crate::substrate::base::check_unchanged_moduli;
 use crate::transform::plane_transform::ZERO;
@@ -119,7 +119,7 @@ pub(crate) fn slide_with(
     // Prepare the march: the number of steps over the whole distance, the motion, and the elements of one period before the first
     // step.
     let n_steps = elements_along(distance, whole_step)?;
-    let sliding = Sliding::new(elastomer, velocity)?;
+    let sliding = MaterialAtSpeed::new(elastomer, velocity)?;
     let mut march = PeriodicMarch::new(grid, heights, elastomer, edge / velocity)?;
     // Count the steps from the end of the distance, so that the last one ends there and the first one is the shorter one.
     let rows = (0..n_steps).rev().map(|left| {
@@ -254,7 +254,7 @@ impl<'a> PeriodicMarch<'a> {
     /// The waves of the heights are multiplied by J_Δ/J and by the phase factor of the shortfall (head of this file).
     fn set_sliding_step(
         &mut self,
-        sliding: &Sliding,
+        sliding: &MaterialAtSpeed,
         length: f64,
         shortfall: f64,
     ) -> Result<(), BemError> {

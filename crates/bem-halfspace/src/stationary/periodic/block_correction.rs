@@ -25,7 +25,7 @@ use crate::parallel::chunks::Starts;
 use crate::parallel::reductions::{add_scaled, sum};
 use crate::parallel::row_blocks::{RowBlocks, copies};
 use crate::stationary::conjugate_residuals::{GcrLimits, GcrState, gcr, norm};
-use crate::stationary::periodic::kernel::{PeriodicKernel, Sliding};
+use crate::stationary::periodic::kernel::{MaterialAtSpeed, PeriodicKernel};
 use crate::{BemError, Grid};
 
 /// Length of a block along x, in elements. Derived: the largest for which no block is divided between two row blocks, the shares
@@ -65,7 +65,7 @@ pub(super) struct BlockCorrection {
 impl BlockCorrection {
     /// The correction on a grid, for an empty active set; `None` if the number of rows is not a multiple of [`BLOCK_LENGTH`].
     pub(super) fn new(
-        sliding: &Sliding,
+        sliding: &MaterialAtSpeed,
         grid: &Grid,
         self_influence: f64,
     ) -> Result<Option<Self>, BemError> {

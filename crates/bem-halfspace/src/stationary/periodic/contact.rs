@@ -6,7 +6,7 @@ use numerics::{InvalidParameter, in_range};
 
 use crate::parallel::reductions::mean;
 use crate::stationary::periodic::equations::Equations;
-use crate::stationary::periodic::kernel::Sliding;
+use crate::stationary::periodic::kernel::MaterialAtSpeed;
 use crate::stationary::periodic::{PeriodicControl, PeriodicOptions};
 use crate::stationary::search::Search;
 use crate::{BemError, Grid};
@@ -22,7 +22,7 @@ const INEXACT_TOLERANCE: f64 = 0.01;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PeriodicContact<'a> {
     /// Material and speed.
-    pub(super) sliding: &'a Sliding,
+    pub(super) sliding: &'a MaterialAtSpeed,
     /// Grid of one period.
     pub(super) grid: &'a Grid,
     /// Heights at the centres of the elements, row-major, \[m].

@@ -31,7 +31,7 @@ use crate::parallel::row_blocks::copies;
 use crate::stationary::conjugate_residuals::{GcrLimits, gcr, norm};
 use crate::stationary::periodic::PeriodicControl;
 use crate::stationary::periodic::block_correction::BlockCorrection;
-use crate::stationary::periodic::kernel::{PeriodicKernel, Sliding};
+use crate::stationary::periodic::kernel::{MaterialAtSpeed, PeriodicKernel};
 use crate::stationary::search::{FixedSetSolver, ForcingTerms};
 use crate::{BemError, Grid};
 
@@ -130,7 +130,7 @@ impl AllowedGaps {
 impl Equations {
     /// The equations on a grid, with the kernel and its preconditioners, before any element is in contact.
     pub(super) fn new(
-        sliding: &Sliding,
+        sliding: &MaterialAtSpeed,
         grid: &Grid,
         control: PeriodicControl,
     ) -> Result<Self, BemError> {

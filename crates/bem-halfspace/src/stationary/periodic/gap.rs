@@ -10,7 +10,7 @@ use indenters::rough::PeriodicSurface;
 
 use crate::elements::gap_field::GapField;
 use crate::parallel::chunks::in_pool;
-use crate::stationary::periodic::kernel::{PeriodicKernel, Sliding};
+use crate::stationary::periodic::kernel::{MaterialAtSpeed, PeriodicKernel};
 use crate::stationary::periodic::load::PeriodicLoad;
 use crate::stationary::periodic::refinement::SampledSurface;
 use crate::{BemError, Elastomer, PressureField};
@@ -27,7 +27,7 @@ pub fn gap(
     field: &PressureField,
 ) -> Result<GapField, BemError> {
     load.require_stationary()?;
-    let sliding = Sliding::under_load(elastomer, load)?;
+    let sliding = MaterialAtSpeed::under_load(elastomer, load)?;
     let (grid, pressure) = (field.grid, &field.pressure);
     let SampledSurface { heights, .. } = SampledSurface::new(surface, grid.shape())?;
     let mut kernel = PeriodicKernel::new(&sliding, &grid)?;

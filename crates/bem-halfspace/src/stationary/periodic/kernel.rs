@@ -28,9 +28,10 @@ use crate::stationary::periodic::load::PeriodicLoad;
 use crate::substrate::base::check_no_wave_shift;
 use crate::{Base, BemError, Elastomer, Grid, WaveShift};
 
-/// A material under a surface that slides at a constant speed.
+/// A material at a constant sliding speed v, at which waves of the wave number q_x have the frequency q_x v; or at rest, some time after a
+/// step of pressure, where it is a spring with the creep compliance at that time.
 #[derive(Debug, Clone)]
-pub(crate) struct Sliding {
+pub(crate) struct MaterialAtSpeed {
     /// Creep of the material in shear, at the strain amplitude of the state.
     pub(super) creep: StationaryCreep,
     /// Factor 1 − ν, for the Poisson ratio ν.
@@ -43,7 +44,7 @@ pub(crate) struct Sliding {
     wave_shift: Option<WaveShift>,
 }
 
-impl Sliding {
+impl MaterialAtSpeed {
     /// The material under a load: at its sliding speed, or at rest after the duration of its pressure.
     pub(super) fn under_load(
         elastomer: &dyn Elastomer,
@@ -159,7 +160,7 @@ impl PerWave {
 /// The kernel K on one grid: a Fourier multiplier with a complex compliance for each row of the transform, or for each wave if times and
 /// moduli depend on the wavelength.
 ///
-/// A mean pressure compresses a layer. On a half space, whose displacements are measured from their mean, it causes none.
+/// A mean pressure compresses a layer. The displacements of a half space are measured from their mean.
 pub(super) struct PeriodicKernel {
     /// Transforms of the grid, with the reduced wave number |q|/M of each wave.
     waves: FourierMultiplier,
@@ -175,7 +176,7 @@ pub(super) struct PeriodicKernel {
 
 impl PeriodicKernel {
     /// Kernel of a material at its speed on a grid, as a compliance for each wave.
-    pub(super) fn new(sliding: &Sliding, grid: &Grid) -> Result<Self, BemError> {
+    pub(super) fn new(sliding: &MaterialAtSpeed, grid: &Grid) -> Result<Self, BemError> {
         // Compute the compliance of each row of the transform, or of each wave, and from the loss angle of the shortest wave the shift θ in
         // elements (head of this file).
         let dx = grid.spacing()[0];

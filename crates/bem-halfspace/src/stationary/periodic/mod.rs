@@ -63,7 +63,7 @@ pub use estimate::{PeriodicEstimate, slide, steady, steady_on_coarse_grid};
 pub use gap::gap;
 #[cfg(feature = "rough")]
 pub use grid_sizes::{edge_for_bars, elements_for_bars, fewest_elements, largest_grid, memory};
-use kernel::Sliding;
+use kernel::MaterialAtSpeed;
 pub use load::{PeriodicControl, PeriodicLoad};
 
 /// Stopping criteria of the solver.
@@ -133,7 +133,7 @@ pub fn steady_on_grid(
     options.validate()?;
     check_surface(grid, heights)?;
     let problem = PeriodicContact {
-        sliding: &Sliding::under_load(elastomer, load)?,
+        sliding: &MaterialAtSpeed::under_load(elastomer, load)?,
         grid,
         heights,
         control: load.require_stationary()?,

@@ -135,7 +135,7 @@ mod tests {
     use crate::stationary::periodic::PeriodicControl;
     use crate::stationary::periodic::equations::elimination::tests::stiffening_solid;
     use crate::stationary::periodic::equations::{AllowedGaps, Equations};
-    use crate::stationary::periodic::kernel::Sliding;
+    use crate::stationary::periodic::kernel::MaterialAtSpeed;
     use crate::stationary::search::FixedSetSolver as _;
 
     const SIDE: usize = 64;
@@ -146,7 +146,7 @@ mod tests {
     fn the_gaps_of_few_open_elements_close_all_others() {
         let material = stiffening_solid();
         let grid = Grid::new([SIDE; 2], [1.0 / SIDE as f64; 2]).expect("a grid");
-        let sliding = Sliding::new(&material, 0.3).expect("a solid");
+        let sliding = MaterialAtSpeed::new(&material, 0.3).expect("a solid");
         let control = PeriodicControl::MeanPressure(1.0);
         let mut equations = Equations::new(&sliding, &grid, control).expect("equations");
         let is_open = |element: usize| {

@@ -15,7 +15,7 @@ use crate::stationary::change::Change;
 use crate::stationary::periodic::PeriodicControl;
 use crate::stationary::periodic::equations::Equations;
 use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
-use crate::stationary::periodic::kernel::Sliding;
+use crate::stationary::periodic::kernel::MaterialAtSpeed;
 use crate::stationary::search::FixedSetSolver as _;
 use crate::{BemError, Grid};
 
@@ -67,7 +67,7 @@ pub(super) struct Adjoint<'a> {
     /// Fourier transforms of the grid, with the reduced wave number |q|/M of each wave.
     pub(super) waves: FourierMultiplier,
     /// Material and speed.
-    sliding: &'a Sliding,
+    sliding: &'a MaterialAtSpeed,
     /// Grid of one period.
     grid: &'a Grid,
     /// Heights at the centres of the elements, \[m].
@@ -99,7 +99,7 @@ impl<'a> Adjoint<'a> {
     /// Adjoint problem of a contact with the given heights \[m] and pressures \[Pa]. All its fields are reversed along x, because
     /// the transposed kernel is that of the opposite motion.
     pub(super) fn new(
-        sliding: &'a Sliding,
+        sliding: &'a MaterialAtSpeed,
         grid: &'a Grid,
         heights: &'a [f64],
         pressure: &'a [f64],
