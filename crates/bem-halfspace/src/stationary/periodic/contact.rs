@@ -38,7 +38,7 @@ pub(super) struct PeriodicSolution {
     /// Sum of height h and displacement u of the elements in contact, \[m].
     pub(super) depth: f64,
     /// Operator applications on this grid.
-    pub(super) products: usize,
+    pub(super) applications: usize,
     /// Final residual, relative to the largest displacement.
     pub(super) residual: f64,
 }
@@ -79,7 +79,7 @@ pub(super) fn solve(
         *pressure = overlaps();
         return Ok(PeriodicSolution {
             depth,
-            products: 0,
+            applications: 0,
             residual: 0.0,
         });
     }
@@ -91,7 +91,7 @@ pub(super) fn solve(
     };
 
     // Search the active set and its pressures, beginning with the guess.
-    (equations.depth, equations.max_products) = (depth, problem.options.max_products);
+    (equations.depth, equations.max_applications) = (depth, problem.options.max_applications);
     let inner_tolerance = INEXACT_TOLERANCE * variance.sqrt();
     let mut search = Search::new(
         equations,
@@ -113,7 +113,7 @@ pub(super) fn solve(
     }
     found.map(|()| PeriodicSolution {
         depth,
-        products: equations.products,
+        applications: equations.applications,
         residual,
     })
 }

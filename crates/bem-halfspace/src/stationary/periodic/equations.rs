@@ -103,9 +103,9 @@ pub(super) struct Equations {
     /// True if the iteration over the gaps of the open elements was the last one to converge.
     converged_by_open_gaps: bool,
     /// Operator applications on this grid so far.
-    pub(super) products: usize,
+    pub(super) applications: usize,
     /// Number of operator applications from which on the search ends.
-    pub(super) max_products: usize,
+    pub(super) max_applications: usize,
 }
 
 /// Gaps on the active set that count as closed, in the unit of the packed gaps.
@@ -159,8 +159,8 @@ impl Equations {
             self_influence,
             largest_direct_cost: 0.0,
             converged_by_open_gaps: false,
-            products: 0,
-            max_products: usize::MAX,
+            applications: 0,
+            max_applications: usize::MAX,
         })
     }
 
@@ -212,7 +212,7 @@ impl Equations {
     /// Computes the packed `gaps` under packed `pressures`, less their mean if the depth is free: the operator of GCR.
     fn apply_influence(&mut self, pressures: &[f32], gaps: &mut [f32]) {
         self.active.scatter(pressures, &mut self.scattered);
-        self.products += 1;
+        self.applications += 1;
         self.kernel.apply_single_precision(
             &self.influence_symbols,
             &self.scattered,
@@ -299,7 +299,7 @@ impl FixedSetSolver for Equations {
     /// Writes the displacement K p \[m], in double precision; returns the largest displacement from the mean \[m], the scale of the
     /// tolerance.
     fn displace(&mut self, pressure: &[f64], displacement: &mut [f64]) -> f64 {
-        self.products += 1;
+        self.applications += 1;
         self.kernel.displace(pressure, displacement);
         let mean = mean(displacement);
         displacement
@@ -359,7 +359,7 @@ impl FixedSetSolver for Equations {
         let n_elements = self.scattered.len();
         let can_be_direct = self.n_unknowns() <= dense::MAX_UNKNOWNS as f64;
         let direct_cost = DIRECT_SOLVE_COST * self.n_unknowns().powi(3) / n_elements as f64;
-        let affordable = (self.products as f64).max(self.largest_direct_cost);
+        let affordable = (self.applications as f64).max(self.largest_direct_cost);
         if !(can_be_direct && direct_cost < affordable) {
             let cost_limit = if can_be_direct {
                 direct_cost
@@ -422,12 +422,12 @@ impl FixedSetSolver for Equations {
 
     /// Number of operator applications so far.
     fn iterations(&self) -> usize {
-        self.products
+        self.applications
     }
 
     /// True from the largest number of operator applications on.
     fn budget_is_exhausted(&self) -> bool {
-        self.products >= self.max_products
+        self.applications >= self.max_applications
     }
 }
 

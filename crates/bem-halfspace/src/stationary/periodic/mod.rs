@@ -74,7 +74,7 @@ pub struct PeriodicOptions {
     /// between 0 and 1.
     pub tolerance: f64,
     /// Maximum number of operator applications on the finest grid.
-    pub max_products: usize,
+    pub max_applications: usize,
 }
 
 impl Default for PeriodicOptions {
@@ -82,7 +82,7 @@ impl Default for PeriodicOptions {
     fn default() -> Self {
         Self {
             tolerance: 1e-6,
-            max_products: 2000,
+            max_applications: 2000,
         }
     }
 }
@@ -106,7 +106,7 @@ pub struct PeriodicSliding {
     /// undeformed surface of a layer.
     pub mean_depth: f64,
     /// Operator applications on this grid.
-    pub products: usize,
+    pub applications: usize,
     /// Final residual, in the sense of [`PeriodicOptions::tolerance`].
     pub residual: f64,
     /// Pressure of the elements; the origin is the centre of the first element.
@@ -171,7 +171,7 @@ fn solve_in_pool(
         friction_from_dissipation: from_dissipation,
         area_fraction: area::area_fraction(problem.grid.shape()[1], &pressure).area,
         mean_depth: solved.depth - mean(problem.heights),
-        products: solved.products,
+        applications: solved.applications,
         residual: solved.residual,
         pressure: PressureField {
             grid: *problem.grid,
@@ -185,7 +185,7 @@ impl PeriodicOptions {
     /// Refuses numbers out of their ranges.
     fn validate(&self) -> Result<(), InvalidParameter> {
         numerics::between_zero_and_one("tolerance", self.tolerance)?;
-        positive("max_products", self.max_products as f64).map(drop)
+        positive("max_applications", self.max_applications as f64).map(drop)
     }
 }
 

@@ -19,7 +19,7 @@ use crate::{Base, BemError, Grid};
 /// Largest number of operator applications on a coarser grid. Chosen to limit the time, at twice the largest number
 /// measured on 300 contacts on a hundred-thousandth to all of the area. An unconverged pressure is an initial guess too, so that the solution does
 /// not depend on it.
-const COARSE_MAX_PRODUCTS: usize = 300;
+const COARSE_GRID_BUDGET: usize = 300;
 
 /// Solves the problem with the equations of its grid: in closed form in full contact, else from a guess.
 ///
@@ -61,7 +61,7 @@ fn solve_on_coarser_grids(
         heights: &heights,
         options: PeriodicOptions {
             tolerance: problem.options.tolerance.max(COARSE_GRID_TOLERANCE),
-            max_products: problem.options.max_products.min(COARSE_MAX_PRODUCTS),
+            max_applications: problem.options.max_applications.min(COARSE_GRID_BUDGET),
         },
         ..*problem
     };
@@ -170,7 +170,7 @@ fn full_contact(
     *pressure = full;
     Some(PeriodicSolution {
         depth: mean_height + compliance * mean_pressure,
-        products: 1,
+        applications: 1,
         residual: 0.0,
     })
 }

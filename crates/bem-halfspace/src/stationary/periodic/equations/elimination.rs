@@ -110,7 +110,7 @@ impl Equations {
 
     /// Writes the pressures without mean, in their unit, that displace the whole grid by a `field` less its mean; in double precision.
     pub(super) fn apply_exact_inverse(&mut self, field: &[f64], loads: &mut [f64]) {
-        self.products += 1;
+        self.applications += 1;
         self.kernel.invert(field, loads);
         let own = self.self_influence;
         loads.iter_mut().for_each(|load| *load *= own);

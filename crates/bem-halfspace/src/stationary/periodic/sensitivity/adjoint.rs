@@ -321,7 +321,7 @@ impl<'a> Adjoint<'a> {
             self.equations.copy_pressure_to(&mut loads);
         }
         Err(BemError::ContactNotConverged {
-            iterations: self.equations.products,
+            iterations: self.equations.applications,
             residual: before / first.unwrap_or(before),
             tolerance: ADJOINT_TOLERANCE,
         })
