@@ -14,7 +14,7 @@ use benches::{ContactScene, Failure, report_each, rough_heights, with_memory};
 use casebook::{deviation, prony};
 
 const COLUMNS: &str =
-    "n ratio products error area time[s] bytes/element at-rest[s] sliding/at-rest";
+    "n ratio applications error area time[s] bytes/element at-rest[s] sliding/at-rest";
 /// Ratio of the moduli, speed, and mean pressure on 512² elements.
 const SOLIDS: [[f64; 3]; 2] = [[100.0, 7e-4, 0.26], [1000.0, 3e-4, 1.2]];
 /// More waves carry the pressure that closes a tenth of the area, with this power of their number.
@@ -63,7 +63,7 @@ fn report(n: usize) -> Result<(), Failure> {
         let error = deviation(&solved.pressure.pressure, &reference.pressure.pressure);
         println!(
             "{n} {ratio} {} {error:.1e} {:.3} {time:.2} {bytes:.0} {at_rest:.2} {:.1}",
-            solved.products,
+            solved.applications,
             solved.area_fraction,
             time / at_rest
         );

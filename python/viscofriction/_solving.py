@@ -23,8 +23,9 @@ __all__ = ["move", "press", "slide", "solve"]
 
 #: Called with how many scenes are done and how many there are; True shows a bar of tqdm.
 Progress = Callable[[int, int], object] | bool | None
-# As the program has it: a scene is written by a person, and names the files that are large.
-LARGEST_SCENE = 1 << 24
+# Largest scene file, [bytes]: 16 MiB, as in the command-line program. Scenes are written by hand; large data are in files that they
+# name.
+MAX_SCENE_SIZE = 1 << 24
 Scene = str | os.PathLike[str] | Mapping[str, Any]
 Kind = TypeVar("Kind", bound=Answer)
 
@@ -245,8 +246,8 @@ def read(scene: Scene) -> tuple[dict[str, Any], str, Any]:
 
 def _scene_text(path: Path) -> str:
     # A device has no end, and a larger file is something else that was named by mistake.
-    if path.exists() and (not path.is_file() or path.stat().st_size > LARGEST_SCENE):
-        raise ValueError(f"{path}: a regular file of at most {LARGEST_SCENE} bytes is needed")
+    if path.exists() and (not path.is_file() or path.stat().st_size > MAX_SCENE_SIZE):
+        raise ValueError(f"{path}: a regular file of at most {MAX_SCENE_SIZE} bytes is needed")
     return path.read_text("utf-8")
 
 

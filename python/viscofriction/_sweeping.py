@@ -19,7 +19,7 @@ from . import _native
 from ._arrays import Compared, count, numbers, text_of
 from ._friction import MeasuredFriction
 from ._results import QUANTITIES, html_page, html_table, noted, with_bars, with_unit
-from ._solving import LARGEST_SCENE, Progress, Scene, read, shown
+from ._solving import MAX_SCENE_SIZE, Progress, Scene, read, shown
 
 __all__ = ["Sweep", "read_sweep", "sweep"]
 
@@ -27,8 +27,8 @@ __all__ = ["Sweep", "read_sweep", "sweep"]
 TEXTS = {"sweep", "check", "program", "method", "model", "warnings", "failure"}
 WHOLE = {"point", "points", "unknowns"}
 
-# Largest table that is read back: more rows than a sweep has points.
-LARGEST_SWEEP = 64 * LARGEST_SCENE
+# Largest table of a sweep that is read back, [bytes]: 1 GiB, for more rows than a sweep may have points.
+MAX_SWEEP_SIZE = 64 * MAX_SCENE_SIZE
 
 Row = list[str]
 Finished = list[tuple[int, Row]]
@@ -241,8 +241,8 @@ def read_sweep(file: str | os.PathLike[str]) -> Sweep:
     A last line that is not complete is left out. Raises ValueError for another file, and for a row that was changed.
     """
     path = Path(file)
-    if not path.is_file() or path.stat().st_size > LARGEST_SWEEP:
-        raise ValueError(f"{path}: a regular file of at most {LARGEST_SWEEP} bytes is needed")
+    if not path.is_file() or path.stat().st_size > MAX_SWEEP_SIZE:
+        raise ValueError(f"{path}: a regular file of at most {MAX_SWEEP_SIZE} bytes is needed")
     try:
         text = path.read_bytes().decode("utf-8-sig")
         header, *rows = list(csv.reader(io.StringIO(text[: text.rfind("\n") + 1]))) or [[]]

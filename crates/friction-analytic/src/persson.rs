@@ -379,8 +379,8 @@ struct SpectralIntegrals {
 }
 
 impl SpectralIntegrals {
-    /// Adds a contribution to all terms of the friction. Given that of full contact, `in_full_contact`, the term of S is P S
-    /// times it, with the present area fraction P and S = 1, P² and P⁴.
+    /// Adds the friction of a wave, which is `in_full_contact` in full contact, to the terms with S = 1, P² and P⁴: in partial contact it is
+    /// P S times as large, with the area fraction P up to the present G.
     fn add_friction(&mut self, in_full_contact: f64) {
         let area = area_fraction(2.0 * self.g);
         let mut added = area * in_full_contact;

@@ -1,7 +1,7 @@
 //! Symmetry reduction of contacts that are their own mirror images.
 //!
-//! If the separation is symmetric about a plane, so are load and displacement, and the part of the grid in front of the plane
-//! determines them. An element through whose centre the plane passes has half of its load in front.
+//! If the separation is symmetric about a plane, so are load and displacement, which the symmetry-reduced domain on one
+//! side of the plane determines. An element through whose centre the plane passes has half of its load in this domain.
 //!
 //! Theory: docs/theory/contact.md, "Mirrors".
 
@@ -29,10 +29,10 @@ pub(super) fn solve_symmetry_reduced(
     if mirrors == NO_MIRRORS {
         return solve_with_largest_load(largest_load, problem, state, criterion);
     }
-    // Restrict separation, first guess and force to the domain in front of the mirrors.
+    // Restrict separation, first guess and force to the symmetry-reduced domain.
     let mut front = match state.front.take() {
         Some(front) if front.convolution.mirrors == mirrors => front,
-        _ => Box::new(ContactBox::in_front_of(mirrors, convolution)),
+        _ => Box::new(ContactBox::symmetry_reduced(mirrors, convolution)),
     };
     let whole = convolution.grid().shape();
     front.extract_from(problem.separation, &state.load, whole[1]);
@@ -84,7 +84,7 @@ fn find_mirrors(convolution: &Convolution, fields: [&[f64]; 2]) -> [Mirror; 2] {
         _ if !equal[axis] || shape[axis] == 1 => Mirror::None,
         Surroundings::Free if shape[axis].is_multiple_of(2) => Mirror::Edge,
         Surroundings::Free => Mirror::Centre,
-        // The coarser grid of the preconditioner needs an even number of rows in front of the mirror.
+        // The coarser grid of the preconditioner needs an even number of rows in the symmetry-reduced domain.
         Surroundings::Periodic if shape[axis].is_multiple_of(4) => Mirror::Edge,
         Surroundings::Periodic => Mirror::None,
     })
@@ -107,8 +107,8 @@ impl ContactBox {
                 .chunks_exact_mut(whole[1])
                 .zip(displacements.chunks_exact_mut(whole[1]));
             for (row, (loads, displacements)) in row_blocks.rows(row_block).zip(rows) {
-                // Copy the half in front, without the weights of the mirror.
-                let row = row_in_front(row, whole[0], mirrors[0]);
+                // Copy the symmetry-reduced domain, without the weights of elements on the mirror.
+                let row = folded_row(row, whole[0], mirrors[0]);
                 let part = row * columns..(row + 1) * columns;
                 let front = whole[1] - columns;
                 displacements[front..].copy_from_slice(&self.state.displacement[part.clone()]);
@@ -116,7 +116,7 @@ impl ContactBox {
                 for (column, weight) in weights.row_weights(part) {
                     loads[front + column] /= weight;
                 }
-                // Fill the half behind the mirror with the image of the half in front.
+                // Fill the other half with the image of this one.
                 mirror_behind(displacements, columns);
                 mirror_behind(loads, columns);
             }
@@ -124,9 +124,9 @@ impl ContactBox {
     }
 }
 
-/// Row of the symmetry-reduced domain that corresponds to a row of the whole grid, which has `rows` rows: the row itself in front
-/// of the mirror, its image behind it.
-const fn row_in_front(row: usize, rows: usize, mirror: Mirror) -> usize {
+/// Row of the symmetry-reduced domain that corresponds to a row of the whole grid, which has `rows` rows: the row itself, or
+/// its image.
+const fn folded_row(row: usize, rows: usize, mirror: Mirror) -> usize {
     let half = rows / 2;
     match mirror {
         Mirror::None => row,
@@ -136,9 +136,9 @@ const fn row_in_front(row: usize, rows: usize, mirror: Mirror) -> usize {
     }
 }
 
-/// Fills the part of a row behind a mirror from its last `in_front` values, which lie in front of the mirror.
-fn mirror_behind(line: &mut [f64], in_front: usize) {
-    let (behind, front) = line.split_at_mut(line.len() - in_front);
+/// Fills the rest of a row from its last `n_folded` values, those of the symmetry-reduced domain, by reflection.
+fn mirror_behind(line: &mut [f64], n_folded: usize) {
+    let (behind, front) = line.split_at_mut(line.len() - n_folded);
     // An element through whose centre the mirror passes has no image.
     let on_mirror = front.len() - behind.len();
     for (value, image) in behind.iter_mut().rev().zip(&front[on_mirror..]) {

@@ -82,7 +82,7 @@ impl Preconditioner {
         let long_wave_inverse = convolution.on_blocks(|q| {
             let difference =
                 |axis: usize| stencil[axis] * (2.0 - 2.0 * (q[axis] * grid.spacing()[axis]).cos());
-            convolution.base.local_stiffness(q[0].hypot(q[1])) - difference(0) - difference(1)
+            convolution.base.local_wave_number(q[0].hypot(q[1])) - difference(0) - difference(1)
         });
         let n_blocks = long_wave_inverse.grid().n_elements();
         Self {
@@ -128,7 +128,7 @@ impl Preconditioner {
         let (columns, mirror_weights, row_blocks) =
             (self.shape[1], self.mirror_weights, active.row_blocks);
 
-        // Scatter the residual over the grid, and restrict it to the blocks of both parts.
+        // Scatter the residual over the grid, and restrict it to the blocks of the long waves and to those of the multilevel correction.
         let (conductances, block_loads) = self.correction.conductances_and_loads();
         let targets = [
             active.field(field),
@@ -288,7 +288,7 @@ mod tests {
         }
     }
 
-    /// What docs/theory/contact.md says of the sum of its parts, in front of mirrors and over several row blocks too.
+    /// The claim of docs/theory/contact.md, on symmetry-reduced domains and over several row blocks too.
     #[test]
     fn on_any_contact_it_is_symmetric_and_positive() -> Result<(), BemError> {
         for (shape, mirrors) in [

@@ -177,8 +177,8 @@ impl ContactBox {
         Ok(Self::new(convolution.on_grid(&grid), bounds))
     }
 
-    /// The symmetry-reduced domain of the grid of a convolution: the part in front of mirrors in its middle.
-    pub(super) fn in_front_of(mirrors: [Mirror; 2], convolution: &Convolution) -> Self {
+    /// The symmetry-reduced domain of the grid of a convolution, for mirrors in its middle.
+    pub(super) fn symmetry_reduced(mirrors: [Mirror; 2], convolution: &Convolution) -> Self {
         let folded = convolution.folded(mirrors);
         let (part, upper) = (folded.grid().shape(), convolution.grid().shape());
         let lower = [upper[0] - part[0], upper[1] - part[1]];

@@ -69,8 +69,8 @@ pub(crate) fn area_in_elements(loads: &[f64], bounds: &Bounds, mirrors: [Mirror;
             other => multiplicity(other),
         });
         count += images[0] * images[1];
-        // Count the edges to elements without load. Behind the first element in front of a mirror lies its image or the element
-        // itself.
+        // Count the edges to elements without load. The neighbour of the first element across a mirror is its image or the element
+        // itself, so that it has load.
         let before = [
             has_load(row.wrapping_sub(1), column),
             has_load(row, column.wrapping_sub(1)),
@@ -85,7 +85,7 @@ pub(crate) fn area_in_elements(loads: &[f64], bounds: &Bounds, mirrors: [Mirror;
     corrected_area(count, edges)
 }
 
-/// Number of copies of an edge between two elements in front of a mirror: itself and its image.
+/// Number of images of an edge between two elements of the symmetry-reduced domain, itself included.
 const fn multiplicity(mirror: Mirror) -> usize {
     if mirror.is_none() { 1 } else { 2 }
 }

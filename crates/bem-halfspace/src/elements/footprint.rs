@@ -9,9 +9,9 @@ use crate::elements::grid::elements_along;
 use crate::stationary::steady::depth_scale_of_surface;
 use crate::{BemError, Elastomer};
 
-/// Largest height of a body that may be in contact under a force, in depth scales D. Chosen with a margin: the highest front that
-/// is known, under a cusp h ∼ r^0.51, lies at 1.6 D ([`Footprint::sliding`]). A footprint that is too small grows (case of
-/// `evidence tuning`).
+/// Largest height of the body, above its lowest point, that may be in contact under a force F_N, over the depth scale D = F_N/(4ηv) of a
+/// dashpot ([`Footprint::sliding`] for other materials). Chosen with a margin: the highest known leading edge of a contact, under a cusp
+/// h ∼ r^0.51, lies at 1.6 D. A footprint that is too small grows (case of `evidence tuning`).
 pub(crate) const MAX_HEIGHT_IN_DEPTH_SCALES: f64 = 2.0;
 
 /// The rectangle around the lowest point of the indenter, which lies at [0, 0], in which contact may occur, \[m].
@@ -37,7 +37,7 @@ impl Footprint {
     ///
     /// At a given depth it holds all of the surface below that depth, because a half space nowhere rises to meet the body. Under
     /// a given force it holds all of the surface below 1.5 D, with the depth scale D = F_N / (4 η v) of a dashpot. For a cusp
-    /// sharper than r^(3/4), and for surfaces other than bodies of revolution, that is 2 D. The front of the contact lies at
+    /// sharper than r^(3/4), and for surfaces other than bodies of revolution, that is 2 D. The leading edge of the contact lies at
     /// 1.6 D for h ∼ r^0.51, at 1.1 D for the cone and at 0.8 D for the paraboloid. On other materials D = h(a) =
     /// 2 (1 − ν) F_N J(a/v) / (4 a).
     ///

@@ -52,7 +52,7 @@ impl Grid {
         }
     }
 
-    /// The symmetry-reduced domain in front of mirrors through the middle of the grid.
+    /// The symmetry-reduced domain of this grid, for mirrors through its middle.
     pub(crate) fn folded(&self, mirrors: [Mirror; 2]) -> Self {
         Self {
             shape: [0, 1].map(|axis| mirrors[axis].folded_len(self.shape[axis])),
@@ -60,7 +60,7 @@ impl Grid {
         }
     }
 
-    /// The whole grid of which this one is the symmetry-reduced domain in front of `mirrors`.
+    /// The whole grid of which this one is the symmetry-reduced domain.
     pub(crate) fn unfolded(&self, mirrors: [Mirror; 2]) -> Self {
         Self {
             shape: [0, 1].map(|axis| mirrors[axis].unfolded_len(self.shape[axis])),

@@ -1,13 +1,14 @@
-//! Mirror planes of symmetric fields, for the symmetry-reduced domain in front of them.
+//! Mirror planes of symmetric fields. The *symmetry-reduced domain* is the half of a grid on one side of a mirror, towards larger indices,
+//! or with two mirrors the quarter between them; only it is stored.
 //!
 //! Theory: docs/theory/contact.md, "Mirrors".
 
-/// Mirror across one axis of a grid; only the part in front of it, towards larger indices, is stored.
+/// Mirror across one axis of a grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Mirror {
     /// No symmetry, or none that the grid has.
     None,
-    /// Symmetry about the centres of a row or column, the first one of the part.
+    /// Symmetry about the centres of a row or column, the first one of the symmetry-reduced domain.
     Centre,
     /// Symmetry about the edge between two rows or columns.
     Edge,
@@ -17,8 +18,8 @@ pub(crate) enum Mirror {
 pub(crate) const NO_MIRRORS: [Mirror; 2] = [Mirror::None; 2];
 
 impl Mirror {
-    /// Number of rows or columns in front of a mirror in the middle of `whole`, which is odd for a mirror about a centre and
-    /// even for one about an edge.
+    /// Number of rows or columns of the symmetry-reduced domain of `whole`, which is odd for a mirror about a centre and even for one
+    /// about an edge.
     pub(crate) const fn folded_len(self, whole: usize) -> usize {
         match self {
             Self::None => whole,
@@ -27,7 +28,7 @@ impl Mirror {
         }
     }
 
-    /// Number of rows or columns of the whole, of which `part` are in front of the mirror.
+    /// Number of rows or columns of the whole grid, of which `part` are in the symmetry-reduced domain.
     pub(crate) const fn unfolded_len(self, part: usize) -> usize {
         match self {
             Self::None => part,
@@ -41,7 +42,7 @@ impl Mirror {
         matches!(self, Self::None)
     }
 
-    /// The mirror of the grid of blocks of two by two elements over the same part, whose blocks begin at the mirror.
+    /// The mirror of the grid of blocks of two by two elements over the same symmetry-reduced domain, whose blocks begin at the mirror.
     pub(crate) const fn of_blocks(self) -> Self {
         match self {
             Self::None => Self::None,

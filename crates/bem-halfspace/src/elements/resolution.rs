@@ -24,7 +24,7 @@ pub(crate) struct Layout {
     pub(crate) shape: [usize; 2],
     /// The element [row, column] under the lowest point.
     pub(crate) apex: [usize; 2],
-    /// Mirrors about the centre of that element; only the elements in front of them are computed.
+    /// Mirrors about the centre of that element; only elements of the symmetry-reduced domain are computed.
     pub(crate) mirrors: [Mirror; 2],
 }
 
@@ -62,12 +62,12 @@ impl GridOptions {
 }
 
 impl Layout {
-    /// Number of elements [n_x, n_y] in front of the mirrors.
+    /// Number of elements [n_x, n_y] of the symmetry-reduced domain.
     pub(crate) fn folded_shape(&self) -> [usize; 2] {
         [0, 1].map(|axis| self.mirrors[axis].folded_len(self.shape[axis]))
     }
 
-    /// The first element [row, column] of the footprint in front of the mirrors.
+    /// The first element [row, column] of the footprint in the symmetry-reduced domain.
     pub(crate) fn first(&self) -> [usize; 2] {
         let folded = self.folded_shape();
         [0, 1].map(|axis| self.shape[axis] - folded[axis])
@@ -83,8 +83,9 @@ impl Layout {
         rows.flat_map(move |row| columns.clone().map(move |column| [row, column]))
     }
 
-    /// Element in front of the mirrors, counted from the first one there, with an element [row, column] of the footprint as its image.
-    pub(crate) fn in_front(&self, element: [usize; 2]) -> [usize; 2] {
+    /// The element of the symmetry-reduced domain, counted from its first one, that has an element [row, column] of the footprint as its
+    /// image.
+    pub(crate) fn folded_element(&self, element: [usize; 2]) -> [usize; 2] {
         let first = self.first();
         [0, 1].map(|axis| match element[axis] {
             index if index < first[axis] => self.shape[axis] - 1 - index - first[axis],
@@ -92,7 +93,7 @@ impl Layout {
         })
     }
 
-    /// Number of different elements of the footprint that are images of an element in front of the mirrors, itself included.
+    /// Number of different elements of the footprint that are images of an element of the symmetry-reduced domain, itself included.
     pub(crate) fn n_images_of(&self, element: [usize; 2]) -> usize {
         let along = |axis: usize| {
             let has_image = !self.mirrors[axis].is_none() && element[axis] != self.apex[axis];
@@ -101,14 +102,14 @@ impl Layout {
         along(0) * along(1)
     }
 
-    /// The smallest box of the footprint that holds the box `front` and its images; `front` counts rows and columns from the first
-    /// element in front of the mirrors.
-    pub(crate) fn unfolded(&self, front: &Bounds) -> Bounds {
+    /// The smallest box of the footprint that holds a box of the symmetry-reduced domain and its images; `folded` counts rows and
+    /// columns from the first element of that domain.
+    pub(crate) fn unfolded(&self, folded: &Bounds) -> Bounds {
         let first = self.first();
-        let upper = [0, 1].map(|axis| first[axis] + front.upper[axis]);
+        let upper = [0, 1].map(|axis| first[axis] + folded.upper[axis]);
         let lower = [0, 1].map(|axis| {
             if self.mirrors[axis].is_none() {
-                front.lower[axis]
+                folded.lower[axis]
             } else {
                 self.shape[axis] - upper[axis]
             }

@@ -28,12 +28,12 @@ use crate::transform::plane_transform::ZERO;
 use crate::transform::plane_transform::complex_product::signed_offset;
 use crate::{BemError, Grid, PressureField, WaveShift};
 
-/// The depths z at which fields are computed.
+/// Trapezoidal rule in ln z over the depths z at which fields are computed.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct DepthRule {
     /// Step of ln z.
     pub(super) log_step: f64,
-    /// Smallest product of the depth and the largest wave number.
+    /// Product of the smallest depth and the largest wave number.
     pub(super) smallest: f64,
     /// True if the strain is computed in addition to the power.
     pub(super) with_strain: bool,
@@ -42,27 +42,32 @@ pub(super) struct DepthRule {
     pub(super) negligible_share: f64,
 }
 
-/// Depths for the power. Derived, and the negligible share chosen: the trapezoidal rule of (qz)³ e^(−2qz) over ln z has the relative
-/// error 2 |Γ(3 + 2πi/0.6)|/Γ(3) = 7e-5; above the smallest depth lies 1.2e-3 of the power of the shortest wave, and less of that of
-/// longer ones.
-pub(super) const DEPTHS_OF_POWER: DepthRule = DepthRule {
+/// Quadrature over the depth z for the dissipated power: the trapezoidal rule in ln z. A pressure wave of the wave number q dissipates
+/// a power ∝ (qz)³ e^(−2qz) per ln z.
+///
+/// Derived, but for the negligible share, which is chosen: the relative error is 2 |Γ(3 + 2πi/0.6)|/Γ(3) = 7e-5. Between the surface
+/// and the smallest depth lies 1.2e-3 of the power of the shortest wave, and less of that of longer ones.
+pub(super) const POWER_DEPTH_RULE: DepthRule = DepthRule {
     log_step: 0.6,
     smallest: 0.1,
     with_strain: false,
     negligible_share: 0.01,
 };
-/// Depths for the product of power and squared strain. Derived, and the negligible share chosen: the trapezoidal rule of (qz)⁵ e^(−4qz)
-/// over ln z has the relative error 2 |Γ(5 + 2πi/0.3)|/Γ(5) = 1e-9, and above the smallest depth lies 3e-6 of the integral of the
-/// shortest wave of the grid.
-pub(super) const DEPTHS_OF_STRAIN: DepthRule = DepthRule {
+/// Quadrature over the depth z for the mean squared strain, weighted with the dissipated power: the trapezoidal rule in ln z. The
+/// product of power and squared strain of a pressure wave of the wave number q is ∝ (qz)⁵ e^(−4qz) per ln z.
+///
+/// Derived, but for the negligible share, which is chosen: the relative error is 2 |Γ(5 + 2πi/0.3)|/Γ(5) = 1e-9. Between the surface
+/// and the smallest depth lies 3e-6 of the integral of the shortest wave of the grid.
+pub(super) const STRAIN_DEPTH_RULE: DepthRule = DepthRule {
     log_step: 0.3,
     smallest: 0.05,
     with_strain: true,
     negligible_share: 1e-3,
 };
-/// Depths up to this product with the smallest wave number. Derived: below it lie 5e-7 of the power of the longest wave.
+/// Product of the largest depth and the smallest wave number. Derived: below that depth lies 5e-7 of the power of the longest wave.
 const MAX_DEPTH: f64 = 10.0;
-/// Product of depth and wave number beyond which waves are left out. Derived: their stress is below 12 e^(−12) = 7e-5 of the pressure.
+/// Largest product of depth and wave number of the waves that are computed at a depth. Derived: the stress of shorter ones is below
+/// 12 e^(−12) = 7e-5 of the pressure.
 const MAX_STRESS_DEPTH: f64 = 12.0;
 /// Ratio of the period of filters with a limited reach to the period of the contact. Derived: the memory of a material that is longer is
 /// a constant there, as far as it is not within the reach.
@@ -87,7 +92,8 @@ pub(super) struct BulkHeat {
 pub(super) struct Pressed<'a> {
     /// Pressure on the period.
     pub(super) pressure: &'a PressureField,
-    /// Whether the material remembers the pressure of all periods, or only that up to half a period away.
+    /// True for a periodic contact, whose material has passed under all periods. False for a single one: then the response is cut off
+    /// at half a period from the pressure.
     pub(super) is_periodic: bool,
     /// Material of the half space at small strains.
     pub(super) material: &'a dyn Material,

@@ -9,7 +9,7 @@
 use numerics::{Estimate, finite, not_negative, positive, whole_part};
 use rheology::{Material, ModulusFactors};
 
-use crate::heat::bulk::{BulkHeat, DEPTHS_OF_POWER, DEPTHS_OF_STRAIN, Pressed};
+use crate::heat::bulk::{BulkHeat, POWER_DEPTH_RULE, Pressed, STRAIN_DEPTH_RULE};
 use crate::heat::contact_kind::coarsened;
 use crate::heat::depth::{Beside, DEPTH_ERROR, DepthHeat, DepthProfile, FoundProfile};
 use crate::heat::depth_below_body::FREE_DEPTH_ERROR;
@@ -280,7 +280,7 @@ impl SlidingContact<'_> {
             positive("largest pressure", largest)?;
             around.pressure.iter_mut().for_each(|one| *one /= largest);
             let is_periodic = matches!(kind, ContactKind::Period { .. });
-            let bulk = BulkHeat::of(self.pressed(&around, is_periodic), DEPTHS_OF_STRAIN)?;
+            let bulk = BulkHeat::of(self.pressed(&around, is_periodic), STRAIN_DEPTH_RULE)?;
             let n_elements = around.grid.n_elements() as f64;
             let area = n_elements * kind.area_of_element(&around.grid);
             let [power, weighted] = bulk.power_and_weighted_strain().map(|mean| area * mean);
@@ -647,7 +647,7 @@ impl Heated<'_> {
             .pressure
             .iter_mut()
             .for_each(|pressure| *pressure /= largest);
-        let bulk = BulkHeat::of(self.contact.pressed(&around, true), DEPTHS_OF_POWER)?;
+        let bulk = BulkHeat::of(self.contact.pressed(&around, true), POWER_DEPTH_RULE)?;
         let planes: Vec<(SourceDepth, Vec<f64>)> = bulk
             .planes()
             .map(|(depth, of_plane)| (SourceDepth::Plane(depth), of_plane))

@@ -176,7 +176,7 @@ fn power_weighted_mean(depths: &[DepthRise]) -> f64 {
 pub(super) enum Beside {
     /// Other periods.
     Periods {
-        /// Length √(4Dt) over which heat diffuses in the time for which the surface has been sliding, \[m].
+        /// Diffusion length √(4Dt) of the time t for which the surface has been sliding, \[m].
         mean_length: f64,
     },
     /// An unheated half space, in the stationary state.
@@ -198,7 +198,7 @@ pub(super) struct DepthHeat<'a> {
     pub(super) grid: &'a Grid,
     /// Flux of the interface into the elastomer on them, \[W/m²].
     pub(super) surface_flux: &'a [f64],
-    /// Reciprocal v/D > 0 of the diffusion length of the motion, \[1/m].
+    /// Reciprocal v/D > 0 of the Péclet length, \[1/m].
     pub(super) velocity_over_diffusivity: f64,
     /// Conductivity k, \[W/m/K].
     pub(super) conductivity: f64,

@@ -35,9 +35,10 @@ const PERIOD_OVER_SURROUNDINGS: usize = 2;
 /// Largest product of the rate of damping and the period. Derived: the heat of the next period is weaker by e^(−16) = 1e-7, and is left as it
 /// is, because that of fast contacts stays at its depth.
 const MAX_DAMPING: f64 = 16.0;
-/// Smallest ratio of the period to the diffusion length D/v of the motion with which waves are computed. Derived: slower contacts have the same temperature to this
-/// fraction, but for the logarithm on a line, which the Gaussian source has, too.
-const MIN_PERIOD_OVER_DIFFUSION_LENGTH: f64 = 1e-7;
+/// Lower bound of the ratio of the period to the Péclet length D/v in the Fourier sums: slower contacts are computed at this value. Derived:
+/// it changes their temperature by a fraction of this order. The divergence like ln v under a line contact is that of the Gaussian source
+/// alone, which is computed at the true v.
+const MIN_PERIOD_OVER_PECLET_LENGTH: f64 = 1e-7;
 /// Radius σ of the Gaussian source over the length of the contact. Chosen: as wide as a Hertzian pressure.
 const GAUSSIAN_RADIUS: f64 = 0.25;
 /// Exponent of e of the smallest terms of sum and integral of the Gaussian source. Derived: e^(−40) is 4e-18.
@@ -49,7 +50,7 @@ const GAUSSIAN_TOLERANCE: f64 = 1e-8;
 pub(super) struct FreeHeat {
     /// Elements of the period.
     grid: Grid,
-    /// Ratio v/D with which waves are computed, \[1/m].
+    /// Reciprocal v/D of the Péclet length with which the Fourier sums are computed, \[1/m].
     velocity_over_diffusivity: f64,
     /// Rate a of the damping along x, \[1/m].
     damping: f64,
@@ -72,7 +73,7 @@ impl FreeHeat {
         let period = grid.shape()[0] as f64 * spacing[0];
         let velocity_over_diffusivity = heat
             .velocity_over_diffusivity
-            .max(MIN_PERIOD_OVER_DIFFUSION_LENGTH / period);
+            .max(MIN_PERIOD_OVER_PECLET_LENGTH / period);
         let width = if is_line {
             1.0
         } else {
@@ -204,7 +205,7 @@ mod tests {
 
     use super::*;
     use crate::PressureField;
-    use crate::heat::bulk::{BulkHeat, DEPTHS_OF_POWER, DepthRule, Pressed};
+    use crate::heat::bulk::{BulkHeat, DepthRule, POWER_DEPTH_RULE, Pressed};
     use crate::heat::depth::Beside;
     use crate::heat::operator::HeatOperator;
     use crate::heat::{ContactKind, HeatConductor, SourceDepth};
@@ -259,7 +260,7 @@ mod tests {
     ) -> [f64; 2] {
         let fine = DepthRule {
             log_step: 0.3,
-            ..DEPTHS_OF_POWER
+            ..POWER_DEPTH_RULE
         };
         let bulk = bulk(pressure, fine);
         let grid = &pressure.grid;
@@ -315,7 +316,7 @@ mod tests {
             let pressure = hertz(is_line);
             let heated = |pressure: &f64| if *pressure > 0.0 { 1.0 } else { 0.0 };
             let flux: Vec<f64> = pressure.pressure.iter().map(heated).collect();
-            let bulk = bulk(&pressure, DEPTHS_OF_POWER);
+            let bulk = bulk(&pressure, POWER_DEPTH_RULE);
             for peclet_number in [1e-9, 0.3, 3.0, 30.0] {
                 let diffusivity: f64 = 0.25 / peclet_number;
                 let heat = DepthHeat {

@@ -31,9 +31,9 @@ const ALIAS_WEIGHTS: [f64; ALIASES + 1] = [1.0, 98.0 / 99.0, 80.0 / 99.0, 32.0 /
 pub(super) struct PeriodicWaves {
     /// One period in elements; lengths in the unit of the grid.
     pub(super) grid: Grid,
-    /// Reciprocal v/D of the diffusion length of the motion.
+    /// Reciprocal v/D of the Péclet length.
     pub(super) velocity_over_diffusivity: f64,
-    /// Length √(4Dt) over which heat diffuses in the time for which the mean grows.
+    /// Diffusion length √(4Dt) of the time t for which the mean grows.
     pub(super) mean_length: f64,
 }
 

@@ -279,7 +279,7 @@ pub(super) fn estimate(fine: f64, coarse: f64) -> Result<Estimate, InvalidParame
     Ok(Estimate::new(value, (fine - coarse).abs()).widened(KERNEL_ERROR * value.abs()))
 }
 
-/// The wake length λ = 4D/v \[m], within which heat diffuses ahead as fast as it is left behind; infinite at rest.
+/// The wake length λ = 4D/v \[m], at which diffusion length √(4Dt) and distance vt are equal; infinite at rest.
 pub(super) fn wake_length(
     grid: &Grid,
     conductor: &HeatConductor,

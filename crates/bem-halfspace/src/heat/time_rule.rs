@@ -1,7 +1,7 @@
 //! Influence coefficients of moving elements as a sum over the times since the heat was released.
 //!
-//! Heat that was released the time t ago has spread over the length s = √(4Dt) and moved backwards by vt. A unit flux on an
-//! element with the edges a and b therefore heats the surface at (x, y) from its centre by
+//! Heat that was released the time t ago has spread over the *diffusion length* s = √(4Dt) and moved backwards by vt = s²/λ, with the
+//! *wake length* λ = 4D/v. A unit flux on an element with the edges a and b therefore heats the surface at (x, y) from its centre by
 //!
 //! ```text
 //! k T = (1/√π) ∫_0^∞ S(s) X(x + vt, a, s) X(y, b, s) ds,   X(x, a, s) = ½ [erf((x + a/2)/s) − erf((x − a/2)/s)]
@@ -21,21 +21,21 @@ use crate::parallel::row_blocks::{copies, for_each_row};
 use crate::transform::plane_transform::PlaneTransform;
 use crate::transform::plane_transform::complex_product::{Spectrum, signed_offset};
 
-/// Step of the trapezoidal rule in w, with s = λ ln(1 + e^w) and the wake length λ = 4D/v. Measured: the errors of coefficients at
+/// Step of the trapezoidal rule in w, with the diffusion length s = λ ln(1 + e^w). Measured: the errors of coefficients at
 /// rest and on lines are below 8e-9 of their values, or below 1e-12 of the self-influence. With 0.3 they are fifty times as large.
 /// The tests of coefficients in tests/it/heat.rs repeat this for 0.25.
 const STEP_IN_W: f64 = 0.25;
 /// Largest relative error of an influence coefficient, for error bars; see [`STEP_IN_W`].
 pub(super) const KERNEL_ERROR: f64 = 1e-8;
-/// Logarithm w of the diffusion length at the first node, over the shorter edge of an element or the wake length. Derived: earlier
-/// times contribute a fraction of e^(−30), or 1e-13.
-const FIRST_NODE: f64 = -30.0;
-/// Ratio of the largest s to the longer edge of the grid. Derived: later heat adds a relative contribution of its reciprocal.
+/// First node of the time quadrature: ln of the diffusion length s = √(4Dt) over the smaller of the shorter element edge and the wake
+/// length λ. Derived: earlier times contribute a fraction of e^(−30), or 1e-13.
+const FIRST_LN_LENGTH: f64 = -30.0;
+/// Ratio of the largest diffusion length s to the longer edge of the grid. Derived: later heat adds a relative contribution of its reciprocal.
 const LAST_NODE_RATIO: f64 = 1e12;
-/// Distance in units of s at which heat counts as zero. Derived: erfc(6.2)/2 is 1e-18.
+/// Distance in units of the diffusion length s at which heat counts as zero. Derived: erfc(6.2)/2 is 1e-18.
 const NEGLIGIBLE_DISTANCE: f64 = 6.2;
-/// Edge in units of s below which X is integrated by a Gauss rule, because the difference of error functions cancels. Derived: the
-/// relative error of five points is then 1e-11.
+/// Edge in units of the diffusion length s below which the share X is integrated by a Gauss rule, because the difference of error
+/// functions cancels. Derived: the relative error of five points is then 1e-11.
 const NARROW_EDGE: f64 = 0.5;
 /// Positive nodes of the Gauss–Legendre rule of five points on [−1, 1] with their weights (NIST DLMF 3.5).
 const GAUSS_PAIRS: [(f64, f64); 2] = [
@@ -57,7 +57,7 @@ pub(super) struct TimeRule {
 /// A time since the heat was released. Lengths are in the unit of the grid.
 #[derive(Debug, Clone)]
 struct TimeNode {
-    /// Diffusion length s.
+    /// Diffusion length s = √(4Dt).
     length: f64,
     /// Distance vt by which the heat has moved backwards.
     shift: f64,
@@ -101,10 +101,10 @@ impl TimeRule {
         // a change of s by λ/2.
         let is_moving = wake_length.is_finite();
         let grid_length = grid.shape()[0] as f64 * grid.spacing()[0];
-        let start = FIRST_NODE + (edge / wake_length).ln().min(0.0);
+        let start = FIRST_LN_LENGTH + (edge / wake_length).ln().min(0.0);
         let mut nodes = Vec::new();
         for index in 0_u32.. {
-            let w = f64::from(index) * STEP_IN_W + if is_moving { start } else { FIRST_NODE };
+            let w = f64::from(index) * STEP_IN_W + if is_moving { start } else { FIRST_LN_LENGTH };
             let (length, slope) = if is_moving {
                 let softplus = w.max(0.0) + (-w.abs()).exp().ln_1p();
                 (wake_length * softplus, wake_length / (1.0 + (-w).exp()))
@@ -170,7 +170,7 @@ impl TimeRule {
 }
 
 /// Share X of heat from an interval of the length `edge` that is found per interval at the distance `x` from its centre, after
-/// diffusion over `length`.
+/// diffusion over the length s = `length`.
 fn share_of_interval(x: f64, edge: f64, length: f64) -> f64 {
     if x.abs() - 0.5 * edge > NEGLIGIBLE_DISTANCE * length {
         return 0.0;

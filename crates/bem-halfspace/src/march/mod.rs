@@ -4,9 +4,10 @@
 //! u_new = 2 (1 − ν) α w + H,        w = K P / (4π)        at the end of a step
 //! gap = h + u_new − d ≥ 0,   P ≥ 0,   P · gap = 0
 //! ```
-//! P is the pressure, K the operator of the influence coefficients, w the load potential and ν the Poisson ratio; h is the height
-//! of the indenter and d its depth. α is the compliance of the step and H the displacement at its end without load; both are
-//! exact for any duration Δt of the step ([`rheology::ExponentialStep`]). H follows from the history variables of each element.
+//! P is the pressure, K the operator of the influence coefficients without the compliance of the material, w the load potential and
+//! ν the Poisson ratio; h is the height of the indenter and d its depth. α is the compliance of the step, the creep compliance J(Δt)
+//! for a load that is held over it, and H the displacement at its end without load. Both are exact for any duration Δt of the step
+//! ([`rheology::ExponentialStep`]). H follows from the history variables of each element.
 //! Every step is an elastic contact of compliance 2 (1 − ν) α under an indenter of height h + H, after which the history
 //! variables are advanced by w.
 //!
@@ -50,7 +51,7 @@ impl MarchExtent {
         let ([dx, dy], footprint) = (options.spacing, &options.footprint);
         let across = (footprint.y[1] - footprint.y[0]) / dy;
         let n_elements = footprint.n_elements([dx, dy]) + self.passed_length / dx * across;
-        // If the surface is its own mirror image about y = 0, only the half in front of this mirror is followed.
+        // If the surface is its own mirror image about y = 0, only the half y ≥ 0 is followed.
         let followed = if surface.mirrors()[1] { 0.5 } else { 1.0 };
         let history = (self.numbers_per_element * size_of::<f64>()) as f64;
         (BYTES_PER_FOLLOWED_ELEMENT + history) * (followed * n_elements)

@@ -1,18 +1,23 @@
 //! The march of a periodic surface, and its sliding from rest.
 //!
-//! The elements move with the surface, and the material passes them by one element per step, or by a fraction of one. Over a step
-//! the pressure of a material point is constant:
+//! The elements move with the surface, and the material passes them by one element per step, or by a fraction of one. During a step
+//! the pressure of each material point is held at its value at the end of the step:
 //!
 //! ```text
 //! u = 2 (1 − ν) α w + H,        w = K p / (4π)        at the end of the step
 //! ```
 //!
-//! Here u is the displacement and H its value without load, α the compliance of the step, ν the Poisson ratio, p the pressure and
-//! K the operator of the influence coefficients. A wave with the wave number q_x along x has the frequency ω = q_x v at the
-//! velocity v. Because of the constant pressure it has the complex compliance J_Δ of piecewise constant inputs instead of J. The
-//! march takes a surface whose waves are multiplied by J_Δ/J, a shift by about half a step if the material flows much; in full
-//! contact the pressure of the stationary state is then exact. The first step is shorter, so that the last one ends at the
-//! distance. Between whole elements the waves of the surface are shifted.
+//! Here u is the displacement, p the pressure and ν the Poisson ratio. α is the creep compliance after one step
+//! ([`ExponentialStep::response`]), and H the displacement at the end of a step without load. K is the operator of the
+//! influence coefficients; that of `stationary/periodic` contains the compliance of the material.
+//!
+//! *Correction for held pressures.* In the stationary state at the speed v, a wave of the wave number q_x has the frequency q_x v and the
+//! complex compliance J. In the march it has another one, J_Δ, because its pressure is held ([`ExponentialStep::harmonic_response`]). The
+//! heights of the march are therefore those of the surface with each wave multiplied by `held_ratio` = J_Δ/J: in full contact their
+//! pressure is that of the stationary state. If the material mostly flows, the factor shifts the surface by half a step.
+//!
+//! *Fractions of elements.* The first step is shorter than the others, so that the last one ends at the sliding distance. At the end of a
+//! step the surface may be a `shortfall` short of a whole number of elements, by which phase factors shift its waves.
 //!
 //! Theory: docs/theory/transient-half-space.md.
 
@@ -25,7 +30,7 @@ use crate::elements::area;
 use crate::elements::grid::elements_along;
 use crate::parallel::reductions::{add_scaled, dot, mean};
 use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
-use crate::stationary::periodic::kernel::Sliding;
+use crate::stationary::periodic::kernel::MaterialAtSpeed;
 use crate::stationary::periodic::{PeriodicLoad, check_surface};
 use crate::substrate::base::check_unchanged_moduli;
 use crate::transform::plane_transform::ZERO;
@@ -114,7 +119,7 @@ pub(crate) fn slide_with(
     // Prepare the march: the number of steps over the whole distance, the motion, and the elements of one period before the first
     // step.
     let n_steps = elements_along(distance, whole_step)?;
-    let sliding = Sliding::new(elastomer, velocity)?;
+    let sliding = MaterialAtSpeed::new(elastomer, velocity)?;
     let mut march = PeriodicMarch::new(grid, heights, elastomer, edge / velocity)?;
     // Count the steps from the end of the distance, so that the last one ends there and the first one is the shorter one.
     let rows = (0..n_steps).rev().map(|left| {
@@ -126,8 +131,8 @@ pub(crate) fn slide_with(
         } else if left + 2 == n_steps || steps_per_element > 1.0 {
             march.set_sliding_step(&sliding, whole_step, steps_to_boundary * whole_step)?;
         }
-        // In the first step of each element the grid moves on by one element, so that the history variables shift. The surface
-        // lags behind until the element is passed.
+        // In the first step of each element the grid moves on by one element, so that the history variables shift. The surface is short of
+        // the grid until the element is passed.
         if steps_to_boundary + 1.0 >= steps_per_element {
             march.shift_history();
         }
@@ -229,7 +234,7 @@ impl<'a> PeriodicMarch<'a> {
 
     /// Sets the duration \[s] of the next steps, and heights and slopes of the surface at their end.
     ///
-    /// `symbols(row)` has the factors [heights, slopes \[1/m]] by which the waves in a row of the transform, those of one q_x, are
+    /// `symbols(row)` has the factors [heights, slopes \[1/m]] by which the waves in a row of the transform (`fourier_multiplier.rs`) are
     /// multiplied: the waves of the given surface become those of its heights and slopes at the end of a step.
     pub(crate) fn set_step(
         &mut self,
@@ -243,19 +248,20 @@ impl<'a> PeriodicMarch<'a> {
         Ok(())
     }
 
-    /// Sets steps of a `length` \[m] at constant speed. At their end the surface is `lag` \[m] short of a whole number of elements.
+    /// Sets steps of a `length` \[m] at constant speed. At their end the surface is `shortfall` \[m] short of a whole number of
+    /// elements.
     ///
-    /// The waves of the heights are multiplied by J_Δ/J and by the phase factor of the lag (head of this file).
+    /// The waves of the heights are multiplied by J_Δ/J and by the phase factor of the shortfall (head of this file).
     fn set_sliding_step(
         &mut self,
-        sliding: &Sliding,
+        sliding: &MaterialAtSpeed,
         length: f64,
-        lag: f64,
+        shortfall: f64,
     ) -> Result<(), BemError> {
         let time_step = length / sliding.velocity();
         let step = ExponentialStep::creep(&self.creep, time_step)?;
-        // Find the symbols of the waves in each row: the phase factor of the lag times J_Δ/J (head of this file) for the heights,
-        // and times i q_x for the slopes.
+        // Find the symbols of the waves in each row: the phase factor of the shortfall times J_Δ/J for the heights, and times i q_x for
+        // the slopes.
         let (along_x, factor) = (&self.waves.along_x, sliding.factor);
         let rows = along_x.len();
         let compliances = sliding.compliances(along_x)?.into_iter();
@@ -268,7 +274,7 @@ impl<'a> PeriodicMarch<'a> {
             if 2 * row == rows {
                 [held_ratio.norm().into(), ZERO]
             } else {
-                let phase_factor = Complex::from_polar(1.0, q_x * lag);
+                let phase_factor = Complex::from_polar(1.0, q_x * shortfall);
                 [held_ratio * phase_factor, Complex::i() * q_x * phase_factor]
             }
         };

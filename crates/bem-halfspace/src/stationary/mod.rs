@@ -11,7 +11,7 @@ pub mod steady;
 
 pub use steady::steady;
 
-/// Relative tolerance of the contact on the first grid of a refinement, and smallest one on the coarser grids of a nested iteration,
-/// whose solution is only an initial guess. Chosen; from 1e-7 to 1e-4 no answer changes by more than 4 % of its bar (case of
-/// `evidence tuning`).
-const FIRST_TOLERANCE: f64 = 1e-4;
+/// Complementarity tolerance (largest gap in contact or penetration outside, over the largest displacement) on the first grid of a
+/// refinement. The coarser grids of a nested iteration, which only supply an initial guess, never use a smaller one. Chosen; from
+/// 1e-7 to 1e-4 no answer changes by more than 4 % of its bar (case of `evidence tuning`).
+const COARSE_GRID_TOLERANCE: f64 = 1e-4;

@@ -11,8 +11,8 @@
 //! 3. exchanges all violating elements, or fewer while the search does not improve (`contact/exchange_rule.rs`);
 //! 4. projects the pressure onto p ≥ 0, and tests for convergence.
 //!
-//! The gaps of step 2 are those of the solution with its tension. Projecting the tension away moves soft waves, and with them
-//! everything far from the contact.
+//! The gaps of step 2 are those of the solution with its tension. The projection onto p ≥ 0 changes the most compliant
+//! waves, if only slightly, and with them the gaps far from the contact.
 //!
 //! The operator K of a moving contact is not symmetric, so that there is no energy to descend; that the search ends rests on the
 //! exchange rule.
@@ -240,10 +240,10 @@ impl<'a, P: FixedSetSolver> Search<'a, P> {
         (self.tolerance * self.scale).max(rounding)
     }
 
-    /// Projects onto p ≥ 0, and p = 0 outside the active set, keeping the force of each line along the motion. Removed tension is
-    /// subtracted from the next loaded elements behind it. The longest waves along the motion may be a thousand times more compliant
-    /// than all others. This projection hardly changes them, and waves with crests along the motion not at all. Setting tension to zero
-    /// would excite them and drive the surfaces apart.
+    /// Projects onto p ≥ 0, and p = 0 outside the active set, with little effect on the most compliant waves: the longest ones along the motion
+    /// and those with crests along it, which may be a thousand times more compliant than all others. Setting tension to zero would excite them
+    /// and drive the surfaces apart. Removed tension is therefore subtracted from the next loaded elements behind it, which keeps the force of
+    /// each line along the motion: the long waves hardly change, and those with crests along the motion not at all.
     fn project_nonnegative(&mut self) {
         let mut tension_by_line = vec![0.0; self.problem.shape()[1]];
         // A periodic line needs a second pass for the tension that is left at its rear end.

@@ -251,21 +251,22 @@ impl Base {
             .map_or(1.0, |layered| layered.compliance_ratio(s))
     }
 
-    /// Stiffness |q|/M(|q|t) of the surface to a pressure wave, in units of E*/2, for |q| > 0.
-    pub(crate) fn stiffness(&self, wave_number: f64) -> f64 {
+    /// Reduced wave number |q|/M(|q|t) for |q| > 0: a half space has the stiffness of the layer at this wave number. Times E*/2 it is the
+    /// ratio of pressure and displacement of a wave.
+    pub(crate) fn reduced_wave_number(&self, wave_number: f64) -> f64 {
         self.0.as_ref().map_or(wave_number, |layered| {
             wave_number / layered.compliance_ratio(wave_number * layered.thickness)
         })
     }
 
-    /// Like [`stiffness`](Self::stiffness), with wave numbers below 2/t replaced by 2/t: to longer waves an incompressible layer is
-    /// stiff because it must be squeezed aside, which depends on the load around.
-    pub(crate) fn local_stiffness(&self, wave_number: f64) -> f64 {
+    /// Like [`reduced_wave_number`](Self::reduced_wave_number), with wave numbers below 2/t replaced by 2/t: to longer waves an
+    /// incompressible layer is stiff because it must be squeezed aside, which depends on the load around.
+    pub(crate) fn local_wave_number(&self, wave_number: f64) -> f64 {
         let longest = self
             .0
             .as_ref()
             .map_or(0.0, |layered| 2.0 / layered.thickness);
-        self.stiffness(wave_number.max(longest))
+        self.reduced_wave_number(wave_number.max(longest))
     }
 
     /// Compliance to uniform pressure, lim M(|q|t)/|q| for q → 0, in units of 2/E*; 0 without a rigid base, where it would be
@@ -280,7 +281,7 @@ impl Base {
     pub(crate) fn compliance_ratio_under_punch(&self, length: f64) -> f64 {
         // At this wave number a Winkler foundation has the ratio of a flat punch of the radius `length`.
         let wave_number = FRAC_PI_4.recip() / length;
-        wave_number / self.stiffness(wave_number)
+        wave_number / self.reduced_wave_number(wave_number)
     }
 
     /// Ratio of the largest height of a body h ∼ r^p that may be in contact to that on a half space; p is the `exponent`.

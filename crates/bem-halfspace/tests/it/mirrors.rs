@@ -1,5 +1,5 @@
-//! A contact that is its own mirror image is solved in front of the mirror, and is that of the whole grid; motions of
-//! mirror symmetric bodies follow one side of the mirror, and know the other.
+//! A contact that is its own mirror image is solved on the symmetry-reduced domain, with the solution of the whole grid; so are motions of
+//! mirror symmetric bodies.
 
 use bem_halfspace::slide::{March, Motion, MotionRow, PressureField};
 use bem_halfspace::{Contact, ContactState, Control, Convolution, Footprint, Grid, GridOptions};

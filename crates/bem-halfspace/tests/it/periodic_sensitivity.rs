@@ -84,7 +84,7 @@ impl Case {
         let layer = Layer::new(&material, self.thickness * factors[4]).expect("a layer");
         let options = PeriodicOptions {
             tolerance: 1e-11,
-            max_products: 100_000,
+            max_applications: 100_000,
         };
         let found = steady_on_grid(&grid, &heights, &layer, &self.load(factors), &options);
         let found = found.expect("a state");

@@ -76,7 +76,7 @@ fn friction_and_area_are_those_of_the_casebook() {
         let off = frictions.map(|friction| (friction / exact - 1.0).abs());
         let (best, difference) = (off[0].min(off[1]), (frictions[0] - frictions[1]) / exact);
         let holds = best < 5e-3 && best < difference.abs() + 1e-3;
-        assert!(holds && solved.products < 60, "{}: {solved:?}", case.id);
+        assert!(holds && solved.applications < 60, "{}: {solved:?}", case.id);
         // On five elements per shortest asperity in contact the counted area is 15 % too large.
         assert_close(&case.id, solved.area_fraction, case.area, 0.065);
     }
@@ -231,8 +231,8 @@ fn no_spectrum_keeps_the_contact_from_being_found() {
         };
         let heights = surface.surface().expect("a surface").heights([n; 2]);
         let solved = slide(&unit_square(n), &heights.expect("heights"), material, load);
-        let products = solved.expect("a contact").products;
-        assert!(products < most, "{load:?}: {products} products");
+        let count = solved.expect("a contact").applications;
+        assert!(count < most, "{load:?}: {count} applications of K");
     }
 }
 
@@ -249,8 +249,8 @@ fn light_contacts_of_fast_dashpots_are_found() {
             &prony([1.0, 1.0], &[]),
             [1e3, 1e4],
         );
-        let products = solved.expect("a contact").products;
-        assert!(products < 400, "{seed}: {products} products");
+        let count = solved.expect("a contact").applications;
+        assert!(count < 400, "{seed}: {count} applications of K");
     }
 }
 
@@ -267,7 +267,7 @@ fn a_light_contact_goes_on_from_the_coarser_grid() {
     let solved = slide(&unit_square(n), &heights, &material, [2e-4, 1e-4]).expect("a contact");
     let touching = solved.pressure.pressure.iter().filter(|p| **p > 0.0);
     assert!(touching.count() < 10, "{solved:?}");
-    assert!(solved.products < 30, "{} products", solved.products);
+    assert!(solved.applications < 30, "{solved:?}");
 }
 
 /// Moduli whose ratio is 10² to 10⁶, grids of odd numbers of long elements, contacts from some elements to almost all; under a pressure,
@@ -275,7 +275,7 @@ fn a_light_contact_goes_on_from_the_coarser_grid() {
 #[cfg(feature = "rough")]
 #[test]
 fn every_contact_on_a_small_grid_is_found() {
-    // The last one takes more products than are allowed if all of its contacts are solved by minimal residuals.
+    // The last one takes more operator applications than are allowed if all of its contacts are solved by minimal residuals.
     for case in (380..420_u32).chain([795]) {
         // Evenly spread over all parameters.
         let part = |root: f64| (f64::from(case + 1) * root.sqrt()).fract();

@@ -19,7 +19,7 @@ fn standard_solid(ratio: f64) -> Prony {
 fn assert_found(
     (surface, n): ((f64, f64, f64, u64), usize),
     (material, mean_pressure, velocity): (&Prony, f64, f64),
-    max_products: usize,
+    max_applications: usize,
 ) {
     let (longest, shortest, hurst_exponent, seed) = surface;
     let surface = SelfAffine {
@@ -35,7 +35,7 @@ fn assert_found(
     let heights = heights.expect("heights");
     let load = PeriodicLoad::new(mean_pressure, velocity).expect("a load");
     let options = PeriodicOptions {
-        max_products,
+        max_applications,
         ..PeriodicOptions::default()
     };
     let grid = Grid::new([n; 2], [1.0 / n as f64; 2]).expect("a grid");

@@ -60,13 +60,13 @@ pub(super) struct EdgeElement {
     speed: f64,
     /// Depth of the edge less that of `place`, by the last step of the search, \[m].
     shift: f64,
-    /// Change of the sum of the loads by the shift, \[Pa m²].
+    /// Change of the sum of the loads by the shift, \[N].
     correction: f64,
     /// Contact radius after the shift, \[m].
     radius: f64,
     /// Time t − t₁ since the element came into contact, \[s].
     pub(super) lag: f64,
-    /// Load w of the element, \[Pa m].
+    /// Load w of the element, \[N/m].
     pub(super) load: f64,
     /// Relaxation modulus G(t − t₁), \[Pa].
     pub(super) modulus: f64,
@@ -82,7 +82,7 @@ pub(super) struct EdgeElement {
 pub(super) struct Approach {
     /// Contact radius as a function of the depth.
     radii: Radii,
-    /// Error of the sum of the loads by the polynomials of the radii, \[Pa m²].
+    /// Error of the sum of the loads by the polynomials of the radii, \[N].
     load_error: f64,
     /// Moduli G_k of the branches, the equilibrium spring last, \[Pa].
     pub(super) moduli: Vec<f64>,
@@ -237,7 +237,7 @@ impl Approach {
         last.map_or(0.0, |ring| ring.start_depth + ring.rise)
     }
 
-    /// Size of the terms that cancel in the load w of an element, \[Pa m].
+    /// Size of the terms that cancel in the load w of an element, \[N/m].
     fn load_scale(&self) -> f64 {
         let viscous = self.viscosity * self.speed.abs();
         let branches = self.moduli.iter().zip(&self.now.depth);

@@ -4,8 +4,8 @@
 //! F = 8/(2 (1 − ν)) [η₀ ḋ a + Σ Φ_k]      Φ_k = ∫₀^a σ_k dx
 //! Φ_k(t) = e^(−(t − s)/τ_k) Φ_k(s) + G_k ∫ e^(−(t − s')/τ_k) ḋ a ds'      while the contact grows over new elements
 //! ```
-//! d is the depth, a the contact radius, and ν the Poisson ratio. σ_k is the stress of branch k with the modulus G_k and the
-//! relaxation time τ_k in one element, and η₀ the viscosity of the parallel dashpot.
+//! d is the depth, a the contact radius, and ν the Poisson ratio. σ_k is the branch load (`element.rs`) of branch k with the modulus G_k and
+//! the relaxation time τ_k in one element, and η₀ the viscosity of the parallel dashpot.
 //!
 //! The contact is a stack of rings in the order in which their elements came into contact. Each ring has the Φ_k of
 //! everything inside it at the moment it began. All elements inside stay in contact from then on, so that the Φ_k follow
@@ -38,25 +38,25 @@ pub(super) struct Contact<'a> {
     pub(super) body: &'a dyn EquivalentProfile,
     /// Depth over time, and the response of the material to it.
     pub(super) path: Path,
-    /// Contact radius as a function of the depth.
+    /// Contact radius as a function of the depth, while the contact grows over new elements.
     pub(super) radii: Radii,
     /// Rings in contact, from the centre outwards.
     pub(super) rings: Vec<EdgeMove>,
-    /// Integrals Φ_k over the contact inside each ring when it began, ring by ring, \[Pa m²].
+    /// Integrals Φ_k over the contact inside each ring when it began, ring by ring, \[N].
     pub(super) inner_sums: Vec<f64>,
     /// All moves of the edge so far.
     pub(super) edge_moves: Vec<EdgeMove>,
-    /// Integrals Φ_k over the present contact, \[Pa m²].
+    /// Integrals Φ_k over the present contact, \[N].
     pub(super) sums: Vec<f64>,
-    /// Stresses σ_k of the element at the edge, \[Pa m].
-    edge_stresses: Vec<f64>,
+    /// Branch loads σ_k of the element at the edge, \[N/m].
+    edge_branch_loads: Vec<f64>,
     /// Largest depth and radius so far.
     largest: LargestContact,
     /// Quadrature rule of a panel of a ring.
     pub(super) rule: LobattoRule,
     /// Change of a panel of the quadrature by its division, relative to the sums, below which it is not divided.
     pub(super) tolerance: f64,
-    /// Error of Σ Φ_k by quadrature, \[Pa m²].
+    /// Error of Σ Φ_k by quadrature, \[N].
     pub(super) quadrature_error: f64,
     /// Modulus G(t − s) of the element at the edge, \[Pa]; `None` while it comes into contact.
     pub(super) edge_modulus: Option<f64>,
@@ -101,7 +101,7 @@ impl<'a> Contact<'a> {
             inner_sums: Vec::new(),
             edge_moves: Vec::new(),
             sums: zeros.clone(),
-            edge_stresses: zeros,
+            edge_branch_loads: zeros,
             largest: LargestContact::default(),
             rule: lobatto_rule(N_PANEL_NODES),
             tolerance: EXACT_QUADRATURE_TOLERANCE,
@@ -116,7 +116,7 @@ impl<'a> Contact<'a> {
         self.rings.last().map_or(0.0, |ring| ring.outer)
     }
 
-    /// The load η₀ ḋ a + Σ Φ_k and the sum of the sizes of its terms, in this order, \[Pa m²].
+    /// The load η₀ ḋ a + Σ Φ_k and the sum of the sizes of its terms, in this order, \[N].
     pub(super) fn load(&self) -> [f64; 2] {
         let end = self.path.end();
         let viscous = match self.path.step(end.segment) {
@@ -153,7 +153,7 @@ impl<'a> Contact<'a> {
         }
     }
 
-    /// The elements of the line under the path so far.
+    /// The elements of the line under the path up to its last point, from which the state of each of them follows.
     pub(super) fn elements(&self) -> LineElements<'_> {
         LineElements {
             body: self.body,
@@ -171,15 +171,15 @@ impl<'a> Contact<'a> {
                 self.begin_contact(at, end)?
             } else {
                 // Just after a turn the direction of the edge is known, and rounding must not decide it again. Otherwise the
-                // stresses of the element at the edge give it.
+                // branch loads of the element at the edge give it.
                 let turned = self.direction_after_turn.take();
                 let direction = match turned {
                     Some(EdgeDirection::Separation) => -1.0,
                     Some(_) => 1.0,
-                    None => self.path.edge_direction(&self.edge_stresses, at),
+                    None => self.path.edge_direction(&self.edge_branch_loads, at),
                 };
                 let stays = |edge: Edge| {
-                    self.path.load(&edge.stresses, end) >= -SUM_ROUNDING * self.path.scale(end)
+                    self.path.load(&edge.branch_loads, end) >= -SUM_ROUNDING * self.path.scale(end)
                 };
                 // At a flat end all elements come into contact together, and none is free but by rounding.
                 let has_free = self.radius() < (1.0 - EXTENT_ROUNDING) * self.largest.radius;
@@ -255,7 +255,7 @@ impl<'a> Contact<'a> {
             radius: outer,
             depth: depths[1],
         };
-        self.edge_stresses.fill(0.0);
+        self.edge_branch_loads.fill(0.0);
         self.add_ring(EdgeDirection::FirstContact, at, to, outer);
         to
     }
@@ -282,8 +282,8 @@ impl<'a> Contact<'a> {
         } else {
             let direction = |part: f64| {
                 let at = SegmentTime { part, ..at };
-                let stresses = self.stresses_on_contact(self.edge_outwards(at), at);
-                self.path.edge_direction(&stresses, at)
+                let branch_loads = self.branch_loads_on_contact(self.edge_outwards(at), at);
+                self.path.edge_direction(&branch_loads, at)
             };
             if direction(1.0) < 0.0
                 && let Some(turn) = turning_time(direction, at, has_turned)
@@ -304,7 +304,7 @@ impl<'a> Contact<'a> {
             return Ok(to);
         }
         self.check_contact_order(outer, to)?;
-        self.edge_stresses = self.stresses_on_contact(outer, to);
+        self.edge_branch_loads = self.branch_loads_on_contact(outer, to);
         self.add_ring(EdgeDirection::Recontact, at, to, outer);
         Ok(to)
     }
@@ -318,11 +318,11 @@ impl<'a> Contact<'a> {
         }
     }
 
-    /// Stresses σ_k of an element that comes into contact at a time, \[Pa m].
-    fn stresses_on_contact(&self, radius: f64, at: SegmentTime) -> Vec<f64> {
+    /// Branch loads σ_k of an element that comes into contact at a time, \[N/m].
+    fn branch_loads_on_contact(&self, radius: f64, at: SegmentTime) -> Vec<f64> {
         let outside = radius.max(self.radius().next_up());
         match self.elements().follow(outside, &self.edge_moves) {
-            ElementState::Free(free) => self.elements().free_stresses(&free, at),
+            ElementState::Free(free) => self.elements().free_branch_loads(&free, at),
             _ => vec![0.0; self.path.n_branches()],
         }
     }
@@ -356,10 +356,10 @@ impl<'a> Contact<'a> {
         Ok(())
     }
 
-    /// Keeps the contact as it is up to a time: advances the stresses at its edge and the integrals over it.
+    /// Advances the branch loads at the edge and the integrals over the contact to a time up to which the edge does not move.
     fn hold(&mut self, to: SegmentTime) {
         if let Some(edge) = self.outermost(to) {
-            self.edge_stresses = edge.stresses;
+            self.edge_branch_loads = edge.branch_loads;
         }
         self.sums = self.sums_at(to);
     }
@@ -398,7 +398,7 @@ impl<'a> Contact<'a> {
         // The interval ends where the edge turns, because an edge that moves outwards brings elements into contact.
         let instant = |part: f64| SegmentTime { part, ..at };
         let direction = |edge: &Option<Edge>, part: f64| match edge {
-            Some(edge) => self.path.edge_direction(&edge.stresses, instant(part)),
+            Some(edge) => self.path.edge_direction(&edge.branch_loads, instant(part)),
             None => -1.0,
         };
         let mut to = end;
@@ -439,7 +439,7 @@ impl<'a> Contact<'a> {
         let ring = &mut self.rings[edge.n_rings - 1];
         ring.to = edge.since.unwrap_or(ring.to);
         ring.outer = edge.radius;
-        self.edge_stresses = edge.stresses;
+        self.edge_branch_loads = edge.branch_loads;
         self.sums = self.sums_at(to);
         self.check_compressive(to)?;
         Ok(to)

@@ -1,13 +1,14 @@
-//! One element of the line: its contacts and separations, and its stresses in between.
+//! One element of the line: its contacts and separations, and the loads of its Maxwell branches in between.
 //!
 //! ```text
 //! contact since s:  u = d − h̃       σ_k(t) = G_k (q_k(t) − e^(−(t − s)/τ_k) q_k(s)) + e^(−(t − s)/τ_k) σ_k(s)
 //! free since s:     u = Σ y_j e^(−(t − s)/λ_j)       w = 0
 //! y_j = (J_j/λ_j) [η₀ u + Σ G_k τ_k z_k/(1 − τ_k/λ_j)]      z_k = u − σ_k/G_k
 //! ```
-//! h̃ is the height of the line over the element, q_k the strain integrals of `path.rs`, and J_j, λ_j a mode of recovery. The last
-//! line expands u in the poles of 1/(s Ĝ(s)), with Ĝ the Laplace transform of the relaxation modulus and the stresses of the
-//! branches at separation as initial values.
+//! h̃ is the height of the line over the element, q_k the strain integrals of `path.rs`, and J_j, λ_j a mode of recovery. The *branch
+//! load* σ_k is the modulus G_k times the displacement of the spring of branch k, and z_k the displacement of its dashpot. The last
+//! line expands u in the poles of 1/(s Ĝ(s)), with Ĝ the Laplace transform of the relaxation modulus and the branch loads at
+//! separation as initial values.
 
 use indenters::EquivalentProfile;
 use numerics::bracketed_root;
@@ -47,8 +48,8 @@ pub(super) struct EdgeMove {
 pub(super) struct Loaded {
     /// Time of contact s.
     since: SegmentTime,
-    /// Stresses σ_k at the time of contact, \[Pa m].
-    stresses: Vec<f64>,
+    /// Branch loads σ_k at the time of contact, \[N/m].
+    loads: Vec<f64>,
 }
 
 /// A free element, which has separated from the body.
@@ -94,22 +95,22 @@ impl LineElements<'_> {
                     let part = at.part.clamp(edge_move.from.part, edge_move.to.part);
                     ElementState::Loaded(Loaded {
                         since: SegmentTime { part, ..at },
-                        stresses: vec![0.0; self.path.n_branches()],
+                        loads: vec![0.0; self.path.n_branches()],
                     })
                 }
                 (EdgeDirection::Recontact, ElementState::Free(free)) => {
                     let at = zero_in(edge_move, |at| self.gap(&free, at));
                     ElementState::Loaded(Loaded {
                         since: at,
-                        stresses: self.free_stresses(&free, at),
+                        loads: self.free_branch_loads(&free, at),
                     })
                 }
                 (EdgeDirection::Separation, ElementState::Loaded(loaded)) => {
-                    let before = self.stresses(&loaded, edge_move.from);
+                    let before = self.branch_loads(&loaded, edge_move.from);
                     let at = zero_in(edge_move, |at| {
                         self.path.load_later(&before, edge_move.from, at)
                     });
-                    ElementState::Free(self.release(height, &self.stresses(&loaded, at), at))
+                    ElementState::Free(self.release(height, &self.branch_loads(&loaded, at), at))
                 }
                 (_, state) => state,
             };
@@ -117,23 +118,23 @@ impl LineElements<'_> {
         state
     }
 
-    /// Stresses σ_k of an element in contact, \[Pa m].
-    pub(super) fn stresses(&self, loaded: &Loaded, at: SegmentTime) -> Vec<f64> {
-        let lag = self.path.decayed_history(loaded.since, at);
-        let terms = loaded.stresses.iter().zip(&lag.decays).zip(lag.stresses);
+    /// Branch loads σ_k of an element in contact, \[N/m].
+    pub(super) fn branch_loads(&self, loaded: &Loaded, at: SegmentTime) -> Vec<f64> {
+        let past = self.path.decayed_history(loaded.since, at);
+        let terms = loaded.loads.iter().zip(&past.decays).zip(past.gained_loads);
         terms
-            .map(|((stress, decay), gained)| stress * decay + gained)
+            .map(|((load, decay), gained)| load * decay + gained)
             .collect()
     }
 
-    /// Separates an element with the stresses σ_k \[Pa m] from the body, whose height over it is `height` \[m].
-    fn release(&self, height: f64, stresses: &[f64], since: SegmentTime) -> Free {
+    /// Separates an element with the branch loads σ_k \[N/m] from the body, whose height over it is `height` \[m].
+    fn release(&self, height: f64, branch_loads: &[f64], since: SegmentTime) -> Free {
         let path = self.path;
         let displacement = path.depth(since) - height;
-        // `viscous` holds the strain z_k of the dashpot in each branch, times the modulus G_k: it is G_k u less the stress σ_k.
-        let branches = path.moduli.iter().zip(stresses);
+        // `viscous` holds the strain z_k of the dashpot in each branch, times the modulus G_k: it is G_k u less the branch load σ_k.
+        let branches = path.moduli.iter().zip(branch_loads);
         let viscous: Vec<f64> = branches
-            .map(|(modulus, stress)| modulus * displacement - stress)
+            .map(|(modulus, branch_load)| modulus * displacement - branch_load)
             .collect();
         let amplitude = |(mode, row): (&RecoveryMode, &[f64])| {
             let excess: f64 = row.iter().zip(&viscous).map(|(c, excess)| c * excess).sum();
@@ -158,8 +159,8 @@ impl LineElements<'_> {
         modes.map(move |((mode, _), amplitude)| amplitude * decay(mode.rate * lag))
     }
 
-    /// Stresses σ_k = G_k (u − z_k) of a free element, \[Pa m]; in one mode z is y/(1 − τ_k/λ_j).
-    pub(super) fn free_stresses(&self, free: &Free, at: SegmentTime) -> Vec<f64> {
+    /// Branch loads σ_k = G_k (u − z_k) of a free element, \[N/m]; in one mode z is y/(1 − τ_k/λ_j).
+    pub(super) fn free_branch_loads(&self, free: &Free, at: SegmentTime) -> Vec<f64> {
         let path = self.path;
         let (mut strains, mut height) = (vec![0.0; path.n_branches()], 0.0);
         for (y, (mode, row)) in self.mode_displacements(free, at).zip(path.modes()) {
@@ -175,8 +176,8 @@ impl LineElements<'_> {
                 *strain = height;
             }
         }
-        let stresses = path.moduli.iter().zip(strains);
-        stresses.map(|(modulus, strain)| modulus * strain).collect()
+        let loads = path.moduli.iter().zip(strains);
+        loads.map(|(modulus, strain)| modulus * strain).collect()
     }
 }
 

@@ -301,7 +301,7 @@ impl ForceHistory<'_> {
     }
 }
 
-/// Follows the body to the depth at a `time` \[s] at which the sum of the loads is `needed` \[Pa m²]; without load the body touches
+/// Follows the body to the depth at a `time` \[s] at which the sum of the loads is `needed` \[N]; without load the body touches
 /// the surface.
 ///
 /// `largest` is the largest such sum of the history, `deepest` the largest depth of the radii, \[m].

@@ -98,8 +98,8 @@ impl StepIntegrals {
         self.moments.resize(n_moments * n, 0.0);
         self.decays.clear();
         self.decays.extend(rates.iter().map(|rate| rate * length));
-        // The downward recurrence computes the moments of all branches together. It starts from 0 at an order so high that this
-        // start does not matter.
+        // The downward recurrence M_j = (1 − z M_(j+1))/(j + 1) with z = Δt/τ computes the moments of all branches together. It starts from 0
+        // at an order so high that for z ≤ 1 the error of this start is damped to rounding.
         self.sums.clear();
         self.sums.resize(n, 0.0);
         for order in (1..=n_moments + EXTRA_MOMENT_ORDERS).rev() {
@@ -110,7 +110,8 @@ impl StepIntegrals {
                 self.moments[(order - 1) * n..order * n].copy_from_slice(&self.sums);
             }
         }
-        // For steps longer than τ the start may matter: these branches are computed one by one.
+        // For steps longer than τ, z = Δt/τ > 1, the recurrence does not damp the error of its start enough: the moments of these branches are
+        // computed one by one.
         for (k, decay) in self.decays.iter_mut().enumerate() {
             if *decay > 1.0 {
                 let mut row = [0.0; N_COEFFICIENTS + 1];

@@ -289,11 +289,11 @@ struct ContactSums {
     time: f64,
     /// Indentation depth, \[m].
     depth: f64,
-    /// Sum of the loads of all elements, \[Pa m²].
+    /// Sum of the loads of all elements, \[N].
     load: f64,
-    /// Sum of the sizes of the terms in it, \[Pa m²].
+    /// Sum of the sizes of the terms in it, \[N].
     terms: f64,
-    /// Error of the sum by anything but rounding, \[Pa m²].
+    /// Error of the sum by anything but rounding, \[N].
     load_error: f64,
     /// Contact radius, \[m].
     radius: f64,

@@ -3,8 +3,9 @@
 //! ```text
 //! q_k(t) = ∫ e^(−(t − s)/τ_k) ḋ(s) ds        the equilibrium spring is a branch with 1/τ = 0
 //! ```
-//! An element that stays in contact from the time s on has the stress σ_k(t) = G_k q_k(t) + r_k e^(−(t − s)/τ_k) in
-//! branch k, with r_k = −G_k q_k(s) if it was never in contact before, and the load w = η₀ ḋ + Σ σ_k.
+//! An element that stays in contact from the time s on has the branch load σ_k(t) = G_k q_k(t) + r_k e^(−(t − s)/τ_k) in
+//! branch k, with r_k = −G_k q_k(s) if it was never in contact before, and the load w = η₀ ḋ + Σ σ_k. The force per length of the
+//! line is 2/(1 − ν) times w, with the Poisson ratio ν.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -209,7 +210,7 @@ impl Path {
         Cow::Owned(later.collect())
     }
 
-    /// Decay of the branches from one time to another, and the stresses gained in between.
+    /// Decay of the branches from one time to another, and the branch loads gained in between.
     pub(super) fn decayed_history(&self, since: SegmentTime, at: SegmentTime) -> DecayedHistory {
         let time = self.time(at) - self.time(since);
         let decays: Vec<f64> = self.rates.iter().map(|rate| decay(rate * time)).collect();
@@ -217,47 +218,47 @@ impl Path {
         let gained =
             (0..self.n_branches()).map(|k| self.moduli[k] * (now[k] - decays[k] * then[k]));
         DecayedHistory {
-            stresses: gained.collect(),
+            gained_loads: gained.collect(),
             decays,
         }
     }
 
-    /// Relaxation modulus G(t − s) over the time of `lag`, \[Pa]; without the parallel dashpot.
-    pub(super) fn modulus(&self, lag: &DecayedHistory) -> f64 {
-        let branches = self.moduli.iter().zip(&lag.decays);
+    /// Relaxation modulus G(t − s) over the time t − s of `past`, \[Pa]; without the parallel dashpot.
+    pub(super) fn modulus(&self, past: &DecayedHistory) -> f64 {
+        let branches = self.moduli.iter().zip(&past.decays);
         branches.map(|(modulus, decay)| modulus * decay).sum()
     }
 
-    /// Size of the terms that cancel in the load of an element, \[Pa m].
+    /// Size of the terms that cancel in the load of an element, \[N/m].
     pub(super) fn scale(&self, at: SegmentTime) -> f64 {
         let strain_integrals = self.strain_integrals(at);
         let branches = self.moduli.iter().zip(strain_integrals.iter());
-        let stresses = branches.map(|(modulus, strain)| modulus * strain.abs());
-        self.viscosity * self.speed(at.segment).abs() + stresses.sum::<f64>()
+        let branch_loads = branches.map(|(modulus, strain)| modulus * strain.abs());
+        self.viscosity * self.speed(at.segment).abs() + branch_loads.sum::<f64>()
     }
 
-    /// Load w of an element with branch stresses σ_k, \[Pa m].
-    pub(super) fn load(&self, stresses: &[f64], at: SegmentTime) -> f64 {
-        self.viscosity * self.speed(at.segment) + stresses.iter().sum::<f64>()
+    /// Load w of an element with the branch loads σ_k, \[N/m].
+    pub(super) fn load(&self, branch_loads: &[f64], at: SegmentTime) -> f64 {
+        self.viscosity * self.speed(at.segment) + branch_loads.iter().sum::<f64>()
     }
 
-    /// Load w at `at` of an element in contact with the branch stresses `stresses` at `from`, in one segment, \[Pa m].
-    pub(super) fn load_later(&self, stresses: &[f64], from: SegmentTime, at: SegmentTime) -> f64 {
+    /// Load w at the time `at` of an element in contact that has the branch `loads` at the time `from`, in one segment, \[N/m].
+    pub(super) fn load_later(&self, loads: &[f64], from: SegmentTime, at: SegmentTime) -> f64 {
         let step = self.time(at) - self.time(from);
         let rise = self.depth(at) - self.depth(from);
-        let branches = self.rates.iter().zip(&self.moduli).zip(stresses);
-        let later = branches.map(|((rate, modulus), stress)| {
+        let branches = self.rates.iter().zip(&self.moduli).zip(loads);
+        let later = branches.map(|((rate, modulus), load)| {
             let [decay, mean] = decay_and_mean(rate * step);
-            decay * stress + modulus * rise * mean
+            decay * load + modulus * rise * mean
         });
         self.viscosity * self.speed(at.segment) + later.sum::<f64>()
     }
 
-    /// Direction of the edge, given the branch stresses of its element: positive outwards, negative inwards.
+    /// Direction of the edge, given the branch loads of its element: positive outwards, negative inwards.
     ///
     /// The sign is that of the depth where it jumps, of the load at this speed with a parallel dashpot, and of the rate of the load
     /// otherwise; 0 if it is rounding.
-    pub(super) fn edge_direction(&self, stresses: &[f64], at: SegmentTime) -> f64 {
+    pub(super) fn edge_direction(&self, branch_loads: &[f64], at: SegmentTime) -> f64 {
         let speed = self.speed(at.segment);
         if self.step(at.segment) == 0.0 {
             return speed;
@@ -265,12 +266,12 @@ impl Path {
         // `rate` is the rate of the load per length at the edge, and `rate_scale` the size of the terms that cancel in it.
         let (mut rate, mut rate_scale) = (self.instantaneous_modulus() * speed, 0.0);
         let strain_integrals = self.strain_integrals(at);
-        for (k, stress) in stresses.iter().enumerate() {
-            rate -= self.rates[k] * stress;
+        for (k, branch_load) in branch_loads.iter().enumerate() {
+            rate -= self.rates[k] * branch_load;
             rate_scale += self.rates[k] * self.moduli[k] * strain_integrals[k].abs();
         }
         // With a dashpot the load itself counts; otherwise its rate. Neither counts within rounding.
-        let load = self.load(stresses, at);
+        let load = self.load(branch_loads, at);
         let load_rounding =
             SUM_ROUNDING * self.scale(at) + self.viscosity * self.speed_rounding(at.segment);
         if self.viscosity > 0.0 && load.abs() > load_rounding {
@@ -287,12 +288,13 @@ impl Path {
 /// times the rounding 1e-13 of depths and radii that are roots of an equation. A move that is really so short is left out.
 pub(super) const EXTENT_ROUNDING: f64 = 1e-10;
 
-/// Decay of the branches between two times, and the stresses gained in between.
+/// Decay of the branches between two times s and t, and the branch loads gained in between.
 pub(super) struct DecayedHistory {
     /// Decay e^(−(t − s)/τ_k) of each branch.
     pub(super) decays: Vec<f64>,
-    /// Stresses σ_k of an element that came into contact for the first time at the earlier time, \[Pa m].
-    pub(super) stresses: Vec<f64>,
+    /// Branch loads G_k ∫ e^(−(t − s')/τ_k) ḋ ds' from the displacement between both times, \[N/m]: those of an element that came into
+    /// contact for the first time at s.
+    pub(super) gained_loads: Vec<f64>,
 }
 
 /// Largest difference of two speeds that may be rounding, \[m/s], for steps of one length up to a time \[s] and depth \[m].

@@ -10,7 +10,7 @@ use numerics::{Estimate, Progress};
 use super::answer::{Answer, Fields};
 use super::contact_temperature;
 use super::error::{Result, SolveError};
-use super::fixed_point::{Caused, FixedPoint, MAX_INCREASE_RATIO, State};
+use super::fixed_point::{FixedPoint, MAX_INCREASE_RATIO, SelfConsistent, State};
 use super::plan::Plan;
 use super::problem::Problem;
 use super::shear::{self, plan_again};
@@ -88,12 +88,12 @@ impl<'a> ContactStrain<'a> {
     }
 }
 
-impl Caused for ContactStrain<'_> {
-    fn smallest(&self) -> f64 {
+impl SelfConsistent for ContactStrain<'_> {
+    fn lower_bound(&self) -> f64 {
         0.0
     }
 
-    fn largest(&self) -> f64 {
+    fn upper_bound(&self) -> f64 {
         f64::INFINITY
     }
 

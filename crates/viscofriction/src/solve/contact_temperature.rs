@@ -13,7 +13,9 @@ use super::answer::Answer;
 use super::body::Body;
 use super::contact_strain;
 use super::error::{Result, SolveError};
-use super::fixed_point::{Caused, FixedPoint, Found, MAX_INCREASE_RATIO, State, ValueErrors};
+use super::fixed_point::{
+    FixedPoint, Found, MAX_INCREASE_RATIO, SelfConsistent, State, ValueErrors,
+};
 use super::plan::Plan;
 use super::problem::Problem;
 use super::warning::Warning;
@@ -71,13 +73,13 @@ pub(super) fn solve(first: Plan, watch: &dyn Progress) -> Result<Answer> {
     found.into_result()
 }
 
-impl Caused for ContactTemperature<'_> {
+impl SelfConsistent for ContactTemperature<'_> {
     /// Temperature of the surroundings.
-    fn smallest(&self) -> f64 {
+    fn lower_bound(&self) -> f64 {
         self.ambient
     }
 
-    fn largest(&self) -> f64 {
+    fn upper_bound(&self) -> f64 {
         self.highest
     }
 

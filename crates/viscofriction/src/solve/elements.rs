@@ -105,7 +105,7 @@ fn answer_from_periodic(
         Method::BemSteady
     };
     let mut answer = common_periodic_answer(problem, rough, method, &estimate);
-    answer.iterations = estimate.finest.products;
+    answer.iterations = estimate.finest.applications;
     answer.persson = Persson::of(problem)?;
     answer = answer.under(estimate.finest.pressure);
     if is_pressed {

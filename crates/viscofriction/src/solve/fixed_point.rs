@@ -60,21 +60,22 @@ const MIN_PROGRESS: f64 = 0.9;
 /// others to a value that was not yet known well.
 const MAX_STALLED: usize = 3;
 
-/// A value of the problem that its answer causes.
-pub(super) trait Caused {
-    /// Smallest value, which a contact without friction or strain has.
-    fn smallest(&self) -> f64;
+/// A value x on which the problem depends and which its answer determines as g(x), such as the temperature of the contact. The state of the
+/// contact is the fixed point x = g(x).
+pub(super) trait SelfConsistent {
+    /// Lower bound of the value: that of a contact without friction or strain.
+    fn lower_bound(&self) -> f64;
 
-    /// Largest value at which the problem is known; infinite if there is none.
-    fn largest(&self) -> f64;
+    /// Upper bound of the value, above which the laws of the material are not known; infinite if they are known at all values.
+    fn upper_bound(&self) -> f64;
 
-    /// Value up to which a second fixed point is looked for, above a first one; `None` if there can be none.
+    /// Value up to which a second fixed point above the first one, `found`, is looked for; `None` if there can be no second one.
     fn farthest(&self, found: f64) -> Option<f64>;
 
     /// Whether the problem changes so little between two values that quantities are taken to be monotone in between.
     fn is_narrow(&self, from: f64, to: f64) -> bool;
 
-    /// Difference of assumed and caused value that counts as none.
+    /// Largest difference of assumed and caused value that counts as zero.
     fn negligible(&self) -> f64;
 
     /// The problem at a value. If that stands for a distribution, it is the one that the answer `near` causes, scaled; without such an
@@ -145,8 +146,8 @@ pub(super) struct FixedPoint<'a> {
     pub(super) method: Method,
     /// Progress of all solutions.
     pub(super) watch: &'a dyn Progress,
-    /// What the value is.
-    pub(super) of: &'a dyn Caused,
+    /// The value whose fixed point is searched.
+    pub(super) of: &'a dyn SelfConsistent,
 }
 
 /// The fixed point of a problem.
@@ -204,7 +205,7 @@ impl State {
             .map(|friction| friction.value)
     }
 
-    /// Caused minus assumed value.
+    /// SelfConsistent minus assumed value.
     fn excess(&self) -> f64 {
         self.caused.value - self.value
     }
@@ -287,7 +288,7 @@ impl FixedPoint<'_> {
 
     /// The states of the search upwards: the first has the smallest value, the last is the fixed point.
     fn search_upwards(&self, accuracy: Accuracy) -> Result<Vec<State>> {
-        let [smallest, largest] = [self.of.smallest(), self.of.largest()];
+        let [smallest, largest] = [self.of.lower_bound(), self.of.upper_bound()];
         let first = self.state(smallest, None, accuracy)?.without_fields();
         let mut next = first.caused.value.min(largest);
         // Value and excess at both ends of the bracket; there is no upper one before a state causes less than it assumes.
@@ -340,7 +341,7 @@ impl FixedPoint<'_> {
     /// extrema, so that slopes over the value do not follow from them.
     fn with_neighbour(&self, mut states: Vec<State>, accuracy: Accuracy) -> Result<Vec<State>> {
         let found = &states[states.len() - 1];
-        let increase = found.value - self.of.smallest();
+        let increase = found.value - self.of.lower_bound();
         let neighbour = self.neighbour(&states).value;
         let is_near = (neighbour - found.value).abs() <= FARTHEST_NEIGHBOUR * increase;
         if is_near || self.of.is_narrow(neighbour, found.value) {
@@ -357,7 +358,7 @@ impl FixedPoint<'_> {
     /// A second one needs a caused value that grows with the value. It is taken to have one maximum, so that there is no second one if
     /// it falls up to the first one.
     fn second(&self, states: &[State], accuracy: Accuracy) -> Result<Option<State>> {
-        let smallest = self.of.smallest();
+        let smallest = self.of.lower_bound();
         let [first, found] = [&states[0], &states[states.len() - 1]];
         let increase = found.value - smallest;
         if found.caused.value <= first.caused.value || increase <= 0.0 {
@@ -367,7 +368,7 @@ impl FixedPoint<'_> {
             return Ok(None);
         };
         // Look from the largest value downwards for one that the contact would exceed, in geometric steps of the increase.
-        let largest = self.of.largest().min(farthest);
+        let largest = self.of.upper_bound().min(farthest);
         let ratio = (increase / (largest - smallest)).powf((f64::from(SCANNED_VALUES)).recip());
         let mut upper = largest;
         let mut lower = None;
@@ -426,7 +427,7 @@ impl FixedPoint<'_> {
             solutions += 1;
             let state = self.state(value, Some(&shape), accuracy)?;
             // Two solutions at the requested accuracy tell the response better than those of the search.
-            let increase = value - self.of.smallest();
+            let increase = value - self.of.lower_bound();
             let distance = SLOPE_DISTANCE * TOLERANCE * increase;
             // Between states whose distributions differ more than their values, changes are no slopes over the value.
             let is_far = |before: &&State| {
@@ -512,14 +513,14 @@ impl FixedPoint<'_> {
 
     /// The value, or the end of the range from the smallest to the largest one.
     fn within(&self, value: f64) -> f64 {
-        value.clamp(self.of.smallest(), self.of.largest())
+        value.clamp(self.of.lower_bound(), self.of.upper_bound())
     }
 
     /// The state next to the last one that is not closer than [`SLOPE_DISTANCE`]; the first one if all are closer.
     fn neighbour<'s>(&self, states: &'s [State]) -> &'s State {
         let found = &states[states.len() - 1];
         let distance = |state: &&State| (state.value - found.value).abs();
-        let least = SLOPE_DISTANCE * (found.value - self.of.smallest());
+        let least = SLOPE_DISTANCE * (found.value - self.of.lower_bound());
         let far = states.iter().filter(|state| distance(state) >= least);
         far.min_by(|left, right| distance(left).total_cmp(&distance(right)))
             .unwrap_or(&states[0])

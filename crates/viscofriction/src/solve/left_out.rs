@@ -5,7 +5,7 @@ use rheology::CreepSpectrum;
 use super::answer::{Answer, Grid};
 use super::omission::Omission;
 use super::problem::{Motion, Problem};
-use super::work::work;
+use super::work::work_of_method;
 use crate::scene::{Control, Method, Model};
 use Method::{Analytic, BemSteady, BemTransient, MdrSteady, MdrTransient};
 use Motion::{Pressing, Sliding};
@@ -91,7 +91,7 @@ pub(crate) fn left_out(problem: &Problem, answer: &Answer) -> Vec<Omission> {
     let mut parts = candidates(problem, answer);
     parts.retain(|omission| {
         let other = omission.done_by(answer.model, problem.motion());
-        other.is_none_or(|method| work(problem, method).is_ok())
+        other.is_none_or(|method| work_of_method(problem, method).is_ok())
     });
     parts
 }

@@ -5,7 +5,7 @@ use std::fmt;
 use super::error::{NotOffered, Refusal};
 use super::memory::check_memory;
 use super::problem::Problem;
-use super::work::{Work, work};
+use super::work::{Work, work_of_method};
 use crate::files::ReadFile;
 use crate::scene::{Method, Model, Scene, SceneError, Source, scene_file};
 use crate::text::WrongInput;
@@ -43,7 +43,7 @@ impl fmt::Debug for Plan<'_> {
 pub fn plan(problem: &Problem) -> Result<Plan<'_>, NotOffered> {
     let of = |method| match other_model(method, problem.model()) {
         Some(why) => Err(why),
-        None => work(problem, method).map(|work| Plan {
+        None => work_of_method(problem, method).map(|work| Plan {
             problem,
             method,
             work,

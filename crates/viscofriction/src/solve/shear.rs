@@ -17,7 +17,7 @@ use super::period_grids::PeriodGrids;
 use super::plan::{Plan, plan};
 use super::problem::{Motion, Problem};
 use super::solved::Solved;
-use super::work::work;
+use super::work::work_of_method;
 use crate::scene::{Accuracy, Method, Model, SceneError, ShearLaw};
 
 /// Largest relative error that is requested of the friction from hysteresis. Chosen: the first solution only has to show which part
@@ -243,7 +243,7 @@ pub(super) fn solve(first: Plan, watch: &dyn Progress) -> Result<Answer> {
 /// The plan of a method for a problem with another accuracy. A closed form may refuse a finer request, for which another method is
 /// chosen unless the scene names one.
 pub(super) fn plan_again(problem: &Problem, method: Method) -> Result<Plan<'_>> {
-    match work(problem, method) {
+    match work_of_method(problem, method) {
         Ok(work) => Ok(Plan {
             problem,
             method,

@@ -23,10 +23,10 @@ use crate::scene::Method::{self, Analytic, BemSteady, BemTransient, MdrSteady, M
 use crate::scene::Revolution;
 use crate::scene::{Accuracy, Control, Model};
 
-/// The computation of one method for a problem, ready to run: a function from a progress to the answer.
+/// The deferred computation of one method for a problem: a function that reports to a progress and returns the answer.
 pub(crate) type Work<'a> = Box<dyn FnOnce(&dyn Progress) -> Result<Answer> + Send + 'a>;
-/// The computation of a method, or the reason why it does not answer the problem.
-pub(crate) type Offer<'a> = Result<Work<'a>, Refusal>;
+/// The deferred computation of a method for a problem, or the reason why the method cannot answer it.
+pub(crate) type WorkOrRefusal<'a> = Result<Work<'a>, Refusal>;
 
 /// Refusal of a closed form for which the scene gives a number of elements.
 const NO_ELEMENTS: Refusal = "closed forms have no elements; give relative_error instead";
@@ -76,8 +76,9 @@ const NO_TRACK: Refusal =
 const NOTHING_SLIDES: Refusal =
     "nothing slides, and without sliding there is no stationary state to solve for";
 
-/// The computation of `method`, also if the problem names another method or model.
-pub(super) fn work(problem: &Problem, method: Method) -> Offer<'_> {
+/// The deferred computation of `method` for a problem, or the reason why the method cannot answer it. The method or model that the problem
+/// names plays no part.
+pub(super) fn work_of_method(problem: &Problem, method: Method) -> WorkOrRefusal<'_> {
     let accuracy = problem.solver_accuracy();
     let is_history = matches!(problem.motion(), History { .. });
     let has_layers =
@@ -105,7 +106,7 @@ pub(super) fn work(problem: &Problem, method: Method) -> Offer<'_> {
         (Body::Cylinder(cylinder), _) => line_contact(problem, cylinder, method, accuracy),
         (Body::Revolution(body), Analytic) => closed_form(problem, body, accuracy),
         (Body::Revolution(body), MdrSteady | MdrTransient) => {
-            one_dimensional(problem, &**body, method, accuracy)
+            one_dimensional_model(problem, &**body, method, accuracy)
         }
         (Body::Revolution(body), _) => boundary_elements(problem, body.surface(), method, accuracy),
         (Body::HeightMap(map), BemSteady | BemTransient) => {
@@ -138,17 +139,19 @@ fn has_front(body: &Body) -> bool {
     }
 }
 
-/// The offer of a method that answers the problem by the computation `answer`.
+/// The computation `answer`, for a method that can answer the problem.
 #[expect(clippy::unnecessary_wraps, reason = "the other results are refusals")]
-fn ready<'a>(answer: impl FnOnce(&dyn Progress) -> Result<Answer> + Send + 'a) -> Offer<'a> {
+fn ready<'a>(
+    answer: impl FnOnce(&dyn Progress) -> Result<Answer> + Send + 'a,
+) -> WorkOrRefusal<'a> {
     Ok(Box::new(answer))
 }
 
-/// An accepted computation that solves to an accuracy, and may stop before a grid.
+/// The computation `answer` on a sequence of grids, to an `accuracy`; the progress may stop it before each grid.
 fn on_grids<'a>(
     accuracy: Accuracy,
     answer: impl FnOnce(Request<'_>) -> Result<Answer> + Send + 'a,
-) -> Offer<'a> {
+) -> WorkOrRefusal<'a> {
     ready(move |watch| answer(Request { accuracy, watch }))
 }
 
@@ -167,14 +170,14 @@ fn has_force(problem: &Problem) -> bool {
     matches!(problem.motion().control(), Control::NormalForce(_))
 }
 
-/// Indentation along a history. For a body of revolution the one-dimensional model is exact on the half space, and on a layer if
-/// the contact grows once and shrinks once.
+/// The computation of a method for indentation along a history, or why it cannot answer it. For a body of revolution the
+/// one-dimensional model is exact on the half space, and on a layer if the contact grows once and shrinks once.
 fn followed<'a>(
     problem: &'a Problem,
     points: &'a [HistoryPoint],
     method: Method,
     accuracy: Accuracy,
-) -> Offer<'a> {
+) -> WorkOrRefusal<'a> {
     match (method, problem.body()) {
         (MdrSteady | BemSteady, _) => Err(NOTHING_SLIDES),
         (BemTransient, body) => {
@@ -201,13 +204,13 @@ fn followed<'a>(
     }
 }
 
-/// Offer of a method for a reciprocating motion, or for a motion through given positions.
+/// The computation of a method for a reciprocating motion or a motion through given positions, or why it cannot answer it.
 fn moved<'a>(
     problem: &'a Problem,
     load: &'a MovingLoad,
     method: Method,
     accuracy: Accuracy,
-) -> Offer<'a> {
+) -> WorkOrRefusal<'a> {
     require(problem.expansion().is_none(), NO_BAR)?;
     let flows = problem.material().creep().fluidity() > 0.0;
     require(!(load.is_cycle() && flows), NO_CYCLE)?;
@@ -241,13 +244,13 @@ fn moved<'a>(
     }
 }
 
-/// Offer of a method for a cylinder on the half space under a given force.
+/// The computation of a method for a cylinder on the half space under a given force, or why it cannot answer it.
 fn line_contact<'a>(
     problem: &'a Problem,
     cylinder: &'a Cylinder,
     method: Method,
     accuracy: Accuracy,
-) -> Offer<'a> {
+) -> WorkOrRefusal<'a> {
     let Control::NormalForce(force) = problem.motion().control() else {
         return Err(
             "a line contact has no depth, which grows with the logarithm of the length; give load.normal_force",
@@ -329,7 +332,7 @@ fn periodic_surface<'a>(
     surface: &'a PeriodicSurface,
     method: Method,
     accuracy: Accuracy,
-) -> Offer<'a> {
+) -> WorkOrRefusal<'a> {
     let rough = rough(problem, surface)?;
     match (method, problem.motion()) {
         (BemTransient, Pressing(_)) => on_grids(accuracy, move |request| {
@@ -356,13 +359,13 @@ fn periodic_surface<'a>(
     }
 }
 
-/// A finite body in sliding or indentation, by boundary elements.
+/// The computation for a finite body in sliding or indentation by boundary elements, or why they cannot answer it.
 fn boundary_elements<'a>(
     problem: &'a Problem,
     surface: &'a dyn Surface,
     method: Method,
     accuracy: Accuracy,
-) -> Offer<'a> {
+) -> WorkOrRefusal<'a> {
     let is_stationary = method == BemSteady;
     let load = match problem.motion() {
         Sliding(load) => load,
@@ -397,13 +400,14 @@ fn boundary_elements<'a>(
     })
 }
 
-/// A body of revolution in the one-dimensional model, by elements or polynomials.
-fn one_dimensional<'a>(
+/// The computation for a body of revolution in the one-dimensional model: stationary sliding by polynomials, sliding in time by elements,
+/// pressing in closed form; or why the method cannot answer it.
+fn one_dimensional_model<'a>(
     problem: &'a Problem,
     body: &'a dyn Axisymmetric,
     method: Method,
     accuracy: Accuracy,
-) -> Offer<'a> {
+) -> WorkOrRefusal<'a> {
     let material = problem.material();
     match (method, problem.motion()) {
         (MdrSteady, Sliding(load)) => {
@@ -435,8 +439,12 @@ fn one_dimensional<'a>(
     }
 }
 
-/// A body of revolution in closed form or by quadrature.
-fn closed_form<'a>(problem: &'a Problem, body: &'a Revolution, accuracy: Accuracy) -> Offer<'a> {
+/// The computation for a body of revolution in closed form or by quadrature, or why there is none.
+fn closed_form<'a>(
+    problem: &'a Problem,
+    body: &'a Revolution,
+    accuracy: Accuracy,
+) -> WorkOrRefusal<'a> {
     let Accuracy::RelativeError(asked) = accuracy else {
         return Err(NO_ELEMENTS);
     };
@@ -463,7 +471,7 @@ pub(crate) fn closed_line<'a>(
     material: Option<&'a Simple>,
     body: &'a Revolution,
     load: SlidingLoad,
-) -> Offer<'a> {
+) -> WorkOrRefusal<'a> {
     let cone_or_paraboloid = match body {
         Revolution::Power(profile) if [1.0, 2.0].contains(&profile.exponent()) => Some(profile),
         _ => None,
@@ -497,13 +505,13 @@ pub(crate) fn closed_line<'a>(
     }
 }
 
-/// Sliding on the half space: powers on a viscous material, else the slow-sliding expansion.
+/// The closed form of sliding on the half space, or why there is none: powers on a viscous material, else the slow-sliding expansion.
 fn closed_half_space<'a>(
     problem: &'a Problem,
     body: &'a Revolution,
     load: &'a SlidingLoad,
     asked: f64,
-) -> Offer<'a> {
+) -> WorkOrRefusal<'a> {
     let (Revolution::Power(profile), Some(Simple::Viscous(material))) = (body, problem.simple())
     else {
         require(load.sliding_distance().is_none(), STATIONARY)?;

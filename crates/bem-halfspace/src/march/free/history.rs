@@ -18,7 +18,7 @@ use rheology::ExponentialStep;
 use crate::elements::resolution::Layout;
 use crate::{Base, BemError, Convolution, ConvolutionWorkspace, Grid, Rows};
 
-/// Fields over all elements that the footprint passes, the *path*, in front of the mirrors; row-major. Displacements are in units of
+/// Fields over the *path*, all elements that the symmetry-reduced domain of the footprint passes; row-major. Displacements are in units of
 /// the height scale of the march, lengths along the surface in Δx, loads in the ratio of the two.
 pub(super) struct MaterialHistory {
     /// Operator K on the path.
@@ -59,7 +59,7 @@ impl MaterialHistory {
         })
     }
 
-    /// Number of columns of the path, those of the footprint in front of the mirrors.
+    /// Number of columns of the path, those of the symmetry-reduced domain of the footprint.
     fn columns(&self) -> usize {
         self.convolution.grid().shape()[1]
     }

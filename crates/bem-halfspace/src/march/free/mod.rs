@@ -1,8 +1,9 @@
 //! The march of a body over a free half space or layer.
 //!
 //! The elements are fixed in the half space. The footprint follows the indenter by whole elements; the lowest point lies
-//! anywhere within the element in its middle. If the indenter is its own mirror image, only the elements in front of the
-//! mirror are followed. Heights are measured in a scale of the scene and lengths in Δx, so that only ratios enter.
+//! anywhere within the element in its middle. If the indenter is its own mirror image, only the elements of the symmetry-reduced
+//! domain are followed, the half on one side of the mirror. Heights are measured in a scale of the scene and lengths in Δx, so that
+//! only ratios enter.
 //!
 //! Theory: docs/theory/transient-half-space.md, "Elements and steps" and "The contact of one step".
 
@@ -55,7 +56,7 @@ pub struct March<'a> {
     creep_step: ExponentialStep,
     /// Δt of the present step, \[s].
     time_step: f64,
-    /// Heights h of the indenter over the elements of the footprint in front of the mirrors, in units of `height_scale`, row-major.
+    /// Heights h of the indenter over the elements of the symmetry-reduced domain, in units of `height_scale`, row-major.
     heights: Vec<f64>,
     /// Offset of the lowest point for which `heights` were sampled, in elements; NaN before the first sampling.
     sampled_offset: f64,
@@ -192,7 +193,7 @@ impl<'a> March<'a> {
         self.history.convolution.grid().n_elements()
     }
 
-    /// Loaded elements of the last step in front of the mirrors, as [row, column] of the whole footprint, with their loads
+    /// Loaded elements of the symmetry-reduced domain in the last step, as [row, column] of the whole footprint, with their loads
     /// x = 2 (1 − ν) α P/(4π) in units of the height scale over Δx.
     fn loaded_elements(&self) -> impl Iterator<Item = ([usize; 2], f64)> {
         let [first_row, first_column] = self.layout.first();
@@ -208,7 +209,7 @@ impl<'a> March<'a> {
         loaded.map_or(lowest, |loaded| self.layout.unfolded(&loaded))
     }
 
-    /// Bounding box of the loaded elements in front of the mirrors, in indices of that part; `None` without contact.
+    /// Bounding box of the loaded elements in the symmetry-reduced domain, in indices of that domain; `None` without contact.
     fn loaded_bounds(&self) -> Option<Bounds> {
         let loaded = self.contact_box.loaded_elements();
         Bounds::enclosing(loaded.map(|(element, _)| element))
@@ -254,22 +255,22 @@ impl<'a> March<'a> {
             0 => 1.0,
             _ => self.creep_step.response(),
         };
-        let in_front = |element: [usize; 2]| {
-            let [row, column] = self.layout.in_front(element);
+        let folded_index = |element: [usize; 2]| {
+            let [row, column] = self.layout.folded_element(element);
             row * columns + column
         };
         let limits = Bounds {
             lower: [0; 2],
             upper: self.layout.shape,
         };
-        let has_body = |element| self.initial_gap[in_front(element)].is_finite();
+        let has_body = |element| self.initial_gap[folded_index(element)].is_finite();
         let Some(bounds) = surroundings(&self.contact_bounds(), &limits, has_body) else {
             return Ok(None);
         };
         let elements =
             (bounds.rows()).flat_map(|row| bounds.columns().map(move |column| [row, column]));
         let gap = |element| {
-            let index = in_front(element);
+            let index = folded_index(element);
             let displaced = self.initial_gap[index] + per_increment * increment[index];
             displaced * self.height_scale - self.depth
         };
@@ -478,7 +479,7 @@ impl<'a> March<'a> {
         if offset.total_cmp(&self.sampled_offset).is_eq() {
             return Ok(());
         }
-        // Sample the height of the surface at the centres of the elements in front of the mirrors.
+        // Sample the height of the surface at the centres of the elements of the symmetry-reduced domain.
         let ([rows, columns], [first_row, first_column]) = (self.layout.shape, self.layout.first());
         let mut heights = Vec::with_capacity(self.initial_gap.len());
         for row in first_row..rows {
@@ -495,7 +496,7 @@ impl<'a> March<'a> {
         Ok(())
     }
 
-    /// An unloaded contact box around the minimum of `heights`, a field over the footprint in front of the mirrors.
+    /// An unloaded contact box around the minimum of `heights`, a field over the symmetry-reduced domain.
     fn box_at_lowest_point(&self, heights: &[f64]) -> Result<ContactBox, BemError> {
         let [_, columns] = self.layout.folded_shape();
         let lowest = (0..heights.len()).min_by(|a, b| heights[*a].total_cmp(&heights[*b]));
@@ -504,7 +505,7 @@ impl<'a> March<'a> {
         ContactBox::cut_from(&self.history.convolution, self.with_margin(&element))
     }
 
-    /// The box `bounds` with a margin into which the contact may grow, within the footprint in front of the mirrors.
+    /// The box `bounds` of the symmetry-reduced domain with a margin into which the contact may grow, within that domain.
     fn with_margin(&self, bounds: &Bounds) -> Bounds {
         bounds.with_margin(self.layout.folded_shape(), self.layout.mirrors)
     }

@@ -33,7 +33,7 @@ pub(super) struct MeanSlopes {
     pub(super) end_of_step: f64,
     /// Mean modulus of the slope at the time level θ.
     pub(super) mean_slope_modulus: f64,
-    /// Largest slope at the time level θ; largest modulus of the slope if only the half in front of x = 0 is computed.
+    /// Largest slope at the time level θ; largest modulus of the slope if a mirror at x = 0 leaves only the half x ≥ 0.
     pub(super) largest: f64,
 }
 

@@ -60,7 +60,7 @@ impl March<'_> {
         }
     }
 
-    /// Sum of the loads in front of the mirrors per newton of normal force, \[1/N].
+    /// Sum of the loads of the symmetry-reduced domain per newton of normal force, \[1/N].
     ///
     /// The load of an element is x = 2 (1 − ν) α P / (4π), so that the displacement is K x; its unit is the height scale over Δx.
     fn load_per_force(&self) -> f64 {
@@ -68,8 +68,8 @@ impl March<'_> {
         compliance / (4.0 * PI * self.options.spacing[1]) / n_images(self.layout.mirrors)
     }
 
-    /// A control in the units of the contact box: a force as the sum of the loads in front of the mirrors, a depth over the height
-    /// scale.
+    /// A control in the units of the contact box: a force as the sum of the loads of the symmetry-reduced domain, a depth over
+    /// the height scale.
     fn scaled_control(&self, control: Control) -> Control {
         match control {
             Control::NormalForce(force) => Control::NormalForce(force * self.load_per_force()),

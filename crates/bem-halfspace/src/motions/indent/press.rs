@@ -43,7 +43,7 @@ const PUNCH_WIDENING: f64 = 0.113;
 /// same disc, so that no error can be estimated.
 const MIN_ELEMENTS_OF_DISC: usize = 4;
 
-/// Upper bound of the memory per element in front of the mirrors, \[bytes]. Measured: a test compares it with the memory taken
+/// Upper bound of the memory per element of the symmetry-reduced domain, \[bytes]. Measured: a test compares it with the memory taken
 /// (tests/it/memory.rs).
 pub(super) const PRESS_BYTES_PER_ELEMENT: f64 = 600.0;
 
@@ -156,7 +156,7 @@ pub fn indent_memory(
     Ok(PRESS_BYTES_PER_ELEMENT * n_followed(surface, &pressed_grid(&plan, elements)))
 }
 
-/// Approximate number of elements of a grid in front of the mirrors of a surface.
+/// Approximate number of elements of the symmetry-reduced domain of a grid, for the mirrors of a surface.
 pub(super) fn n_followed(surface: &dyn Surface, options: &GridOptions) -> f64 {
     let mirrored = surface.mirrors().into_iter().filter(|mirrored| *mirrored);
     let followed: f64 = mirrored.map(|_| 0.5).product();

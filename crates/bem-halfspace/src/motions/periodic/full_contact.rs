@@ -24,7 +24,7 @@ pub(super) struct FullContactSurface<'a> {
     pub(super) grid: &'a Grid,
     /// Heights at the centres of the elements, \[m].
     pub(super) heights: &'a [f64],
-    /// Fourier transforms on the grid, with the stiffness |q|/M of the base for each wave.
+    /// Fourier transforms on the grid, with the reduced wave number |q|/M of each wave on the base.
     pub(super) waves: FourierMultiplier,
     /// Factor 1 − ν, for the Poisson ratio ν.
     pub(super) factor: f64,
@@ -63,7 +63,7 @@ impl FullContactSurface<'_> {
         motion.states[1..].iter().all(|state| {
             let (heights, factor) = (self.heights, self.factor);
             let stress = |row: usize| value_of_row(&state.stress, row, rows);
-            let symbol = |wave: &Wave| -stress(wave.row) * wave.stiffness / factor;
+            let symbol = |wave: &Wave| -stress(wave.row) * wave.reduced_wave_number / factor;
             self.waves.apply(heights, &mut field, symbol);
             let mean = mean(&field);
             field.iter().all(|p| (p - mean).abs() < allowed)
@@ -85,7 +85,7 @@ impl FullContactSurface<'_> {
                 let symbol = |wave: &Wave| {
                     let own = is_own(wave.row);
                     Complex::from(if own {
-                        wave.stiffness / self.factor
+                        wave.reduced_wave_number / self.factor
                     } else {
                         0.0
                     })

@@ -331,13 +331,13 @@ impl<'a> MovingSurface<'a> {
         control: Control,
         state: &WaveStates,
     ) -> Result<StepEnd, BemError> {
-        // Set the duration of the step, and the factors by which the waves of the given heights become those of heights and
-        // slopes at its end.
+        // Set the duration of the step, and the factors from the waves of the surface at the position 0 to those of heights and slopes at the end
+        // of the step. The heights have the correction for pressures that are held over the step (`stresses.rs`), the slopes have none.
         let rows = march.rows();
         let waves = state.displacement.iter().zip(&self.wave_numbers);
         let slopes: Vec<Complex<f64>> = waves.map(|(u, q)| Complex::i() * q * u).collect();
         march.set_step(duration, |row| {
-            [&state.held, &slopes].map(|values| value_of_row(values, row, rows))
+            [&state.with_held_pressure, &slopes].map(|values| value_of_row(values, row, rows))
         })?;
         // Solve the contact under the normal force, which the march needs as a mean pressure.
         let options = ContactOptions {
@@ -478,7 +478,7 @@ mod tests {
         let mut kernel = FourierMultiplier::new(&grid, &rubber.base());
         let creep = &problem.spectra.creep;
         let mut springs = vec![vec![0.0; heights.len()]; creep.elements().len()];
-        let mut moved = vec![0.0; heights.len()];
+        let mut u = vec![0.0; heights.len()];
         let count = MEMORIES * largest_retardation_time(creep) / load.duration() + 2.0;
         let mut heat = 0.0;
         for _ in 0..numerics::whole_part(count) {
@@ -493,8 +493,8 @@ mod tests {
                     let dashpot: Vec<f64> = pairs.map(|(all, spring)| all - spring).collect();
                     // Find the displacement that the pressures of the dashpot cause on an incompressible half space of the
                     // modulus 1.
-                    kernel.apply(&dashpot, &mut moved, |wave| (0.5 / wave.stiffness).into());
-                    let work: f64 = dashpot.iter().zip(&moved).map(|(p, u)| p * u).sum();
+                    kernel.apply(&dashpot, &mut u, |w| (0.5 / w.reduced_wave_number).into());
+                    let work: f64 = dashpot.iter().zip(&u).map(|(p, u)| p * u).sum();
                     let times = step.duration / element.retardation_time;
                     let passed = -(-2.0 * times).exp_m1();
                     heat += 0.5 * passed * element.compliance * work * grid.element_area();

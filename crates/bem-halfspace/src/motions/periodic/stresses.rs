@@ -32,8 +32,9 @@ pub(super) struct WaveStates {
     pub(super) displacement: Vec<Complex<f64>>,
     /// Stress σ of a unit wave, \[Pa].
     pub(super) stress: Vec<Complex<f64>>,
-    /// Displacement that the stresses σ cause if each is held over its step: it replaces u in a march with held pressures.
-    pub(super) held: Vec<Complex<f64>>,
+    /// Displacement of a unit wave, without unit, if the stress σ at the end of each step acts during all of it. In place of u it gives a march,
+    /// whose pressures are held over each step, the exact stress σ in full contact.
+    pub(super) with_held_pressure: Vec<Complex<f64>>,
 }
 
 /// The waves over all steps of a motion.
@@ -102,18 +103,18 @@ impl WaveMotion {
                 .map(|q| Complex::from_polar(1.0, -q * position))
                 .collect(),
             stress: responses.iter().map(|one| one.stresses[index]).collect(),
-            held: Vec::new(),
+            with_held_pressure: Vec::new(),
         };
         let mut motion = Self {
             states: positions.enumerate().map(state).collect(),
             work: responses.iter().map(|one| one.work).collect(),
         };
-        motion.update_held(load, &path, spectra)?;
+        motion.update_with_held_pressure(load, &path, spectra)?;
         Ok(motion)
     }
 
-    /// Computes [`WaveStates::held`] of all states: marches the creep law with stresses that are held over each step.
-    fn update_held(
+    /// Computes [`WaveStates::with_held_pressure`] of all states: marches the creep law with stresses that are held over each step.
+    fn update_with_held_pressure(
         &mut self,
         load: &MovingLoad,
         path: &[PathStep],
@@ -153,7 +154,7 @@ impl WaveMotion {
                 }
             }
         }
-        self.states[0].held = self.states[0].displacement.clone();
+        self.states[0].with_held_pressure = self.states[0].displacement.clone();
         // March over the steps: the displacement at the end of each follows from the history and from the stress, which is held
         // during the step.
         let mut displaced = vec![0.0; n_values];
@@ -165,10 +166,10 @@ impl WaveMotion {
             }
             step.advance(&stress, &mut memory);
             let pairs = displaced.chunks_exact(2);
-            state.held = pairs.map(|pair| Complex::new(pair[0], pair[1])).collect();
+            state.with_held_pressure = pairs.map(|pair| Complex::new(pair[0], pair[1])).collect();
         }
         if let (true, Some(last)) = (load.is_cycle(), self.states.last()) {
-            self.states[0].held = last.held.clone();
+            self.states[0].with_held_pressure = last.with_held_pressure.clone();
         }
         Ok(())
     }

@@ -2,16 +2,18 @@
 //!
 //! The preconditioner is the inverse S of the influence, restricted to the active set. It finds the pressure for the gaps of a
 //! patch as if no other patch were loaded (as for static contacts, `contact/multilevel_correction.rs`). Let w = S 1 be the
-//! pressures under the unit gap, and W their mean over a block. Let s be the means over the blocks of the pressures S r under a
-//! gap r, and K the influence between blocks. The displacement d of the blocks by other patches then satisfies
+//! pressures under the unit gap, the *conductances* of the elements, and W their mean over a block. Let s be the means over the
+//! blocks of the pressures S r under a gap r, and K the kernel between blocks. The displacement U of the blocks by other patches
+//! then satisfies
 //!
 //! ```text
-//! d + K W d = K s,        M r = S r − w d.
+//! U + K W U = K s,        C r = S r − w U.
 //! ```
 //!
-//! and S is replaced by M. Pressures and displacements are in units in which an element is displaced by 1 under its own unit pressure.
-//! The blocks are eight elements long along x and one across. Waves that do not vary along x, the direction of motion, are
-//! relaxed at every speed. They are therefore the most compliant by far, and short ones among them matter.
+//! and S is replaced by the corrected preconditioner C. Pressures and displacements are in units in which an element is displaced by
+//! 1 under its own unit pressure. The blocks are eight elements long along x and one across. Waves that do not vary along x, the
+//! direction of motion, have the frequency 0 and the equilibrium modulus at every speed. They are therefore the most compliant by
+//! far, and short ones among them matter.
 //!
 //! Theory: docs/theory/stationary-half-space.md, "Periodic surfaces", and docs/theory/contact.md, "Other patches".
 
@@ -23,7 +25,7 @@ use crate::parallel::chunks::Starts;
 use crate::parallel::reductions::{add_scaled, sum};
 use crate::parallel::row_blocks::{RowBlocks, copies};
 use crate::stationary::conjugate_residuals::{GcrLimits, GcrState, gcr, norm};
-use crate::stationary::periodic::kernel::{PeriodicKernel, Sliding};
+use crate::stationary::periodic::kernel::{MaterialAtSpeed, PeriodicKernel};
 use crate::{BemError, Grid};
 
 /// Length of a block along x, in elements. Derived: the largest for which no block is divided between two row blocks, the shares
@@ -42,7 +44,7 @@ const GCR_LIMITS: GcrLimits = GcrLimits {
     truncation_depth: 2,
 };
 
-/// The correction on one grid, with the weights of the present active set.
+/// The correction on one grid, for the present active set.
 pub(super) struct BlockCorrection {
     /// Number of columns of the grid, and of the grid of blocks.
     columns: usize,
@@ -50,20 +52,20 @@ pub(super) struct BlockCorrection {
     kernel: PeriodicKernel,
     /// Displacement of an element under its own unit pressure, the unit of K, \[m/Pa].
     self_influence: f64,
-    /// Mean pressure W of each block under the unit gap, row-major; 0 for a block with a mean tension.
-    weights: Vec<f32>,
+    /// Mean conductance W of each block, row-major; 0 for a block with a mean tension under the unit gap.
+    conductance: Vec<f32>,
     /// Mean w̄ of W, which replaces W in the preconditioner of the block equation.
-    mean_weight: f32,
+    mean_conductance: f32,
     /// Symbols K (1 + w̄ K)⁻¹ of that preconditioner.
     preconditioner: Vec<Complex<f32>>,
-    /// Displacement d of the blocks for s = W, row-major: the first guess for the next active set.
+    /// Displacement U of the blocks for s = W, row-major: the first guess for the next active set.
     unit_gap_displacement: Vec<f32>,
 }
 
 impl BlockCorrection {
     /// The correction on a grid, for an empty active set; `None` if the number of rows is not a multiple of [`BLOCK_LENGTH`].
     pub(super) fn new(
-        sliding: &Sliding,
+        sliding: &MaterialAtSpeed,
         grid: &Grid,
         self_influence: f64,
     ) -> Result<Option<Self>, BemError> {
@@ -80,74 +82,64 @@ impl BlockCorrection {
             columns,
             kernel: PeriodicKernel::new(sliding, &blocks)?,
             self_influence,
-            weights: copies(0.0, blocks.n_elements()),
-            mean_weight: 0.0,
+            conductance: copies(0.0, blocks.n_elements()),
+            mean_conductance: 0.0,
             preconditioner: Vec::new(),
             unit_gap_displacement: copies(0.0, blocks.n_elements()),
         }))
     }
 
-    /// Sets the packed `weights` w = S 1 of another active set, and replaces `unit_depth_response`, a copy of them, by M 1. Blocks with
-    /// a mean tension take no part.
-    pub(super) fn set_weights(
+    /// Sets the packed `conductances` w = S 1 of another active set, and replaces `unit_depth_response`, a copy of them, by C 1. Blocks
+    /// with a mean tension take no part.
+    pub(super) fn set_conductances(
         &mut self,
         active: &ActiveSet,
-        weights: &[f32],
+        conductances: &[f32],
         unit_depth_response: &mut [f32],
     ) {
         // Average the response over the blocks, and update the preconditioner.
-        let means = self.means(active, weights);
-        self.weights = means.iter().map(|mean| mean.max(0.0)).collect();
-        let total = f64::from(sum([&self.weights], |[weight]| weight));
-        let weight = total / self.weights.len() as f64;
-        self.mean_weight = f32::rounded(weight);
-        self.preconditioner = self.kernel.relaxation(weight, self.self_influence);
+        let means = self.means(active, conductances);
+        self.conductance = means.iter().map(|mean| mean.max(0.0)).collect();
+        let total = f64::from(sum([&self.conductance], |[conductance]| conductance));
+        let mean = total / self.conductance.len() as f64;
+        self.mean_conductance = f32::rounded(mean);
+        self.preconditioner = self.kernel.parallel_compliance(mean, self.self_influence);
         // The solution for the previous active set is similar, and serves as the first guess.
         let mut displacement = std::mem::take(&mut self.unit_gap_displacement);
         self.solve(&means, &mut displacement);
-        self.subtract(active, weights, &displacement, unit_depth_response);
+        self.subtract(active, conductances, &displacement, unit_depth_response);
         self.unit_gap_displacement = displacement;
     }
 
-    /// Replaces a packed vector of pressures S r by M r; `weights` is the packed w.
-    pub(super) fn correct(&mut self, active: &ActiveSet, weights: &[f32], pressures: &mut [f32]) {
-        let mut displacement = copies(0.0, self.weights.len());
+    /// Replaces a packed vector of pressures S r by C r; `w` has the packed conductances.
+    pub(super) fn correct(&mut self, active: &ActiveSet, w: &[f32], pressures: &mut [f32]) {
+        let mut displacement = copies(0.0, self.conductance.len());
         self.solve(&self.means(active, pressures), &mut displacement);
-        self.subtract(active, weights, &displacement, pressures);
+        self.subtract(active, w, &displacement, pressures);
     }
 
-    /// Subtracts w d from packed pressures, on the blocks that take part, those with W > 0; `displacement` has d of each block.
+    /// Subtracts w U from packed pressures, on the blocks that take part, those with W > 0; `displacement` has U of each block.
     ///
     /// The other blocks must be left out as in the block equation, because the most compliant waves multiply any difference by the
     /// ratio of the moduli.
-    fn subtract(
-        &self,
-        active: &ActiveSet,
-        weights: &[f32],
-        displacement: &[f32],
-        pressures: &mut [f32],
-    ) {
+    fn subtract(&self, active: &ActiveSet, w: &[f32], displacement: &[f32], pressures: &mut [f32]) {
         let columns = self.columns;
         let list = [active.packed(pressures)];
         active
             .row_blocks
             .for_each_part(list, |row_block, [pressures]| {
-                let weights = &weights[active.packed_range(row_block)];
+                let w = &w[active.packed_range(row_block)];
                 for run in active.runs(row_block) {
-                    // A run is a row of successive elements. Find the blocks to which they belong, and subtract w d of each
+                    // A run is a row of successive elements. Find the blocks to which they belong, and subtract w U of each
                     // element that takes part.
                     let first = run.elements().start;
                     let block = first / columns / BLOCK_LENGTH * columns + first % columns;
-                    let blocks = displacement[block..].iter().zip(&self.weights[block..]);
+                    let blocks = displacement[block..].iter().zip(&self.conductance[block..]);
                     let range = run.packed_range();
-                    let parts = pressures[range.clone()].iter_mut().zip(&weights[range]);
-                    for ((pressure, weight), (displacement, of_block)) in parts.zip(blocks) {
+                    let parts = pressures[range.clone()].iter_mut().zip(&w[range]);
+                    for ((pressure, w), (displacement, of_block)) in parts.zip(blocks) {
                         let takes_part = *of_block > 0.0;
-                        *pressure -= if takes_part {
-                            weight * displacement
-                        } else {
-                            0.0
-                        };
+                        *pressure -= if takes_part { w * displacement } else { 0.0 };
                     }
                 }
             });
@@ -156,7 +148,7 @@ impl BlockCorrection {
     /// Means of a packed vector over the blocks, row-major; elements outside the active set count as zero.
     fn means(&self, active: &ActiveSet, list: &[f32]) -> Vec<f32> {
         let columns = self.columns;
-        let mut means = copies(0.0, self.weights.len());
+        let mut means = copies(0.0, self.conductance.len());
         let starts = Starts::Every(active.row_blocks.rows(0).len() / BLOCK_LENGTH * columns);
         let parts = [(&mut means[..], starts)];
         active
@@ -179,15 +171,15 @@ impl BlockCorrection {
         means
     }
 
-    /// Solves the block equation d + K W d = K s by GCR; `means` is s, and `displacement` a guess of d that becomes the solution.
+    /// Solves the block equation U + K W U = K s by GCR; `means` is s, and `displacement` a guess of U that becomes the solution.
     ///
-    /// The equation is multiplied by (1 + w̄ K)⁻¹ from the left, its inverse for a constant weight w̄. The residual of the result is a
+    /// The equation is multiplied by (1 + w̄ K)⁻¹ from the left, its inverse for a constant conductance w̄. The residual of the result is a
     /// displacement.
     fn solve(&mut self, means: &[f32], displacement: &mut [f32]) {
         let Self {
             kernel,
-            weights,
-            mean_weight,
+            conductance,
+            mean_conductance,
             preconditioner,
             ..
         } = self;
@@ -200,9 +192,9 @@ impl BlockCorrection {
         let mut find_image = |from: &[f32], image: &mut [f32]| {
             row_blocks.for_each([&mut load], |row_block, [load]| {
                 let elements = row_blocks.elements(row_block);
-                let pairs = from[elements.clone()].iter().zip(&weights[elements]);
-                for (load, (value, weight)) in load.iter_mut().zip(pairs) {
-                    *load = (*mean_weight - weight) * value;
+                let pairs = from[elements.clone()].iter().zip(&conductance[elements]);
+                for (load, (value, conductance)) in load.iter_mut().zip(pairs) {
+                    *load = (*mean_conductance - conductance) * value;
                 }
             });
             kernel.apply_single_precision(preconditioner, &load, image);
@@ -210,7 +202,7 @@ impl BlockCorrection {
                 add_scaled(image, -1.0, &from[row_blocks.elements(row_block)]);
             });
         };
-        // So far the residual is that of d = 0. A guess changes it by the image of the guess.
+        // So far the residual is that of U = 0. A guess changes it by the image of the guess.
         if norm(displacement) > 0.0 {
             let mut image = copies(0.0, means.len());
             find_image(displacement, &mut image);

@@ -6,7 +6,7 @@ use numerics::{InvalidParameter, in_range};
 
 use crate::parallel::reductions::mean;
 use crate::stationary::periodic::equations::Equations;
-use crate::stationary::periodic::kernel::Sliding;
+use crate::stationary::periodic::kernel::MaterialAtSpeed;
 use crate::stationary::periodic::{PeriodicControl, PeriodicOptions};
 use crate::stationary::search::Search;
 use crate::{BemError, Grid};
@@ -22,7 +22,7 @@ const INEXACT_TOLERANCE: f64 = 0.01;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PeriodicContact<'a> {
     /// Material and speed.
-    pub(super) sliding: &'a Sliding,
+    pub(super) sliding: &'a MaterialAtSpeed,
     /// Grid of one period.
     pub(super) grid: &'a Grid,
     /// Heights at the centres of the elements, row-major, \[m].
@@ -38,7 +38,7 @@ pub(super) struct PeriodicSolution {
     /// Sum of height h and displacement u of the elements in contact, \[m].
     pub(super) depth: f64,
     /// Operator applications on this grid.
-    pub(super) products: usize,
+    pub(super) applications: usize,
     /// Final residual, relative to the largest displacement.
     pub(super) residual: f64,
 }
@@ -79,7 +79,7 @@ pub(super) fn solve(
         *pressure = overlaps();
         return Ok(PeriodicSolution {
             depth,
-            products: 0,
+            applications: 0,
             residual: 0.0,
         });
     }
@@ -91,7 +91,7 @@ pub(super) fn solve(
     };
 
     // Search the active set and its pressures, beginning with the guess.
-    (equations.depth, equations.max_products) = (depth, problem.options.max_products);
+    (equations.depth, equations.max_applications) = (depth, problem.options.max_applications);
     let inner_tolerance = INEXACT_TOLERANCE * variance.sqrt();
     let mut search = Search::new(
         equations,
@@ -113,7 +113,7 @@ pub(super) fn solve(
     }
     found.map(|()| PeriodicSolution {
         depth,
-        products: equations.products,
+        applications: equations.applications,
         residual,
     })
 }

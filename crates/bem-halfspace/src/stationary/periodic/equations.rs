@@ -4,8 +4,8 @@
 //! h + K p − d = 0  on the active set,   p = 0 outside,   mean of p or depth d given
 //! ```
 //!
-//! for the heights h, the pressures p, the kernel K and the depth d of h + u in the contact. If the depth is free, it is
-//! eliminated: the mean over the active set is subtracted from gaps, and search directions have no mean.
+//! for the heights h, the pressures p, the kernel K (`kernel.rs`) and the depth d, the value of h + u in the contact. If the depth is
+//! free, it is eliminated: the mean over the active set is subtracted from gaps, and search directions have no mean.
 //!
 //! GCR (Eisenstat, Elman & Schultz 1983) keeps pressure and gap known after every step. The preconditioner is the inverse S of K
 //! on the whole grid, restricted to the active set, less a coarse-space correction (`block_correction.rs`). Problems with few
@@ -31,7 +31,7 @@ use crate::parallel::row_blocks::copies;
 use crate::stationary::conjugate_residuals::{GcrLimits, gcr, norm};
 use crate::stationary::periodic::PeriodicControl;
 use crate::stationary::periodic::block_correction::BlockCorrection;
-use crate::stationary::periodic::kernel::{PeriodicKernel, Sliding};
+use crate::stationary::periodic::kernel::{MaterialAtSpeed, PeriodicKernel};
 use crate::stationary::search::{FixedSetSolver, ForcingTerms};
 use crate::{BemError, Grid};
 
@@ -81,9 +81,10 @@ pub(super) struct Equations {
     unit: f64,
     /// Packed gap, less its mean if the depth is free, in `unit`.
     gap: Vec<f32>,
-    /// Packed pressures S 1 under the unit gap on the active set, without coarse-space correction.
-    weights: Vec<f32>,
-    /// Packed pressures M 1 under the unit gap on the active set, with coarse-space correction.
+    /// Packed conductances w = S 1: pressures under the unit gap on the active set, by the preconditioner without coarse-space correction.
+    conductances: Vec<f32>,
+    /// Packed pressures C 1 under the unit gap on the active set, by the preconditioner C with coarse-space correction: the response to a
+    /// unit change of the depth. A multiple of it makes the mean of a search direction zero.
     unit_depth_response: Vec<f32>,
     /// Sum of that response over the active set.
     total_unit_depth_response: f64,
@@ -102,9 +103,9 @@ pub(super) struct Equations {
     /// True if the iteration over the gaps of the open elements was the last one to converge.
     converged_by_open_gaps: bool,
     /// Operator applications on this grid so far.
-    pub(super) products: usize,
+    pub(super) applications: usize,
     /// Number of operator applications from which on the search ends.
-    pub(super) max_products: usize,
+    pub(super) max_applications: usize,
 }
 
 /// Gaps on the active set that count as closed, in the unit of the packed gaps.
@@ -129,7 +130,7 @@ impl AllowedGaps {
 impl Equations {
     /// The equations on a grid, with the kernel and its preconditioners, before any element is in contact.
     pub(super) fn new(
-        sliding: &Sliding,
+        sliding: &MaterialAtSpeed,
         grid: &Grid,
         control: PeriodicControl,
     ) -> Result<Self, BemError> {
@@ -150,7 +151,7 @@ impl Equations {
             pressure: Vec::new(),
             unit: 1.0,
             gap: Vec::new(),
-            weights: Vec::new(),
+            conductances: Vec::new(),
             unit_depth_response: Vec::new(),
             total_unit_depth_response: 0.0,
             scattered: field(),
@@ -158,8 +159,8 @@ impl Equations {
             self_influence,
             largest_direct_cost: 0.0,
             converged_by_open_gaps: false,
-            products: 0,
-            max_products: usize::MAX,
+            applications: 0,
+            max_applications: usize::MAX,
         })
     }
 
@@ -211,7 +212,7 @@ impl Equations {
     /// Computes the packed `gaps` under packed `pressures`, less their mean if the depth is free: the operator of GCR.
     fn apply_influence(&mut self, pressures: &[f32], gaps: &mut [f32]) {
         self.active.scatter(pressures, &mut self.scattered);
-        self.products += 1;
+        self.applications += 1;
         self.kernel.apply_single_precision(
             &self.influence_symbols,
             &self.scattered,
@@ -238,7 +239,7 @@ impl Equations {
         }
         self.apply_inverse(direction);
         if let Some(correction) = &mut self.correction {
-            correction.correct(&self.active, &self.weights, direction);
+            correction.correct(&self.active, &self.conductances, direction);
         }
         // If the mean pressure is given, change the depth so that the mean of the direction is zero.
         if self.depth_is_free() {
@@ -298,7 +299,7 @@ impl FixedSetSolver for Equations {
     /// Writes the displacement K p \[m], in double precision; returns the largest displacement from the mean \[m], the scale of the
     /// tolerance.
     fn displace(&mut self, pressure: &[f64], displacement: &mut [f64]) -> f64 {
-        self.products += 1;
+        self.applications += 1;
         self.kernel.displace(pressure, displacement);
         let mean = mean(displacement);
         displacement
@@ -319,16 +320,16 @@ impl FixedSetSolver for Equations {
         // Pack the pressures and gaps of the active elements into vectors.
         self.pressure = self.gather(pressure);
         self.set_gap(self.gather(gap));
-        // Apply the preconditioner to the unit gap, without and with the coarse-space correction. Directions are made free of a
-        // mean with the result.
-        let mut weights = copies(1.0, self.active.len());
-        self.apply_inverse(&mut weights);
-        self.weights = weights;
-        self.unit_depth_response = self.weights.clone();
+        // Apply the preconditioner to the unit gap, without and with the coarse-space correction. A multiple of the result makes the
+        // mean of search directions zero.
+        let mut conductances = copies(1.0, self.active.len());
+        self.apply_inverse(&mut conductances);
+        let mut response = conductances.clone();
         if let Some(correction) = &mut self.correction {
-            correction.set_weights(&self.active, &self.weights, &mut self.unit_depth_response);
+            correction.set_conductances(&self.active, &conductances, &mut response);
         }
-        self.total_unit_depth_response = self.total(&self.unit_depth_response);
+        self.total_unit_depth_response = self.total(&response);
+        (self.conductances, self.unit_depth_response) = (conductances, response);
     }
 
     /// Root mean square of the gap on the active set, \[m].
@@ -358,7 +359,7 @@ impl FixedSetSolver for Equations {
         let n_elements = self.scattered.len();
         let can_be_direct = self.n_unknowns() <= dense::MAX_UNKNOWNS as f64;
         let direct_cost = DIRECT_SOLVE_COST * self.n_unknowns().powi(3) / n_elements as f64;
-        let affordable = (self.products as f64).max(self.largest_direct_cost);
+        let affordable = (self.applications as f64).max(self.largest_direct_cost);
         if !(can_be_direct && direct_cost < affordable) {
             let cost_limit = if can_be_direct {
                 direct_cost
@@ -421,12 +422,12 @@ impl FixedSetSolver for Equations {
 
     /// Number of operator applications so far.
     fn iterations(&self) -> usize {
-        self.products
+        self.applications
     }
 
     /// True from the largest number of operator applications on.
     fn budget_is_exhausted(&self) -> bool {
-        self.products >= self.max_products
+        self.applications >= self.max_applications
     }
 }
 

@@ -5,10 +5,10 @@ use numerics::{Estimate, Request};
 
 use crate::march::periodic::{PeriodicTransient, Steps, slide_with};
 use crate::parallel::reductions::mean;
-use crate::stationary::FIRST_TOLERANCE;
+use crate::stationary::COARSE_GRID_TOLERANCE;
 use crate::stationary::periodic::contact::PeriodicContact;
 use crate::stationary::periodic::grid_sizes::first_shape;
-use crate::stationary::periodic::kernel::Sliding;
+use crate::stationary::periodic::kernel::MaterialAtSpeed;
 use crate::stationary::periodic::perimeter_error::area_fraction;
 use crate::stationary::periodic::refinement::{
     AREA_RATE, FIRST_ORDER_RATE, FRICTION_RATE, GridResult, RefinementGoal, SampledSurface, refine,
@@ -86,7 +86,7 @@ pub fn steady<'w>(
     request: impl Into<Request<'w>>,
 ) -> Result<PeriodicEstimate<PeriodicSliding>, BemError> {
     let control = load.require_stationary()?;
-    let sliding = Sliding::under_load(elastomer, load)?;
+    let sliding = MaterialAtSpeed::under_load(elastomer, load)?;
     let goal = RefinementGoal {
         request: request.into(),
         control,
@@ -140,12 +140,12 @@ pub fn steady_on_coarse_grid(
     let shape = first.map(|edge| factor * edge);
     let SampledSurface { grid, heights, .. } = SampledSurface::new(surface, shape)?;
     let problem = PeriodicContact {
-        sliding: &Sliding::under_load(elastomer, load)?,
+        sliding: &MaterialAtSpeed::under_load(elastomer, load)?,
         grid: &grid,
         heights: &heights,
         control: load.require_stationary()?,
         options: PeriodicOptions {
-            tolerance: FIRST_TOLERANCE,
+            tolerance: COARSE_GRID_TOLERANCE,
             ..PeriodicOptions::default()
         },
     };

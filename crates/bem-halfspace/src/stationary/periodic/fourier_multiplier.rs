@@ -1,4 +1,11 @@
 //! Fourier multipliers on a periodic grid, in double and in single precision: each wave of a field is multiplied by its *symbol*.
+//!
+//! The transform of a field is stored as `[column][row]`: a column has the waves of one q_y ≥ 0, and a *row of the transform* those of one q_x.
+//! With the compliance ratio M of a layer (1 on a half space) the *reduced wave number* of a wave is |q|/M; the half space has there the
+//! stiffness that the layer has at |q|.
+//!
+//! The mean, q = 0, has no compliance on a half space. It is given the reduced wave number of the longest wave, so that symbols and their
+//! inverses are finite; functions whose result has a meaningful mean set it afterwards.
 
 use std::f64::consts::PI;
 
@@ -12,14 +19,14 @@ use crate::{Base, Grid};
 /// A wave of the transform of a field.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Wave {
-    /// Row of the transform, by which the waves of one wave number along x have the same material frequency.
+    /// Row of the transform. The waves of a row have the same q_x, and thus the same material frequency.
     pub(crate) row: usize,
-    /// Index among all waves, `[column][row]` of the transform.
+    /// Index among all waves, `[column][row]`.
     pub(crate) index: usize,
     /// Wave number along x, \[rad/m]; positive for the shortest wave.
     pub(crate) q_x: f64,
-    /// Stiffness |q|/M, \[rad/m]; for the mean that of the longest wave.
-    pub(crate) stiffness: f64,
+    /// Reduced wave number |q|/M, \[rad/m]; for the mean see the head of this file.
+    pub(crate) reduced_wave_number: f64,
 }
 
 /// Transform plans and wave numbers of a periodic grid, for products of fields with symbols.
@@ -34,17 +41,16 @@ pub(crate) struct FourierMultiplier {
     pub(crate) along_x: Vec<f64>,
     /// Wave number q_y of the second column of a transformed field, \[rad/m].
     step_y: f64,
-    /// Stiffness |q|/M of all waves, `[column][row]` of the transform, \[rad/m]; for the mean that of the longest wave. Here q is
-    /// the wave vector and M the compliance ratio of a layer (1 on a half space).
-    stiffness: Vec<f64>,
+    /// Reduced wave numbers |q|/M of all waves, `[column][row]`, \[rad/m]; for the mean see the head of this file.
+    reduced: Vec<f64>,
 }
 
 impl FourierMultiplier {
-    /// Wave numbers of the discrete Fourier transform on a grid, and their stiffness on a `base` with lengths in \[m].
+    /// Wave numbers of the discrete Fourier transform on a grid, and reduced ones on a `base` with lengths in \[m].
     pub(crate) fn new(grid: &Grid, base: &Base) -> Self {
         let [rows, columns] = grid.shape();
         let [dx, dy] = grid.spacing();
-        // Each row of the transform has a wave number along x; those of the second half are negative.
+        // The wave numbers q_x of the second half of the rows are negative.
         let unit_x = 2.0 * PI / (rows as f64 * dx);
         let unit_y = 2.0 * PI / (columns as f64 * dy);
         let number = |row: usize| {
@@ -52,14 +58,13 @@ impl FourierMultiplier {
             (row as f64 - back) * unit_x
         };
         let along_x: Vec<f64> = (0..rows).map(number).collect();
-        // Compute the stiffness of the base for each wave. The mean takes that of the longest wave, because it is zero for a
-        // uniform pressure on a half space.
+        // Compute the reduced wave number of each wave. The mean has that of the longest wave (head of this file).
         let longest = unit_x.min(unit_y);
-        let mut stiffness = copies(0.0, (columns / 2 + 1) * rows);
-        for_each_row(&mut stiffness, rows, |column, values| {
+        let mut reduced = copies(0.0, (columns / 2 + 1) * rows);
+        for_each_row(&mut reduced, rows, |column, values| {
             for (value, q_x) in values.iter_mut().zip(&along_x) {
                 let q = q_x.hypot(column as f64 * unit_y);
-                *value = base.stiffness(if q > 0.0 { q } else { longest });
+                *value = base.reduced_wave_number(if q > 0.0 { q } else { longest });
             }
         });
         Self {
@@ -68,14 +73,14 @@ impl FourierMultiplier {
             single: None,
             along_x,
             step_y: unit_y,
-            stiffness,
+            reduced,
         }
     }
 
-    /// Wave numbers q_x and |q| of all waves, `[column][row]` of the transform, \[rad/m].
+    /// Wave numbers q_x and |q| of all waves, `[column][row]`, \[rad/m].
     pub(super) fn wave_numbers(&self) -> impl ExactSizeIterator<Item = [f64; 2]> + '_ {
         let rows = self.along_x.len();
-        (0..self.stiffness.len()).map(move |index| {
+        (0..self.reduced.len()).map(move |index| {
             let q_x = self.along_x[index % rows];
             [q_x, q_x.hypot((index / rows) as f64 * self.step_y)]
         })
@@ -88,11 +93,11 @@ impl FourierMultiplier {
         result: &mut [f64],
         symbol: impl Fn(&Wave) -> Complex<f64> + Sync,
     ) {
-        let (along_x, stiffness) = (&self.along_x, &self.stiffness);
+        let (along_x, reduced) = (&self.along_x, &self.reduced);
         let transforms = Transforms::get_or_plan(&mut self.double, self.shape);
         let normalisation = transforms.plans.normalisation();
         transforms.multiply(field, result, |column, values| {
-            for (value, wave) in values.iter_mut().zip(waves_of(along_x, stiffness, column)) {
+            for (value, wave) in values.iter_mut().zip(waves_of(along_x, reduced, column)) {
                 *value *= symbol(&wave) * normalisation;
             }
         });
@@ -126,11 +131,11 @@ impl FourierMultiplier {
         mean: Option<f64>,
         symbol: impl Fn(&Wave) -> Complex<f64> + Sync,
     ) -> Vec<Complex<f32>> {
-        let (along_x, stiffness) = (&self.along_x, &self.stiffness);
+        let (along_x, reduced) = (&self.along_x, &self.reduced);
         let normalisation = 1.0 / (self.shape[0] as f64 * self.shape[1] as f64);
-        let mut symbols = copies(Complex::default(), stiffness.len());
+        let mut symbols = copies(Complex::default(), reduced.len());
         for_each_row(&mut symbols, along_x.len(), |column, symbols| {
-            for (place, wave) in symbols.iter_mut().zip(waves_of(along_x, stiffness, column)) {
+            for (place, wave) in symbols.iter_mut().zip(waves_of(along_x, reduced, column)) {
                 *place = rounded(symbol(&wave) * normalisation);
             }
         });
@@ -161,16 +166,16 @@ impl FourierMultiplier {
 /// The waves of one column of the transform.
 fn waves_of<'w>(
     along_x: &'w [f64],
-    stiffness: &'w [f64],
+    reduced: &'w [f64],
     column: usize,
 ) -> impl Iterator<Item = Wave> + 'w {
     let first = column * along_x.len();
-    let of_column = along_x.iter().zip(&stiffness[first..]).enumerate();
-    of_column.map(move |(row, (q_x, stiffness))| Wave {
+    let of_column = along_x.iter().zip(&reduced[first..]).enumerate();
+    of_column.map(move |(row, (q_x, reduced))| Wave {
         row,
         index: first + row,
         q_x: *q_x,
-        stiffness: *stiffness,
+        reduced_wave_number: *reduced,
     })
 }
 

@@ -11,7 +11,7 @@ use indenters::rough::PeriodicSurface;
 use crate::elements::gap_field::GapField;
 use crate::parallel::chunks::in_pool;
 use crate::stationary::periodic::check_periods;
-use crate::stationary::periodic::kernel::{PeriodicKernel, Sliding};
+use crate::stationary::periodic::kernel::{MaterialAtSpeed, PeriodicKernel};
 use crate::stationary::periodic::load::PeriodicLoad;
 use crate::stationary::periodic::refinement::SampledSurface;
 use crate::{BemError, Elastomer, PressureField};
@@ -31,7 +31,7 @@ pub fn gap(
     load.require_stationary()?;
     field.check_contact()?;
     check_periods(surface, &field.grid)?;
-    let sliding = Sliding::under_load(elastomer, load)?;
+    let sliding = MaterialAtSpeed::under_load(elastomer, load)?;
     let (grid, pressure) = (field.grid, &field.pressure);
     let SampledSurface { heights, .. } = SampledSurface::new(surface, grid.shape())?;
     let mut kernel = PeriodicKernel::new(&sliding, &grid)?;

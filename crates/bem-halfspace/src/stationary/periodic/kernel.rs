@@ -6,7 +6,13 @@
 //!
 //! with the transforms û of the displacement and p̂ of the pressure, the complex creep compliance in shear J* = J' − i J'', and
 //! the Poisson ratio ν. The wave vector is q, the sliding speed v, and the compliance ratio of a layer M (1 on a half space). In
-//! the frame that moves with the surface a wave has the angular frequency −q_x v.
+//! the frame that moves with the surface a wave has the angular frequency −q_x v. For q = 0 see `fourier_multiplier.rs`.
+//!
+//! The operator K of these files contains the compliance of the material; that of `march` is the one of the influence coefficients alone.
+//!
+//! The gap of an element is evaluated at the distance θ Δx from its centre along x. The shift cancels the loss angle δ of the shortest
+//! (Nyquist) wave along x, whose symbol is then real and positive: θ = −δ/π, which is −1/2, the rear edge, on a dashpot and 0, the centre,
+//! on a spring. Pressures are those at the centres.
 //!
 //! Theory: docs/theory/stationary-half-space.md, "Periodic surfaces" and "Where the gap is evaluated".
 
@@ -22,9 +28,10 @@ use crate::stationary::periodic::load::PeriodicLoad;
 use crate::substrate::base::check_no_wave_shift;
 use crate::{Base, BemError, Elastomer, Grid, WaveShift};
 
-/// A material under a surface that slides at a constant speed.
+/// A material at a constant sliding speed v, at which waves of the wave number q_x have the frequency q_x v; or at rest, some time after a
+/// step of pressure, where it is a spring with the creep compliance at that time.
 #[derive(Debug, Clone)]
-pub(crate) struct Sliding {
+pub(crate) struct MaterialAtSpeed {
     /// Creep of the material in shear, at the strain amplitude of the state.
     pub(super) creep: StationaryCreep,
     /// Factor 1 − ν, for the Poisson ratio ν.
@@ -37,7 +44,7 @@ pub(crate) struct Sliding {
     wave_shift: Option<WaveShift>,
 }
 
-impl Sliding {
+impl MaterialAtSpeed {
     /// The material under a load: at its sliding speed, or at rest after the duration of its pressure.
     pub(super) fn under_load(
         elastomer: &dyn Elastomer,
@@ -135,43 +142,43 @@ impl Sliding {
     }
 }
 
-/// Complex numbers of the waves of a grid.
-struct OfWaves {
-    /// One number for each row of the transform, that is each q_x, or one for each wave, `[column][row]`.
+/// Complex compliances of the waves of a grid, \[1/Pa].
+struct PerWave {
+    /// One compliance for each row of the transform, or one for each wave, `[column][row]`.
     values: Vec<Complex<f64>>,
-    /// Whether all waves of a row have the same number.
+    /// True if all waves of a row have the same compliance.
     is_by_row: bool,
 }
 
-impl OfWaves {
-    /// The number of a wave.
+impl PerWave {
+    /// The compliance of a wave.
     fn of(&self, wave: &Wave) -> Complex<f64> {
         self.values[if self.is_by_row { wave.row } else { wave.index }]
     }
 }
 
-/// The kernel K on one grid: a Fourier multiplier with a complex compliance for each row of the transform, that is each q_x; if times
-/// and moduli depend on the wavelength, for each wave.
+/// The kernel K on one grid: a Fourier multiplier with a complex compliance for each row of the transform, or for each wave if times and
+/// moduli depend on the wavelength.
 ///
-/// A mean pressure compresses a layer, and leaves the mean of a half space where it is.
+/// A mean pressure compresses a layer. The displacements of a half space are measured from their mean.
 pub(super) struct PeriodicKernel {
-    /// Transforms of the grid, with the stiffness |q|/M of each wave.
+    /// Transforms of the grid, with the reduced wave number |q|/M of each wave.
     waves: FourierMultiplier,
     /// Displacement per mean pressure, \[m/Pa]; 0 for a half space.
     pub(super) mean_compliance: f64,
-    /// Compliance |q| û/(p̂ M) at the centre of an element, \[1/Pa].
-    at_centre: OfWaves,
-    /// Phase shift of each row from the centre to the point at which the gap is evaluated.
+    /// Compliance |q| û/(p̂ M) for displacements at the centres of the elements.
+    at_centre: PerWave,
+    /// Phase factor e^(i q_x θ Δx) of each row, from the centres to the points where gaps are evaluated.
     shift: Vec<Complex<f64>>,
-    /// Product of both: the compliance at the point where the gap is evaluated.
-    at_gap: OfWaves,
+    /// Product of compliance and phase factor: the compliance for displacements at the points where gaps are evaluated.
+    at_gap: PerWave,
 }
 
 impl PeriodicKernel {
     /// Kernel of a material at its speed on a grid, as a compliance for each wave.
-    pub(super) fn new(sliding: &Sliding, grid: &Grid) -> Result<Self, BemError> {
-        // Compute the compliance of each row of the transform, or of each wave, and from the loss angle of the shortest wave the shift θ
-        // in elements.
+    pub(super) fn new(sliding: &MaterialAtSpeed, grid: &Grid) -> Result<Self, BemError> {
+        // Compute the compliance of each row of the transform, or of each wave, and from the loss angle of the shortest wave the shift θ in
+        // elements (head of this file).
         let dx = grid.spacing()[0];
         let waves = FourierMultiplier::new(grid, &sliding.base);
         let along_x = &waves.along_x;
@@ -185,7 +192,7 @@ impl PeriodicKernel {
                 .collect::<Result<_, _>>()?
         };
         let theta = -sliding.compliance(PI / dx, PI / dx)?.arg() / PI;
-        // A shift of the points by this distance multiplies each wave by a phase factor.
+        // The shift multiplies each wave by a phase factor.
         let turn = |q_x: &f64| Complex::from_polar(1.0, q_x * theta * dx);
         let mut shift: Vec<_> = along_x.iter().map(turn).collect();
         let of_rows = shift.iter().cycle();
@@ -199,7 +206,7 @@ impl PeriodicKernel {
             }
             shift[rows / 2] = Complex::from(shift[rows / 2].re);
         }
-        let [at_centre, at_gap] = [at_centre, at_gap].map(|values| OfWaves { values, is_by_row });
+        let [at_centre, at_gap] = [at_centre, at_gap].map(|values| PerWave { values, is_by_row });
         Ok(Self {
             waves,
             mean_compliance: sliding.mean_compliance()?,
@@ -211,24 +218,24 @@ impl PeriodicKernel {
 
     /// Displacements \[m] under a pressure field \[Pa], at the points where the gaps are evaluated.
     pub(super) fn displace(&mut self, pressure: &[f64], result: &mut [f64]) {
-        let symbol = |wave: &Wave| self.at_gap.of(wave) / wave.stiffness;
+        let symbol = |wave: &Wave| self.at_gap.of(wave) / wave.reduced_wave_number;
         self.waves.apply(pressure, result, symbol);
         set_mean(result, self.mean_compliance * mean(pressure));
     }
 
-    /// Displacements \[m] under a pressure field \[Pa], at the centres of the elements; the mean has no meaning.
+    /// Displacements \[m] under a pressure field \[Pa], at the centres of the elements; their mean is arbitrary.
     #[cfg(feature = "rough")]
     pub(super) fn displace_centres(&mut self, pressure: &[f64], result: &mut [f64]) {
-        let symbol = |wave: &Wave| self.at_centre.of(wave) / wave.stiffness;
+        let symbol = |wave: &Wave| self.at_centre.of(wave) / wave.reduced_wave_number;
         self.waves.apply(pressure, result, symbol);
     }
 
     /// Symbols of K over `self_influence`, and of the inverse of that, for
     /// [`apply_single_precision`](Self::apply_single_precision).
     ///
-    /// The inverse has the mean of the longest wave, so that it exists on a half space too.
+    /// The inverse has for the mean the symbol of the longest wave.
     pub(super) fn symbols(&self, self_influence: f64) -> [Vec<Complex<f32>>; 2] {
-        let factor = |wave: &Wave| self.at_gap.of(wave) / (wave.stiffness * self_influence);
+        let factor = |w: &Wave| self.at_gap.of(w) / (w.reduced_wave_number * self_influence);
         let mean = self.mean_compliance / self_influence;
         [
             self.waves.symbols(Some(mean), factor),
@@ -238,25 +245,25 @@ impl PeriodicKernel {
 
     /// The pressure without mean \[Pa] under which the points where gaps are evaluated are displaced by a field \[m] less its mean.
     pub(super) fn invert(&mut self, field: &[f64], result: &mut [f64]) {
-        let symbol = |wave: &Wave| self.at_gap.of(wave).inv() * wave.stiffness;
+        let symbol = |wave: &Wave| self.at_gap.of(wave).inv() * wave.reduced_wave_number;
         self.waves.apply(field, result, symbol);
         set_mean(result, 0.0);
     }
 
-    /// The pressure \[Pa] under which the centres of all elements are displaced by a field \[m]; its mean has no meaning.
+    /// The pressure \[Pa] under which the centres of all elements are displaced by a field \[m]; its mean is arbitrary.
     pub(super) fn invert_at_centre(&mut self, field: &[f64], result: &mut [f64]) {
-        let symbol = |wave: &Wave| self.at_centre.of(wave).inv() * wave.stiffness;
+        let symbol = |wave: &Wave| self.at_centre.of(wave).inv() * wave.reduced_wave_number;
         self.waves.apply(field, result, symbol);
     }
 
-    /// Symbols of K (1 + w K)⁻¹ at the centres, with K over `self_influence` and one `weight` w for all elements.
-    pub(super) fn relaxation(&self, weight: f64, self_influence: f64) -> Vec<Complex<f32>> {
+    /// Symbols of (K⁻¹ + w)⁻¹ = K (1 + w K)⁻¹ at the centres, with K over `self_influence`: the compliance K in parallel with springs of
+    /// one conductance `w` for all elements.
+    pub(super) fn parallel_compliance(&self, w: f64, self_influence: f64) -> Vec<Complex<f32>> {
         let mean = self.mean_compliance / self_influence;
-        self.waves
-            .symbols(Some(mean / (mean * weight + 1.0)), |wave| {
-                let kernel = self.at_centre.of(wave) / self_influence;
-                kernel / (kernel * weight + wave.stiffness)
-            })
+        self.waves.symbols(Some(mean / (mean * w + 1.0)), |wave| {
+            let kernel = self.at_centre.of(wave) / self_influence;
+            kernel / (kernel * w + wave.reduced_wave_number)
+        })
     }
 
     /// Multiplies every wave of a field by its symbol, in single precision.
@@ -284,11 +291,11 @@ impl PeriodicKernel {
         });
     }
 
-    /// The field −∂u/∂x of the displacement u under a pressure field, of which only the dissipative part is kept. Its mean product with
-    /// the pressure is the dissipated power per area and velocity, \[Pa].
-    pub(super) fn dissipate(&mut self, pressure: &[f64], result: &mut [f64]) {
+    /// Slopes −∂u''/∂x at the centres, without unit, of the displacement u'' by the loss compliances under a pressure field \[Pa]. Their mean
+    /// product with the pressure is the dissipated power per area and velocity, \[Pa].
+    pub(super) fn negative_loss_slopes(&mut self, pressure: &[f64], result: &mut [f64]) {
         let symbol =
-            |wave: &Wave| Complex::from(wave.q_x * self.at_centre.of(wave).im / wave.stiffness);
+            |w: &Wave| Complex::from(w.q_x * self.at_centre.of(w).im / w.reduced_wave_number);
         self.waves.apply(pressure, result, symbol);
     }
 }

@@ -64,7 +64,7 @@ pub use estimate::{PeriodicEstimate, slide, steady, steady_on_coarse_grid};
 pub use gap::gap;
 #[cfg(feature = "rough")]
 pub use grid_sizes::{edge_for_bars, elements_for_bars, fewest_elements, largest_grid, memory};
-use kernel::Sliding;
+use kernel::MaterialAtSpeed;
 pub use load::{PeriodicControl, PeriodicLoad};
 
 /// Stopping criteria of the solver.
@@ -75,7 +75,7 @@ pub struct PeriodicOptions {
     /// between 0 and 1.
     pub tolerance: f64,
     /// Maximum number of operator applications on the finest grid.
-    pub max_products: usize,
+    pub max_applications: usize,
 }
 
 impl Default for PeriodicOptions {
@@ -83,7 +83,7 @@ impl Default for PeriodicOptions {
     fn default() -> Self {
         Self {
             tolerance: 1e-6,
-            max_products: 2000,
+            max_applications: 2000,
         }
     }
 }
@@ -107,7 +107,7 @@ pub struct PeriodicSliding {
     /// undeformed surface of a layer.
     pub mean_depth: f64,
     /// Operator applications on this grid.
-    pub products: usize,
+    pub applications: usize,
     /// Final residual, in the sense of [`PeriodicOptions::tolerance`].
     pub residual: f64,
     /// Pressure of the elements; the origin is the centre of the first element.
@@ -134,7 +134,7 @@ pub fn steady_on_grid(
     options.validate()?;
     check_surface(grid, heights)?;
     let problem = PeriodicContact {
-        sliding: &Sliding::under_load(elastomer, load)?,
+        sliding: &MaterialAtSpeed::under_load(elastomer, load)?,
         grid,
         heights,
         control: load.require_stationary()?,
@@ -165,14 +165,14 @@ fn solve_in_pool(
     let weighted_mean = |field: &[f64]| dot(field, &pressure) / pressure.iter().sum::<f64>();
     equations.kernel.slopes(problem.heights, &mut field);
     let from_slopes = weighted_mean(&field);
-    equations.kernel.dissipate(&pressure, &mut field);
+    equations.kernel.negative_loss_slopes(&pressure, &mut field);
     let from_dissipation = weighted_mean(&field);
     Ok(PeriodicSliding {
         friction_coefficient: from_slopes,
         friction_from_dissipation: from_dissipation,
         area_fraction: area::area_fraction(problem.grid.shape()[1], &pressure).area,
         mean_depth: solved.depth - mean(problem.heights),
-        products: solved.products,
+        applications: solved.applications,
         residual: solved.residual,
         pressure: PressureField {
             grid: *problem.grid,
@@ -186,7 +186,7 @@ impl PeriodicOptions {
     /// Refuses numbers out of their ranges.
     fn validate(&self) -> Result<(), InvalidParameter> {
         numerics::between_zero_and_one("tolerance", self.tolerance)?;
-        positive("max_products", self.max_products as f64).map(drop)
+        positive("max_applications", self.max_applications as f64).map(drop)
     }
 }
 

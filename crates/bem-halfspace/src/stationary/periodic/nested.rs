@@ -8,7 +8,7 @@ use rustfft::num_complex::Complex;
 
 use crate::elements::grid::MIN_COARSEST_EDGE;
 use crate::parallel::reductions::mean;
-use crate::stationary::FIRST_TOLERANCE;
+use crate::stationary::COARSE_GRID_TOLERANCE;
 use crate::stationary::periodic::contact::{self, PeriodicContact, PeriodicSolution};
 use crate::stationary::periodic::equations::Equations;
 use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
@@ -16,10 +16,10 @@ use crate::stationary::periodic::{PeriodicControl, PeriodicOptions};
 use crate::transform::plane_transform::ZERO;
 use crate::{Base, BemError, Grid};
 
-/// Largest number of operator applications (products) on a coarser grid. Chosen to limit the time, at twice the largest number
+/// Largest number of operator applications on a coarser grid. Chosen to limit the time, at twice the largest number
 /// measured on 300 contacts on a hundred-thousandth to all of the area. An unconverged pressure is an initial guess too, so that the solution does
 /// not depend on it.
-const COARSE_MAX_PRODUCTS: usize = 300;
+const COARSE_GRID_BUDGET: usize = 300;
 
 /// Solves the problem with the equations of its grid: in closed form in full contact, else from a guess.
 ///
@@ -60,8 +60,8 @@ fn solve_on_coarser_grids(
         grid: &grid,
         heights: &heights,
         options: PeriodicOptions {
-            tolerance: problem.options.tolerance.max(FIRST_TOLERANCE),
-            max_products: problem.options.max_products.min(COARSE_MAX_PRODUCTS),
+            tolerance: problem.options.tolerance.max(COARSE_GRID_TOLERANCE),
+            max_applications: problem.options.max_applications.min(COARSE_GRID_BUDGET),
         },
         ..*problem
     };
@@ -83,7 +83,7 @@ fn restrict(grid: &Grid, heights: &[f64]) -> Vec<f64> {
     let cut_off = 0.5 * PI * (1.0 - f64::EPSILON.sqrt());
     let mut field = vec![0.0; heights.len()];
     FourierMultiplier::new(grid, &Base::default()).apply(heights, &mut field, |wave| {
-        let (q_x, q) = (wave.q_x, wave.stiffness);
+        let (q_x, q) = (wave.q_x, wave.reduced_wave_number);
         // For the mean, q is that of the longest wave; this changes nothing but the depth of a guess.
         let q_y = if wave.row == 0 {
             q
@@ -170,7 +170,7 @@ fn full_contact(
     *pressure = full;
     Some(PeriodicSolution {
         depth: mean_height + compliance * mean_pressure,
-        products: 1,
+        applications: 1,
         residual: 0.0,
     })
 }

@@ -12,7 +12,7 @@ use numerics::{
 
 use crate::elements::grid::MAX_ELEMENTS;
 use crate::estimate::bars::reached_or_error;
-use crate::stationary::FIRST_TOLERANCE;
+use crate::stationary::COARSE_GRID_TOLERANCE;
 use crate::stationary::periodic::grid_sizes::{FINEST_OVER_COARSEST, MAX_USUAL_GRID, first_shape};
 use crate::stationary::periodic::subgrid_gaps::SubgridGapBound;
 use crate::stationary::periodic::{PeriodicControl, PeriodicEstimate, check_surface};
@@ -157,7 +157,7 @@ where
     let initial_work = goal.work_on(shape)
         + goal.work_on(shape.map(|n| 2 * n))
         + goal.work_on(shape.map(|n| 4 * n));
-    let (mut results, mut tolerance) = (Vec::new(), FIRST_TOLERANCE);
+    let (mut results, mut tolerance) = (Vec::new(), COARSE_GRID_TOLERANCE);
     let finest = refine_levels(goal.request.watch, initial_work, |last, progress| {
         // Solve on the next grid. If that does not converge, the result is that of the coarser grids.
         let sampled = SampledSurface::new(surface, shape)?;

@@ -52,7 +52,7 @@ use numerics::{between_zero_and_one, positive};
 use crate::elements::grid::MIN_COARSEST_EDGE;
 pub use crate::estimate::averages::{Average, Refinement};
 use crate::parallel::chunks::in_pool;
-use crate::stationary::FIRST_TOLERANCE;
+use crate::stationary::COARSE_GRID_TOLERANCE;
 use crate::{BemError, Elastomer, Footprint};
 use body_contact::Solution;
 pub use body_estimate::{steady, steady_grid, steady_memory, steady_refined};
@@ -161,7 +161,7 @@ fn solve_on_mesh(
     // element as long as the footprint.
     let coarse = SteadyOptions {
         spacing: loading.scaled(options.spacing, 2.0),
-        tolerance: options.tolerance.max(FIRST_TOLERANCE),
+        tolerance: options.tolerance.max(COARSE_GRID_TOLERANCE),
         ..*options
     };
     let [rear, front] = options.footprint.x;

@@ -32,7 +32,7 @@ pub(crate) enum Surroundings {
 /// between threads.
 #[derive(Debug, Clone)]
 pub struct Convolution {
-    /// Grid of the elements; with mirrors, of those in front of them.
+    /// Grid of the elements; with mirrors, of the symmetry-reduced domain.
     grid: Grid,
     /// Mirrors along x and y, at the first row and column of the grid: pressure and displacement are their own images.
     pub(crate) mirrors: [Mirror; 2],
@@ -132,7 +132,8 @@ impl Convolution {
         self.on_folded_grid(self.mirrors.map(Mirror::of_blocks), &self.grid.blocks())
     }
 
-    /// A convolution with the kernel and boundary conditions of this one on a `grid` in front of `mirrors`.
+    /// A convolution with the kernel and boundary conditions of this one on a `grid` that is the symmetry-reduced
+    /// domain for `mirrors`.
     fn on_folded_grid(&self, mirrors: [Mirror; 2], grid: &Grid) -> Self {
         let whole = grid.unfolded(mirrors);
         let convolution = match self.surroundings {
@@ -144,7 +145,7 @@ impl Convolution {
 
     /// This operator for pressures that are their own images about `mirrors` in the middle of the grid.
     ///
-    /// Fields are those of the part in front of the mirrors. In a row or column through whose centre a mirror passes, half the
+    /// Fields are those of the symmetry-reduced domain. In a row or column through whose centre a mirror passes, half the
     /// pressure is given. `self` must have no mirrors.
     pub(crate) fn folded(&self, mirrors: [Mirror; 2]) -> Self {
         assert_eq!(self.mirrors, NO_MIRRORS, "a whole grid");
@@ -269,7 +270,7 @@ mod tests {
         result
     }
 
-    /// Compares the displacement in front of mirrors in the middle of a grid with that of all of it.
+    /// Compares the displacement of the symmetry-reduced domain with that of the whole grid.
     fn check(whole: &Convolution, has_mirror: [bool; 2]) {
         let shape = whole.grid().shape();
         let mirrors = [0, 1].map(|axis| match shape[axis] % 2 {

@@ -41,7 +41,7 @@ impl Convolution {
             let q = q_x.hypot(q_y);
             2.0 * PI
                 * if q > 0.0 {
-                    self.base.stiffness(q).recip()
+                    self.base.reduced_wave_number(q).recip()
                 } else {
                     self.base.uniform_compliance()
                 }

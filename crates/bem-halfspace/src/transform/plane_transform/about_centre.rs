@@ -1,6 +1,6 @@
 //! Discrete cosine transform of half a row or column that is its own mirror image about the centre of its first element (DCT-I).
 //!
-//! With x_n at the distances ±n elements from the mirror, and x_0 for the half element in front of it, the Fourier transform of the
+//! With x_n at the distances ±n elements from the mirror, and x_0 for half the element on it, the Fourier transform of the
 //! period of 2 L elements and its inverse u_n are
 //!
 //! ```text

@@ -9,7 +9,7 @@ use rustfft::num_complex::Complex;
 use crate::elements::mirror::Mirror;
 use crate::transform::plane_transform::{about_centre, about_edge};
 
-/// Plans of the transforms of a column, or of the part of a column in front of a mirror.
+/// Plans of the transforms of a column, or of the half of a column that is its own mirror image.
 #[derive(Clone)]
 pub(super) struct ColumnTransform<T> {
     /// Forward transform, of the period or of half of it.
@@ -38,7 +38,7 @@ impl<T: Real> ColumnTransform<T> {
         }
     }
 
-    /// Number of elements of a stored column: the period, or the part of it in front of a mirror.
+    /// Number of elements of a stored column: the period, or the part of it in the symmetry-reduced domain.
     pub(super) fn len(&self) -> usize {
         match self.mirror {
             Mirror::None | Mirror::Edge => self.forward.len(),
@@ -68,7 +68,7 @@ impl<T: Real> ColumnTransform<T> {
     /// Transforms a column in place, along x.
     pub(super) fn forward(&self, scratch: &mut [Complex<T>], column: &mut [Complex<T>]) {
         if self.mirror == Mirror::Centre {
-            // The half element in front of the mirror counts on both sides of it.
+            // The half element in the symmetry-reduced domain counts on both sides of the mirror.
             column[0] *= T::rounded(2.0);
             return self.sum_of_period(scratch, column);
         }

@@ -24,7 +24,7 @@ impl PlaneTransform {
             let last = self.padded[1] / 2;
             [2 * column, 2 * column + 1].map(|column| factors(column.min(last)))
         };
-        let has_real_pairs = self.rows.has_mirror();
+        let has_real_pairs = self.rows.is_symmetric();
         let both = if has_real_pairs {
             factors_of_pair()
         } else {
@@ -33,13 +33,13 @@ impl PlaneTransform {
         match self.columns.mirror {
             Mirror::None if has_real_pairs => multiply_pair(both, values),
             Mirror::None => multiply_whole(both[0], values),
-            Mirror::Centre => multiply_about_centre(both, values),
-            Mirror::Edge => multiply_about_edge(both, &self.columns.twiddles, values),
+            Mirror::Centre => multiply_pair_even_about_centre(both, values),
+            Mirror::Edge => multiply_pair_even_about_edge(both, &self.columns.twiddles, values),
         }
     }
 }
 
-/// Multiplies a whole complex column by real factors that are even in the row; `factors` are those of the rows 0 to n/2.
+/// Multiplies a complex column without symmetry by real factors that are even in the row; `factors` are those of the rows 0 to n/2.
 fn multiply_whole(factors: &[f64], values: &mut [Complex<f64>]) {
     let (lower, upper) = values.split_at_mut(factors.len());
     for (value, factor) in lower.iter_mut().zip(factors) {
@@ -65,16 +65,17 @@ fn multiply_pair(factors: [&[f64]; 2], values: &mut [Complex<f64>]) {
     }
 }
 
-/// Multiplies the real and imaginary parts of values, which are the real transforms of two columns, each by its own factors.
-fn multiply_about_centre(factors: [&[f64]; 2], values: &mut [Complex<f64>]) {
+/// Multiplies two real columns that are even about an element centre, whose real transforms are stored as real and imaginary part, each by
+/// its own factors.
+fn multiply_pair_even_about_centre(factors: [&[f64]; 2], values: &mut [Complex<f64>]) {
     for (value, (real, imaginary)) in values.iter_mut().zip(factors[0].iter().zip(factors[1])) {
         *value = Complex::new(value.re * real, value.im * imaginary);
     }
 }
 
-/// Multiplies the real part of U_k by one factor and its imaginary part by another, in a column with a mirror at an edge and in
-/// the notation of [`about_edge`](super::about_edge).
-fn multiply_about_edge(
+/// Multiplies two real columns that are even about an element edge, each by its own factors: the real and imaginary part of the cosine sums
+/// U_k, in the notation of [`about_edge`](super::about_edge).
+fn multiply_pair_even_about_edge(
     factors: [&[f64]; 2],
     twiddles: &[Complex<f64>],
     values: &mut [Complex<f64>],

@@ -3,7 +3,7 @@
 //! Rows are transformed only if they are loaded, and transformed back only if the result is wanted there. Each column has its
 //! forward transform, product and inverse transform while it is in the cache, so that the padded field is never stored.
 //!
-//! If a field is its own mirror image, only the part in front of the mirror is stored and transformed; see [`about_centre`] and
+//! If a field is its own mirror image, only the symmetry-reduced domain is stored and transformed; see [`about_centre`] and
 //! [`about_edge`].
 //!
 //! Theory: docs/theory/contact.md, "Mirrors".
@@ -66,7 +66,7 @@ impl<T: Real> PlaneTransform<T> {
         Self::folded(padded, NO_MIRRORS)
     }
 
-    /// Plans the transforms of fields that are their own mirror images and are given in front of `mirrors`. The period must be even
+    /// Plans the transforms of fields that are their own images about `mirrors` and are given on the symmetry-reduced domain. The period must be even
     /// along the axes with a mirror.
     pub(crate) fn folded(padded: [usize; 2], mirrors: [Mirror; 2]) -> Self {
         let (columns, rows) = join(

@@ -12,7 +12,7 @@ use crate::transform::plane_transform::about_edge;
 use crate::transform::plane_transform::real_rows::{forward_real, inverse_real};
 use crate::transform::plane_transform::workspace::Buffers;
 
-/// Plans of the transforms of a row, or of the part of a row in front of a mirror.
+/// Plans of the transforms of a row, or of the half of a row that is its own mirror image.
 ///
 /// The coefficients of a whole row are complex; half of the period is stored, the other half are their conjugates. The
 /// coefficients of a row with a mirror are real, and each two neighbours are stored as one complex number.
@@ -47,7 +47,7 @@ impl<T: Real> RowTransform<T> {
         }
     }
 
-    /// Number of elements of a row that are transformed: the period, or the part of it in front of a mirror.
+    /// Number of elements of a row that are transformed: the period, or the part of it in the symmetry-reduced domain.
     pub(super) fn len(&self) -> usize {
         match self {
             Self::Fourier { forward, .. } => forward.len(),
@@ -55,14 +55,14 @@ impl<T: Real> RowTransform<T> {
         }
     }
 
-    /// True if the row has a mirror, so that its coefficients are real and stored in pairs.
-    pub(super) const fn has_mirror(&self) -> bool {
+    /// True if rows are even about a mirror, so that their transform is real; two real coefficients share one complex number.
+    pub(super) const fn is_symmetric(&self) -> bool {
         !matches!(self, Self::Fourier { twiddles: None, .. })
     }
 
     /// Number of complex numbers in which the coefficients are stored.
     pub(super) fn n_coefficients(&self) -> usize {
-        if self.has_mirror() {
+        if self.is_symmetric() {
             self.len().div_ceil(2)
         } else {
             self.len() / 2 + 1
@@ -89,7 +89,7 @@ impl<T: Real> RowTransform<T> {
 
     /// Real Fourier transform of a row of the whole period, without padding and without a mirror; `row` is overwritten.
     pub(super) fn forward_whole(&self, row: &mut [T], transformed: &mut [Complex<T>]) {
-        assert!(!self.has_mirror(), "a whole row");
+        assert!(!self.is_symmetric(), "a whole row");
         if let Self::Fourier { forward, .. } = self {
             let mut scratch = forward.make_scratch_vec();
             forward_real(&**forward, row, transformed, &mut scratch);

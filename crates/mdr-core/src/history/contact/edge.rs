@@ -13,8 +13,8 @@ pub(super) struct Edge {
     pub(super) n_rings: usize,
     /// Contact radius, \[m].
     pub(super) radius: f64,
-    /// Stresses σ_k at the edge, \[Pa m].
-    pub(super) stresses: Vec<f64>,
+    /// Branch loads σ_k at the edge, \[N/m].
+    pub(super) branch_loads: Vec<f64>,
     /// Time at which the element at the edge came into contact, in a ring of new elements; `None` in other rings.
     pub(super) since: Option<SegmentTime>,
 }
@@ -24,8 +24,8 @@ impl Contact<'_> {
     pub(super) fn check_compressive(&self, at: SegmentTime) -> Result<(), MdrError> {
         let last = self.rings.last();
         let is_tensile = |ring: &EdgeMove| {
-            let stresses = self.stresses_in(ring, 0.5 * (ring.inner + ring.outer), at);
-            self.path.load(&stresses, at) < -SIGN_TOLERANCE * self.path.scale(at)
+            let branch_loads = self.loads_in(ring, 0.5 * (ring.inner + ring.outer), at);
+            self.path.load(&branch_loads, at) < -SIGN_TOLERANCE * self.path.scale(at)
         };
         if last.is_some_and(|ring| ring.direction == EdgeDirection::Recontact && is_tensile(ring)) {
             let time = self.path.time(at);
@@ -41,10 +41,10 @@ impl Contact<'_> {
         Some(Edge {
             n_rings: self.rings.len(),
             radius: ring.outer,
-            stresses: if is_first {
-                self.path.decayed_history(ring.to, at).stresses
+            branch_loads: if is_first {
+                self.path.decayed_history(ring.to, at).gained_loads
             } else {
-                self.stresses_in(ring, ring.outer, at)
+                self.loads_in(ring, ring.outer, at)
             },
             since: is_first.then_some(ring.to),
         })
@@ -68,7 +68,7 @@ impl Contact<'_> {
         // The load falls from the elements that came into contact first to the last ones: its root is the edge.
         let path = &self.path;
         let since = |part: f64| SegmentTime { part, ..ring.from };
-        let load = |part: f64| path.load(&path.decayed_history(since(part), at).stresses, at);
+        let load = |part: f64| path.load(&path.decayed_history(since(part), at).gained_loads, at);
         let ends = [ring.from.part, ring.to.part];
         if load(ends[0]) < 0.0 {
             return None;
@@ -79,14 +79,14 @@ impl Contact<'_> {
             radius: self
                 .radii
                 .radius_and_slope([ring.from, since].map(|at| path.depth(at)))[0],
-            stresses: path.decayed_history(since, at).stresses,
+            branch_loads: path.decayed_history(since, at).gained_loads,
             since: Some(since),
         })
     }
 
     /// The edge in a ring of elements that came into contact again; `None` if all of the ring has separated.
     fn edge_in_recontact(&self, ring: &EdgeMove, at: SegmentTime) -> Option<Edge> {
-        let load = |radius| self.path.load(&self.stresses_in(ring, radius, at), at);
+        let load = |radius| self.path.load(&self.loads_in(ring, radius, at), at);
         let radius = if load(ring.outer) >= 0.0 {
             ring.outer
         } else {
@@ -95,21 +95,21 @@ impl Contact<'_> {
         Some(Edge {
             n_rings: 0,
             radius,
-            stresses: self.stresses_in(ring, radius, at),
+            branch_loads: self.loads_in(ring, radius, at),
             since: None,
         })
     }
 
-    /// Stresses σ_k of an element in a ring of elements that came into contact again, \[Pa m].
-    pub(super) fn stresses_in(&self, ring: &EdgeMove, radius: f64, at: SegmentTime) -> Vec<f64> {
+    /// Branch loads σ_k of an element in a ring of elements that came into contact again, \[N/m].
+    pub(super) fn loads_in(&self, ring: &EdgeMove, radius: f64, at: SegmentTime) -> Vec<f64> {
         let inside = radius.max(ring.inner.next_up());
         match self
             .elements()
             .follow(inside, &self.edge_moves[..=ring.n_earlier])
         {
-            ElementState::Loaded(loaded) => self.elements().stresses(&loaded, at),
+            ElementState::Loaded(loaded) => self.elements().branch_loads(&loaded, at),
             // By rounding an element at the end of the ring may lie outside it.
-            _ => self.path.decayed_history(ring.to, at).stresses,
+            _ => self.path.decayed_history(ring.to, at).gained_loads,
         }
     }
 }

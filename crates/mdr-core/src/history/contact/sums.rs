@@ -1,4 +1,4 @@
-//! Integrals Φ_k of the branch stresses over the contact.
+//! Integrals Φ_k of the branch loads over the contact.
 
 use super::{Contact, EXACT_QUADRATURE_TOLERANCE};
 use crate::branches::{decay_from_mean, moments};
@@ -6,16 +6,16 @@ use crate::history::element::{EdgeDirection, EdgeMove};
 use crate::history::path::{DecayedHistory, SegmentTime};
 use crate::history::radius::N_COEFFICIENTS;
 
-/// Largest number of times that a panel of the quadrature over a ring is halved. Chosen to limit the time: a stress that jumps is
+/// Largest number of times that a panel of the quadrature over a ring is halved. Chosen to limit the time: a branch load that jumps is
 /// then resolved to 2⁻¹² of the panel. The change by the last halving counts as error in any case, so that a smaller number
 /// widens bars.
 const MAX_PANEL_DIVISIONS: u32 = 12;
-/// Ratio of the error that is assumed for a panel to its change by the last division. Derived: where the stress jumps inside a
+/// Ratio of the error that is assumed for a panel to its change by the last division. Derived: where a branch load jumps inside a
 /// panel, each half keeps an error as large as the change, together 2; the other factor of 2 is a margin.
 const QUADRATURE_ERROR_OVER_CHANGE: f64 = 4.0;
 
 impl Contact<'_> {
-    /// Integrals Φ_k over the present rings at a later time, branch by branch, \[Pa m²]; also sets the modulus of the element at the
+    /// Integrals Φ_k over the present rings at a later time, branch by branch, \[N]; also sets the modulus of the element at the
     /// edge.
     pub(super) fn sums_at(&mut self, at: SegmentTime) -> Vec<f64> {
         let n_branches = self.path.n_branches();
@@ -25,21 +25,21 @@ impl Contact<'_> {
         let mut sums = self.inner_sums[(self.rings.len() - 1) * n_branches..].to_vec();
         self.edge_modulus = None;
 
-        // A ring of new elements has grown, and may have been held since.
+        // A ring of new elements has grown, and the edge may have stopped since.
         if ring.direction == EdgeDirection::FirstContact {
             self.add_growth(&ring, &mut sums);
             if ring.to != at {
-                let lag = self.path.decayed_history(ring.to, at);
-                hold_sums(&mut sums, ring.outer, &lag);
-                self.edge_modulus = Some(self.path.modulus(&lag));
+                let past = self.path.decayed_history(ring.to, at);
+                advance_without_growth(&mut sums, ring.outer, &past);
+                self.edge_modulus = Some(self.path.modulus(&past));
             }
             return sums;
         }
 
-        // Elements that came into contact again are summed by quadrature, those inside as held.
-        let lag = self.path.decayed_history(ring.from, at);
-        hold_sums(&mut sums, ring.inner, &lag);
-        self.edge_modulus = Some(self.path.modulus(&lag));
+        // Elements that came into contact again are summed by quadrature. Those inside stay in contact.
+        let past = self.path.decayed_history(ring.from, at);
+        advance_without_growth(&mut sums, ring.inner, &past);
+        self.edge_modulus = Some(self.path.modulus(&past));
         let in_ring = self.ring_sums(&ring, at);
         let pairs = sums.iter_mut().zip(in_ring);
         pairs.for_each(|(sum, in_ring)| *sum += in_ring);
@@ -47,7 +47,7 @@ impl Contact<'_> {
     }
 
     /// Advances the `sums` Φ_k from the beginning to the end of the time in which the contact grows over a ring of new elements,
-    /// \[Pa m²].
+    /// \[N].
     fn add_growth(&self, ring: &EdgeMove, sums: &mut [f64]) {
         let path = &self.path;
         let step = path.time(ring.to) - path.time(ring.from);
@@ -64,7 +64,7 @@ impl Contact<'_> {
         }
     }
 
-    /// Integrals ∫ σ_k dx over a ring of elements that came into contact again, by adaptive Gauss–Lobatto quadrature, \[Pa m²].
+    /// Integrals ∫ σ_k dx over a ring of elements that came into contact again, by adaptive Gauss–Lobatto quadrature, \[N].
     fn ring_sums(&mut self, ring: &EdgeMove, at: SegmentTime) -> Vec<f64> {
         let mut radii = vec![ring.inner, ring.outer];
         // Panels end where earlier moves of the edge began or ended; such kinks are small, and matter only for exact sums.
@@ -104,24 +104,24 @@ impl Contact<'_> {
         sums
     }
 
-    /// Integrals ∫ σ_k dx over one panel of a ring, between two radii \[m], at a time, \[Pa m²].
+    /// Integrals ∫ σ_k dx over one panel of a ring, between two radii \[m], at a time, \[N].
     fn panel(&self, ring: &EdgeMove, radii: [f64; 2], at: SegmentTime) -> Vec<f64> {
         let mut sums = vec![0.0; self.path.n_branches()];
         let half = 0.5 * (radii[1] - radii[0]);
         for (node, weight) in self.rule.nodes.iter().zip(&self.rule.weights) {
-            let stresses = self.stresses_in(ring, radii[0] + half * (1.0 + node), at);
-            for (sum, stress) in sums.iter_mut().zip(stresses) {
-                *sum += half * weight * stress;
+            let branch_loads = self.loads_in(ring, radii[0] + half * (1.0 + node), at);
+            for (sum, branch_load) in sums.iter_mut().zip(branch_loads) {
+                *sum += half * weight * branch_load;
             }
         }
         sums
     }
 }
 
-/// Advances Φ_k \[Pa m²] over the time of `lag`, inside a radius \[m] in which all elements stay in contact. Each integral decays, and
-/// gains the radius times the stress that all elements gain alike.
-fn hold_sums(sums: &mut [f64], radius: f64, lag: &DecayedHistory) {
-    for ((sum, decay), stress) in sums.iter_mut().zip(&lag.decays).zip(&lag.stresses) {
-        *sum = decay * *sum + radius * stress;
+/// Advances the integrals Φ_k \[N] over the elements inside a `radius` \[m], all of which stay in contact over the time of `past`: Φ_k
+/// decays, and gains the radius times the branch load that each element gains.
+fn advance_without_growth(sums: &mut [f64], radius: f64, past: &DecayedHistory) {
+    for ((sum, decay), gained) in sums.iter_mut().zip(&past.decays).zip(&past.gained_loads) {
+        *sum = decay * *sum + radius * gained;
     }
 }

@@ -25,7 +25,7 @@ use crate::solve::body::Body;
 use crate::solve::contact_strain::ContactStrain;
 use crate::solve::contact_temperature::ContactTemperature;
 use crate::solve::error::{Result, SolveError};
-use crate::solve::fixed_point::Caused;
+use crate::solve::fixed_point::SelfConsistent;
 use crate::solve::problem::Problem;
 use crate::solve::shear::plan_again;
 use crate::solve::solved::Solved;
@@ -206,7 +206,7 @@ impl Cause {
 
     /// The value that the answer to a problem causes.
     fn caused_by(self, problem: &Problem, answer: &Answer) -> f64 {
-        let value = |of: &dyn Caused| of.caused_by(answer).value;
+        let value = |of: &dyn SelfConsistent| of.caused_by(answer).value;
         match self {
             Self::Temperature => ContactTemperature::of(problem).map_or(f64::NAN, |of| value(&of)),
             Self::LogStrain => ContactStrain::of(problem).map_or(f64::NAN, |of| value(&of).ln()),

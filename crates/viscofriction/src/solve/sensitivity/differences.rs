@@ -10,7 +10,7 @@ use crate::solve::answer::Answer;
 use crate::solve::error::Result;
 use crate::solve::plan::Plan;
 use crate::solve::problem::Problem;
-use crate::solve::work::work;
+use crate::solve::work::work_of_method;
 
 /// Step of the natural logarithm of a number in the finite differences. Chosen: the truncation error of sixth order is then below
 /// the effect of rounding, 1e-11 in closed forms.
@@ -128,7 +128,8 @@ fn log_derivative(
 
 /// The answer of a method to a problem in which `number` has another value; the error names the path of that number.
 fn solved(problem: &Problem, method: Method, number: &Number) -> Result<Answer> {
-    let work = work(problem, method).map_err(|why| SceneError::at(&number.path, why.to_owned()))?;
+    let work = work_of_method(problem, method)
+        .map_err(|why| SceneError::at(&number.path, why.to_owned()))?;
     Plan {
         problem,
         method,

@@ -18,7 +18,7 @@ use super::error::{Result, SolveError};
 use super::modulus_error::MODULUS_ERROR_AMPLIFICATION;
 use super::plan::Plan;
 use super::problem::{Motion, Problem};
-use super::work::work;
+use super::work::work_of_method;
 use crate::files::ReadFile;
 use crate::quantity::{ByQuantity, Quantity};
 use crate::scene::{Method, Model, Scene, SceneError};
@@ -159,7 +159,7 @@ fn answer_with_derivatives(
     if !is_free || method.model() != Some(problem.model()) {
         return None;
     }
-    let work = work(problem, method).ok()?;
+    let work = work_of_method(problem, method).ok()?;
     let plan = Plan {
         problem,
         method,

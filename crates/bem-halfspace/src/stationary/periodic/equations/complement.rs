@@ -47,7 +47,7 @@ impl Equations {
             self.active.scatter(&gaps, &mut field);
             self.apply_exact_inverse(&field, &mut loads);
             // Find the gaps of the open elements that remove the loads on them. The residual is the displacement by the remaining loads,
-            // because soft waves of small loads displace the contact far; on the open elements it is as small as an allowed gap.
+            // because small loads on the most compliant waves displace the contact far; on the open elements it is as small as an allowed gap.
             let mut of_open = vec![0.0; open.len()];
             let mut remaining: Vec<f64> = open.iter().map(|element| -loads[*element]).collect();
             let mut work = [(); 2].map(|()| vec![0.0; n]);
@@ -135,7 +135,7 @@ mod tests {
     use crate::stationary::periodic::PeriodicControl;
     use crate::stationary::periodic::equations::elimination::tests::stiffening_solid;
     use crate::stationary::periodic::equations::{AllowedGaps, Equations};
-    use crate::stationary::periodic::kernel::Sliding;
+    use crate::stationary::periodic::kernel::MaterialAtSpeed;
     use crate::stationary::search::FixedSetSolver as _;
 
     const SIDE: usize = 64;
@@ -146,7 +146,7 @@ mod tests {
     fn the_gaps_of_few_open_elements_close_all_others() {
         let material = stiffening_solid();
         let grid = Grid::new([SIDE; 2], [1.0 / SIDE as f64; 2]).expect("a grid");
-        let sliding = Sliding::new(&material, 0.3).expect("a solid");
+        let sliding = MaterialAtSpeed::new(&material, 0.3).expect("a solid");
         let control = PeriodicControl::MeanPressure(1.0);
         let mut equations = Equations::new(&sliding, &grid, control).expect("equations");
         let is_open = |element: usize| {

@@ -110,7 +110,7 @@ impl Equations {
 
     /// Writes the pressures without mean, in their unit, that displace the whole grid by a `field` less its mean; in double precision.
     pub(super) fn apply_exact_inverse(&mut self, field: &[f64], loads: &mut [f64]) {
-        self.products += 1;
+        self.applications += 1;
         self.kernel.invert(field, loads);
         let own = self.self_influence;
         loads.iter_mut().for_each(|load| *load *= own);
@@ -140,7 +140,7 @@ pub(super) mod tests {
     use crate::parallel::reductions::mean;
     use crate::stationary::periodic::PeriodicControl;
     use crate::stationary::periodic::equations::Equations;
-    use crate::stationary::periodic::kernel::Sliding;
+    use crate::stationary::periodic::kernel::MaterialAtSpeed;
     use crate::stationary::search::FixedSetSolver as _;
     use crate::{Grid, Layer};
 
@@ -163,7 +163,10 @@ pub(super) mod tests {
         let grid = Grid::new([SIDE; 2], [1.0 / SIDE as f64; 2]).expect("a grid");
         let solid = Compressible::new(&material, 0.3).expect("a ratio");
         let layer = Layer::new(&solid, 0.1).expect("a thickness");
-        let slidings = [Sliding::new(&material, 0.3), Sliding::new(&layer, 0.3)];
+        let slidings = [
+            MaterialAtSpeed::new(&material, 0.3),
+            MaterialAtSpeed::new(&layer, 0.3),
+        ];
         let slidings = slidings.map(|sliding| sliding.expect("a solid"));
         let controls = [
             PeriodicControl::MeanPressure(1.0),

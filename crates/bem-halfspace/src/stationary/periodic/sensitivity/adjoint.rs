@@ -15,7 +15,7 @@ use crate::stationary::change::Change;
 use crate::stationary::periodic::PeriodicControl;
 use crate::stationary::periodic::equations::Equations;
 use crate::stationary::periodic::fourier_multiplier::FourierMultiplier;
-use crate::stationary::periodic::kernel::Sliding;
+use crate::stationary::periodic::kernel::MaterialAtSpeed;
 use crate::stationary::search::FixedSetSolver as _;
 use crate::{BemError, Grid};
 
@@ -64,10 +64,10 @@ pub(super) struct Adjoint<'a> {
     equations: Equations,
     /// The active set, reversed along x.
     contact: Vec<bool>,
-    /// Fourier transforms of the grid, with the stiffness |q|/M of each wave.
+    /// Fourier transforms of the grid, with the reduced wave number |q|/M of each wave.
     pub(super) waves: FourierMultiplier,
     /// Material and speed.
-    sliding: &'a Sliding,
+    sliding: &'a MaterialAtSpeed,
     /// Grid of one period.
     grid: &'a Grid,
     /// Heights at the centres of the elements, \[m].
@@ -99,7 +99,7 @@ impl<'a> Adjoint<'a> {
     /// Adjoint problem of a contact with the given heights \[m] and pressures \[Pa]. All its fields are reversed along x, because
     /// the transposed kernel is that of the opposite motion.
     pub(super) fn new(
-        sliding: &'a Sliding,
+        sliding: &'a MaterialAtSpeed,
         grid: &'a Grid,
         heights: &'a [f64],
         pressure: &'a [f64],
@@ -129,7 +129,7 @@ impl<'a> Adjoint<'a> {
         // The friction is the mean dissipation weighted with the pressure: quadratic in the pressures over linear, hence the
         // factor 2. Its derivative by the displacements is the slope of the pressure over the sum of the pressures.
         let kernel = &mut self.equations.kernel;
-        kernel.dissipate(pressure, &mut by_pressures);
+        kernel.negative_loss_slopes(pressure, &mut by_pressures);
         let mean = dot(&by_pressures, pressure) / total;
         for value in &mut by_pressures {
             *value = (2.0 * *value - mean) / total;
@@ -162,7 +162,7 @@ impl<'a> Adjoint<'a> {
         let mean = mean(loads);
         let without_mean: Vec<f64> = loads.iter().map(|load| load - mean).collect();
         self.waves.apply(&without_mean, &mut response, |wave| {
-            wave.stiffness.recip().into()
+            wave.reduced_wave_number.recip().into()
         });
         response
     }
@@ -321,7 +321,7 @@ impl<'a> Adjoint<'a> {
             self.equations.copy_pressure_to(&mut loads);
         }
         Err(BemError::ContactNotConverged {
-            iterations: self.equations.products,
+            iterations: self.equations.applications,
             residual: before / first.unwrap_or(before),
             tolerance: ADJOINT_TOLERANCE,
         })
@@ -355,7 +355,7 @@ fn reversed(field: &[f64], grid: &Grid) -> Vec<f64> {
     rows.rev().flatten().copied().collect()
 }
 
-/// Cross-spectrum of two fields by rows: for each q_x the sum over q_y of conj(left) right, over the number of rows.
+/// Cross-spectrum of two fields by rows of the transform: for each q_x the sum over q_y of conj(left) right, over the number of rows.
 ///
 /// If each row of the transform of `right` is multiplied by a factor, the scalar product of both fields is the sum of the products
 /// of these values and the factors (Parseval).

@@ -28,7 +28,7 @@ use crate::parallel::chunks::in_pool;
 use crate::parallel::reductions::{add_scaled, dot, mean};
 use crate::stationary::change;
 use crate::stationary::periodic::contact::PeriodicContact;
-use crate::stationary::periodic::kernel::{PeriodicKernel, Sliding};
+use crate::stationary::periodic::kernel::{MaterialAtSpeed, PeriodicKernel};
 use crate::stationary::periodic::nested::interpolated;
 use crate::stationary::periodic::{
     PeriodicControl, PeriodicLoad, PeriodicOptions, check_periods, solve_from,
@@ -65,7 +65,7 @@ struct State {
     /// Grid of one period.
     grid: Grid,
     /// Material and speed.
-    sliding: Sliding,
+    sliding: MaterialAtSpeed,
     /// Prescribed mean pressure or depth.
     control: PeriodicControl,
     /// Mean pressure, \[Pa].
@@ -118,7 +118,7 @@ impl PeriodicSensitivity {
         if let Some(duration) = load.duration() {
             in_range("duration", duration, false, "that of a load that slides")?;
         }
-        let sliding = Sliding::new(elastomer, load.velocity())?;
+        let sliding = MaterialAtSpeed::new(elastomer, load.velocity())?;
         let control = load.require_stationary()?;
         let grid = pressure.grid;
         // Each edge must have an even number of elements, because the coarse grid has half as many, and the guess must fill the grid.
@@ -164,7 +164,7 @@ impl PeriodicSensitivity {
         materials: [&dyn Material; 2],
         velocities: [f64; 2],
     ) -> Result<Change<Estimate>, BemError> {
-        let [from, to] = [0, 1].map(|end| Sliding::new(&materials[end], velocities[end]));
+        let [from, to] = [0, 1].map(|end| MaterialAtSpeed::new(&materials[end], velocities[end]));
         let ends = [from?, to?];
         self.with_error(|state| state.between_materials(ends.each_ref()))
     }
@@ -182,7 +182,7 @@ impl PeriodicSensitivity {
         elastomers
             .into_iter()
             .try_for_each(check_unchanged_moduli)?;
-        let [from, to] = [0, 1].map(|end| Sliding::new(elastomers[end], velocities[end]));
+        let [from, to] = [0, 1].map(|end| MaterialAtSpeed::new(elastomers[end], velocities[end]));
         let ends = [from?, to?];
         self.with_error(|state| state.between_elastomers(ends.each_ref()))
     }
@@ -222,7 +222,7 @@ impl PeriodicSensitivity {
 impl State {
     /// Solves the contact on a grid, beginning with a guess of its pressure, and its adjoint equations.
     fn new(
-        sliding: &Sliding,
+        sliding: &MaterialAtSpeed,
         grid: &Grid,
         heights: &[f64],
         control: PeriodicControl,
@@ -290,7 +290,7 @@ impl State {
     }
 
     /// The change from one material to another on the same base, by the compliances of the waves along x.
-    fn between_materials(&self, ends: [&Sliding; 2]) -> Result<Change<f64>, BemError> {
+    fn between_materials(&self, ends: [&MaterialAtSpeed; 2]) -> Result<Change<f64>, BemError> {
         let [from, to] = ends.map(|end| end.compliances(&self.along_x));
         let (from, to) = (from?, to?);
         let changes: Vec<_> = to.iter().zip(&from).map(|(to, from)| to - from).collect();
@@ -298,13 +298,16 @@ impl State {
     }
 
     /// The change from one elastomer and velocity to another, by the displacements under the pressures.
-    fn between_elastomers(&self, ends: [&Sliding; 2]) -> Result<Change<f64>, BemError> {
+    fn between_elastomers(&self, ends: [&MaterialAtSpeed; 2]) -> Result<Change<f64>, BemError> {
         let kernel = self.between_kernels(ends.map(|end| (end, &self.grid)))?;
         Ok(self.total_change(|gradient| gradient.by_kernel(&kernel)))
     }
 
     /// The change from one kernel to another, each that of a material on a grid with the shape of this one.
-    fn between_kernels(&self, ends: [(&Sliding, &Grid); 2]) -> Result<KernelChange, BemError> {
+    fn between_kernels(
+        &self,
+        ends: [(&MaterialAtSpeed, &Grid); 2],
+    ) -> Result<KernelChange, BemError> {
         let n = self.pressure.len();
         // Subtract the displacements by both kernels from each other, under the pressures and under a unit pressure.
         let mut field = vec![0.0; n];

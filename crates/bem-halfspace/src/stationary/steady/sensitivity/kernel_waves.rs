@@ -88,7 +88,7 @@ impl KernelWaves<'_> {
         // The mean of a wave over an element is sin(q/2)/(q/2) times its value at the centre.
         let half = 0.5 * wave_number;
         let mean = half.sin() / half;
-        let along_y = self.factors_along_y(wave_number, self.max_offsets[1]);
+        let along_y = self.kernel_at_y_offsets(wave_number, self.max_offsets[1]);
         for (kernel, amplitude) in kernels.iter_mut().zip(amplitudes) {
             let along_x = |offset: isize| {
                 let x = offset as f64 + self.collocation_shift;
@@ -98,14 +98,14 @@ impl KernelWaves<'_> {
         }
     }
 
-    /// The integral factor of k̂(q, y), without sin(q/2)/(q/2), at the distances y of the columns 0 to `columns`.
-    fn factors_along_y(&self, q: f64, columns: usize) -> Vec<f64> {
+    /// The kernel k̂(q, y) (head of this file) without its factor sin(q/2)/(q/2), at the offsets y of the columns 0 to `columns`.
+    fn kernel_at_y_offsets(&self, q: f64, columns: usize) -> Vec<f64> {
         let half = 0.5 * self.aspect;
         if columns == 0 && half >= self.base.influence_radius() {
             // In plane strain an element is longer than the influence radius.
-            return vec![TAU / self.base.stiffness(q)];
+            return vec![TAU / self.base.reduced_wave_number(q)];
         }
-        // The factor of the half space is the integral of the Bessel function K₀ over the width of the element.
+        // The part of the half space is the integral of the Bessel function 2 K₀ over the width of the element.
         let half_space = |column: usize| {
             let y = column as f64 * self.aspect;
             if y < half {
@@ -123,7 +123,8 @@ impl KernelWaves<'_> {
         kernel
     }
 
-    /// Adds the difference of the layer from a half space to the factor of k̂ at the distance of each column.
+    /// Adds the difference of the layer from a half space, the part ∫ dy' 2 ∫ cos(q y' sinh u) (M(q t cosh u) − 1) du of k̂, to the `kernel`
+    /// at the offset of each column.
     fn add_layer_correction(&self, q: f64, kernel: &mut [f64]) {
         let thickness = self.base.thickness();
         let half = 0.5 * self.aspect;
