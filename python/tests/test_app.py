@@ -333,6 +333,13 @@ def test_what_only_the_computation_finds_wrong_is_said(wrong: dict[str, Any], pr
     assert project.computation is not None and project.computation.state == "failed" and problem in project.computation.problem
     # It leaves no entry, and its number is free.
     assert project.computations() == {} and not list(folder.glob("friction-*"))
+    # What was there before stays: another program may be about to compute it.
+    kept = folder / "friction-1.json"
+    kept.write_text(_choices.stored(project.choices, folder), "utf-8")
+    project.compute().wait()
+    assert kept.exists() and project.computation.name == "friction-1"
+    for path in folder.glob("friction-*"):
+        path.unlink()
     project.choose(replace(BALL, n_speeds=1, temperatures=(0.0,), band=False))
     project.compute().wait()
     assert list(project.computations()) == ["friction-1"]

@@ -100,7 +100,7 @@ class Page:
     def said(self, text: str) -> tuple[str, Any]:
         """A sentence about keys with the labels of their fields, lengths in the unit of the page, and the first field that it names."""
         # A sentence may begin with a key without those above it.
-        if (first := re.match(r"([\w-]+(?:\[\d\])?)(?=:| must| is)", text)) and first[1] not in self.fields:
+        if (first := re.match(r"([\w-]+(?:\[\d\])?)(?=:| must| is needed)", text)) and first[1] not in self.fields:
             text = next((path for path in self.fields if path.rpartition(".")[2] == first[1]), first[1]) + text[first.end() :]
         paths = [re.escape(path) for path in sorted([*self.fields, _curves.SPEED], key=len, reverse=True)]
         dotted = "|".join(path for path in paths if "." in path)
@@ -110,7 +110,7 @@ class Page:
             named.append(self.fields.get(found[0]))
             return str(named[-1].props["label"] if named[-1] else label(found[0]))
 
-        text = re.sub(rf"^(?:{'|'.join(paths)})(?=[: ])|(?<![\w./-])(?:{dotted})(?![\w.\[-])", name, text)
+        text = re.sub(rf"^(?:{'|'.join(paths)})(?=:| must| is needed)|(?<![\w./-])(?:{dotted})(?![\w.\[-])", name, text)
         field = next(filter(None, named), None)
         if field is not None and field.props["label"].endswith(f"[{self.unit}]"):
             text = METRES.sub(lambda found: found[1] + shown(self.in_unit(float(found[2]))) + (found[3] and f" {self.unit}" or ""), text)
@@ -221,7 +221,7 @@ class Page:
             self.file("material", "table of moduli", TABLES | {".toml"}, chosen.material, self.choose_table)
             with ui.expansion("master curve").classes("wide"):
                 name = "reference_temperature"
-                self.number(name, "reference temperature [°C]", chosen.reference_temperature, partial(self.choose_material, name))
+                self.number(name, "reference temperature", chosen.reference_temperature, partial(self.choose_material, name))
                 for name, label, words in (("vertical", "vertical shift", VERTICAL), ("deformation", "moduli", DEFORMATION)):
                     self.select(name, label, words, getattr(chosen, name), partial(self.choose_material, name))
             self.of_material = ui.column().classes("wide")

@@ -99,6 +99,7 @@ class Computation:
         self._thread.join()
 
     def _run(self) -> None:
+        is_new = not (self.folder / f"{self.name}.json").exists()
         try:
             self._write()
             for part in self._done:
@@ -106,7 +107,7 @@ class Computation:
             self.state = "finished" if self.done == self.total else "stopped"
         except Exception as error:  # Whatever it is, the page says it, and stays.
             self.state, self.problem = "failed", str(error) or type(error).__name__
-        if not self.done:
+        if is_new and not self.done:
             self._remove()
 
     def _write(self) -> None:
@@ -119,9 +120,8 @@ class Computation:
         write_whole(self.folder / f"{self.name}.json", _choices.stored(self.choices, self.folder))
 
     def _remove(self) -> None:
-        """Gives the name back, for which there are no points."""
-        of_fit = [_choices.material_file(self.choices, self.name)] if self.choices.is_fitted else []
-        for name in (f"{self.name}.json", *of_fit, *(f"{part}.{ends}" for part in self._done for ends in ("toml", "csv"))):
+        """Gives the name back, for which this run has begun files and there are no points."""
+        for name in (f"{self.name}.json", f"{self.name}-material.toml", *(f"{part}.{ends}" for part in self._done for ends in ("toml", "csv"))):
             (self.folder / name).unlink(missing_ok=True)
 
     def _sweep(self, part: str) -> None:
@@ -129,9 +129,9 @@ class Computation:
             self._done[part], self._last = done, time.monotonic()
 
         if self._done[part] < self.total // len(self._done):
-            choices, vary, part_of = self.choices, _choices.vary(self.choices), _choices.parts(self.choices, self.name)[part]
-            band, files = _choices.with_band(choices, part_of), (self.folder / f"{part}.toml", self.table(part))
-            vf.sweep(files[0], vary, sensitivity=band, out=files[1], resume=True, progress=count, stop=self.is_ending.is_set)
+            vary, band = _choices.vary(self.choices), _choices.with_band(self.choices, _choices.parts(self.choices, self.name)[part])
+            scene, out = self.folder / f"{part}.toml", self.table(part)
+            vf.sweep(scene, vary, sensitivity=band, out=out, resume=True, progress=count, stop=self.is_ending.is_set)
 
 
 class Project:
