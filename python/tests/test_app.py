@@ -22,6 +22,7 @@ import viscofriction as vf
 
 pytest.importorskip("nicegui", reason="the page needs the extra app")
 
+from viscofriction import _bodies, _forms  # noqa: E402
 from viscofriction.app import _choices, _curves, _work  # noqa: E402
 from viscofriction.app._choices import Choices  # noqa: E402
 
@@ -42,6 +43,11 @@ HOT = replace(
     n_speeds=1,
 )
 ROUGH = {"indenter": {"height-map": {"file": "road.x3p", "edges": "mirrored"}}}
+
+
+def self_affine(**changed: Any) -> dict[str, Any]:
+    keys = {"period": [0.01, 0.01], "hurst_exponent": 0.8, "rms_slope": 0.3, "longest_wavelength": 5e-3, "shortest_wavelength": 1e-3, "seed": 1}
+    return {"indenter": {"self-affine": keys | changed}}
 
 
 @pytest.fixture
@@ -135,7 +141,7 @@ def test_a_stopped_computation_goes_on_also_after_a_new_start(folder: Path) -> N
     # Earlier ones are found again.
     named = again.computations()
     assert list(named) == ["friction-3", "friction-2", "friction-1"]
-    assert named["friction-1"] == "friction-1: tread-rubber.csv, sphere, normal force 1 N; 60 of 60 points"
+    assert named["friction-1"] == "friction-1: tread-rubber.csv, sphere, normal force 1 N"
     again.show("friction-1")
     assert len(again.sweeps()["friction-1"]) == 60 and again.choices.force == 2.0
 
@@ -147,18 +153,60 @@ def test_points_are_drawn_with_their_parts_and_what_was_measured(folder: Path) -
     json.dumps(drawn, allow_nan=False)
     names = [trace["name"] for trace in drawn["data"] if trace.get("showlegend", True)]
     assert names[:3] == ["0 °C", "0 °C, hysteresis", "0 °C, shear"] and "20 °C, without heat" in names and "measured, 0 °C" in names
+    traces = {trace["name"]: trace for trace in drawn["data"]}
+    assert traces["measured, 0 °C"]["marker"]["color"] == traces["0 °C"]["line"]["color"] != traces["measured, 40 °C"]["marker"]["color"]
+    assert traces["0 °C, shear"]["mode"] == "markers", "a line through one point cannot be seen"
+    assert drawn["layout"]["xaxis"]["visible"] and not drawn["layout"]["annotations"]
+    empty = _curves.plotly({}, None)["layout"]
+    assert not empty["xaxis"]["visible"] and "then Compute" in empty["annotations"][0]["text"]
     points = _curves.points(project.sweeps())
-    assert points["friction-1-without-heat", 1] == "0.001 m/s, 20 °C, without heat" and len(points) == 4
+    assert points["friction-1-without-heat", 1].startswith("without heat, temperature T = 20 °C, speed v = 0.001 m/s: μ = ") and len(points) == 4
     assert project.computation is not None
-    answer, title = project.computation.point("friction-1", 1)
-    sweep = project.sweeps()["friction-1"]
-    assert title == "temperature 20, velocity 0.001" and answer.mu == sweep["friction_coefficient"][1]
+    answer = project.computation.point("friction-1", 1)
+    assert answer.mu == project.sweeps()["friction-1"]["friction_coefficient"][1]
     assert answer.temperature.max() > 0
     assert project.exported("SVG")["friction-1.svg"].lstrip().startswith(b"<?xml")
     assert project.exported("PNG")["friction-1.png"].startswith(b"\x89PNG")
     [report] = project.exported("Report").values()
     page = report.decode()
     assert page.count("<table>") == 2 and "[indenter.sphere]" in page and "viscofriction sweep" in page and "<script" not in page
+
+
+def test_points_without_an_answer_are_named_with_the_reason(folder: Path) -> None:
+    large = replace(BALL, force=600.0, slowest=1e-3, fastest=1e3, temperatures=(0.0,), band=False)
+    project = computed(large, folder)
+    warning, failure = _curves.notes(project.sweeps())
+    assert warning.endswith("where linear theory ends (at 1 of 2 points)")
+    assert failure.startswith("temperature T = 0 °C, speed v = 0.001 m/s: no answer: at x = ")
+    [report] = project.exported("Report").values()
+    assert "speed v = 0.001 m/s: no answer: at x = " in report.decode()
+    assert project.computation is not None
+    with pytest.raises(ValueError, match="a vertical wall of the indenter is in contact"):
+        project.computation.point("friction-1", 0)
+
+
+def test_the_number_of_a_point_has_its_total_uncertainty(folder: Path) -> None:
+    sweep = computed(replace(BALL, n_speeds=1, temperatures=(20.0,)), folder).sweeps()["friction-1"]
+    total = sweep["friction_coefficient_uncertainty"]
+    assert total[0] > sweep["friction_coefficient_error"][0]
+    assert sweep.points == [f"temperature T = 20 °C, speed v = 0.001 m/s: μ = {vf._results.with_bars(sweep['friction_coefficient'], total)[0]}"]
+
+
+def test_the_remaining_time_falls_while_the_next_point_is_computed(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    computation = _work.Computation(folder, BALL, "friction-1")
+    computation.state, computation._done, computation._begun, computation._last = "running", {"friction-1": 1}, 100.0, 110.0
+    told = []
+    for now in (110.0, 115.0, 200.0):
+        monkeypatch.setattr(_work.time, "monotonic", lambda: now)
+        told.append(computation.told.rsplit(", ", 1)[1])
+    assert told == ["about 30 s left", "about 25 s left", "about 0 s left"]
+
+
+def test_a_height_map_is_read_once(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    reads, read = [], _bodies._native.read_heights
+    monkeypatch.setattr(_bodies._native, "read_heights", lambda table: reads.append(table) or read(table))
+    _choices.surface(replace(BALL, tables=ROUGH), folder)
+    assert len(reads) == 1
 
 
 def test_a_file_that_takes_too_long_to_read_is_refused_at_once(folder: Path) -> None:
@@ -190,26 +238,26 @@ def test_a_height_map_is_guessed_at_and_said_so(folder: Path) -> None:
 
 def test_lengths_keep_their_digits_in_every_unit() -> None:
     for shown, power, metres in ((0.1, -3, "0.0001"), (0.3, -3, "0.0003"), (5.0, -3, "0.005"), (320.0, -6, "0.00032"), (1e-3, -3, "1e-06"), (7, 0, "7.0")):
-        length = _choices.shifted(shown, power)
-        assert repr(length) == metres and _choices.shifted(length, -power) == shown
+        length = _forms.shifted(shown, power)
+        assert repr(length) == metres and _forms.shifted(length, -power) == shown
     for digits in np.random.default_rng(3).integers(1, 10**12, 1000).tolist():
         length = float(f"{digits}e-15")
-        assert _choices.shifted(_choices.shifted(length, 3), -3) == length
+        assert _forms.shifted(_forms.shifted(length, 3), -3) == length
     # The unit is no part of a computation.
     metres = replace(BALL, unit="m")
     assert _choices.stored(metres, Path()) == _choices.stored(BALL, Path()) and Choices.from_json(metres.to_json()) == metres
     assert Choices.from_json('{"unit": "inch"}').unit == "mm"
 
 
-def test_a_decimal_comma_is_refused_and_not_read_as_another_number() -> None:
-    for text in ("0,01", "300.000,5", "1,5,2", "12 mm"):
-        with pytest.raises(ValueError, match="must be a number with a decimal point"):
-            _choices.number(text)
-    assert [_choices.number(text) for text in ("0.01", " 3e5 ", "", None, 2.5)] == [0.01, 3e5, None, None, 2.5]
-    with pytest.raises(ValueError, match="numbers between blanks, such as 0 20 39, but is 20,5"):
-        _choices.temperatures("20,5")
-    assert _choices.temperatures("0, 20; 39") == (0.0, 20.0, 39.0)
-    assert [_choices.shown(number) for number in (3e5, 0.08, 1e-6, None)] == ["300000", "0.08", "1e-06", ""]
+def test_what_is_no_number_is_kept_as_it_was_typed() -> None:
+    for text in ("1,500", "300.000,5", "1,5,2", "12 mm", "1e-3 bis 1"):
+        assert _forms.number(text) == text
+    typed = ["0.01", "0,01", "3,0e5", " 3e5 ", "", None]
+    assert [_forms.number(text) for text in typed] == [0.01, 0.01, 3e5, 3e5, None, None]
+    assert _choices.temperatures("0, 20,5; 39") == (0.0, 20.5, 39.0) and _choices.temperatures("0 warm") == (0.0, "warm")
+    assert [_forms.shown(number) for number in (3e5, 0.08, 1e-6, None, "1e-3 bis 1")] == ["300000", "0.08", "1e-06", "", "1e-3 bis 1"]
+    wrong = replace(BALL, slowest="1e-3 bis 1", temperatures=(0.0, "warm"), tables={"indenter": {"sphere": {"radius": "5 mm"}}})
+    assert Choices.from_json(wrong.to_json()) == wrong
 
 
 def test_the_same_choices_are_known_again_in_any_order(folder: Path) -> None:
@@ -232,15 +280,25 @@ def test_a_layer_is_a_table_of_the_scene() -> None:
         ({"tables": ROUGH | {"heat": {"": {"conductivity": 0.25, "diffusivity": 1.2e-7}}}}, "heat.duration is needed: the time"),
         ({"material": ""}, "material: a table of moduli is needed"),
         ({"tables": {}}, "indenter: a body is needed"),
+        ({"tables": {"indenter": {"height-map": {}}}}, "indenter.height-map.file is needed: File in the folder"),
         ({"tables": {"indenter": {"sphere": {"radius": -1.0}}}}, "indenter.sphere.radius must be finite and greater than 0, but is -1"),
-        ({"tables": {"indenter": {"sphere": {"radius": None}}}}, "indenter.sphere.radius is needed: Radius > 0, [m]."),
+        ({"tables": {"indenter": {"sphere": {"radius": None}}}}, "indenter.sphere.radius must be finite and greater than 0, but is missing"),
+        ({"tables": {"indenter": {"sphere": {"radius": "5 mm"}}}}, "indenter.sphere.radius must be finite and greater than 0, but is 5 mm"),
+        ({"tables": self_affine(seed=1.5)}, "indenter.self-affine.seed must be a whole number, but is 1.5"),
+        ({"tables": self_affine(period=[0.01, None])}, "indenter.self-affine.period[1] must be finite and greater than 0, but is missing"),
         ({"force": None}, "load.normal_force must be finite and greater than 0, but is missing"),
+        ({"force": 0.0, "tables": ROUGH}, "load.mean_pressure must be finite and greater than 0, but is 0"),
         ({"slowest": -1.0}, "load.velocity.slowest must be finite and greater than 0, but is -1"),
-        ({"fastest": 1e-4}, "load.velocity.fastest must be greater than the slowest"),
+        ({"slowest": "1e-3 bis 1"}, "load.velocity.slowest must be finite and greater than 0, but is 1e-3 bis 1"),
+        ({"fastest": 1e-4}, "load.velocity.fastest must be greater than the slowest, 0.001 m/s, but is 0.0001"),
         ({"n_speeds": 2.5}, "load.velocity.count must be a whole number from 1 to 1000, but is 2.5"),
+        ({"n_speeds": 100000.0}, "load.velocity.count must be a whole number from 1 to 1000, but is 100000"),
         ({"temperatures": (0.0, 0.0)}, "material.file.temperature: a temperature is given twice"),
         ({"temperatures": tuple(range(7))}, "material.file.temperature: at most 6 temperatures"),
-        ({"relative_error": 0.0}, "solve.relative_error must be finite and greater than 0, but is 0"),
+        ({"temperatures": (0.0, "warm")}, "material.file.temperature must be numbers between blanks, such as 0 20.5 39, but is 0 warm"),
+        ({"relative_error": 0.0}, "solve.relative_error must be greater than 0 and at most 0.1, but is 0"),
+        ({"relative_error": 2.0}, "solve.relative_error must be greater than 0 and at most 0.1, but is 2"),
+        ({"relative_error": None}, "solve.relative_error must be greater than 0 and at most 0.1, but is missing"),
     ],
 )
 def test_what_is_wrong_is_named_before_anything_is_computed(wrong: dict[str, Any], problem: str, folder: Path) -> None:
@@ -250,6 +308,14 @@ def test_what_is_wrong_is_named_before_anything_is_computed(wrong: dict[str, Any
         project.compute()
     assert str(refused.value).startswith(problem)
     assert not list(folder.glob("friction-*"))
+    # The field alone says the same when it is left, and no field that is right says anything.
+    path = problem.split(" ")[0].rstrip(":")
+    with pytest.raises(ValueError) as refused:
+        _choices.check(project.choices, path)
+    assert str(refused.value).startswith(problem)
+    for other in {"load.velocity.slowest", "load.velocity.count", "solve.relative_error", "layer.thickness"} - {path}:
+        if not path.startswith("load.velocity") or not other.startswith("load.velocity"):
+            _choices.check(project.choices, other)
 
 
 @pytest.mark.parametrize(
@@ -265,6 +331,18 @@ def test_what_only_the_computation_finds_wrong_is_said(wrong: dict[str, Any], pr
     project.choose(replace(BALL, **wrong))
     project.compute().wait()
     assert project.computation is not None and project.computation.state == "failed" and problem in project.computation.problem
+    # It leaves no entry, and its number is free.
+    assert project.computations() == {} and not list(folder.glob("friction-*"))
+    # What was there before stays: another program may be about to compute it.
+    kept = folder / "friction-1.json"
+    kept.write_text(_choices.stored(project.choices, folder), "utf-8")
+    project.compute().wait()
+    assert kept.exists() and project.computation.name == "friction-1"
+    for path in folder.glob("friction-*"):
+        path.unlink()
+    project.choose(replace(BALL, n_speeds=1, temperatures=(0.0,), band=False))
+    project.compute().wait()
+    assert list(project.computations()) == ["friction-1"]
 
 
 def test_dropped_files_never_replace_others(folder: Path, tmp_path: Path) -> None:
@@ -308,11 +386,11 @@ def test_the_page_is_at_this_machine_and_needs_the_token(folder: Path) -> None:
         address = urllib.parse.urlsplit(server.stdout.readline().strip())
         assert address.hostname == "127.0.0.1" and address.port is not None
 
-        def answer(path: str, **headers: str) -> tuple[int, str]:
+        def answer(path: str, **headers: str) -> tuple[int, str, str]:
             with closing(http.client.HTTPConnection("127.0.0.1", address.port, timeout=60)) as connection:
                 connection.request("GET", path, headers=headers)
                 found = connection.getresponse()
-                return found.status, found.getheader("Set-Cookie") or ""
+                return found.status, found.getheader("Set-Cookie") or "", found.read().decode()
 
         deadline = time.monotonic() + 120
         while time.monotonic() < deadline:
@@ -322,7 +400,8 @@ def test_the_page_is_at_this_machine_and_needs_the_token(folder: Path) -> None:
             except ConnectionRefusedError:
                 time.sleep(0.1)
         assert answer("/")[0] == answer("/?token=guess")[0] == answer("/_nicegui/socket.io/")[0] == 403
-        status, cookie = answer(f"/?{address.query}")
+        assert "Whoever has started the program finds the address in the terminal" in answer("/")[2]
+        status, cookie, _ = answer(f"/?{address.query}")
         assert status == 303 and "HttpOnly" in cookie and "samesite=strict" in cookie.lower()
         cookie = cookie.split(";")[0]
         assert answer("/", Cookie=cookie)[0] == 200

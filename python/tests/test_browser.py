@@ -63,7 +63,7 @@ class Server:
 def servers(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, Server]]:
     """A server for each test that needs one of its own, all of which begin while the first test runs."""
     started = {}
-    for name in ("flow", "killed", "wrong", "keys"):
+    for name in ("flow", "killed", "wrong", "told", "pages", "keys"):
         folder = tmp_path_factory.mktemp(name)
         for file in ("tread-rubber.csv", "road.x3p", "dry-friction.csv"):
             shutil.copy(DATA / file, folder)
@@ -102,7 +102,9 @@ class Visitor:
         self.actions += 2
 
     def fill(self, label: str, text: str) -> None:
+        """Types into a field and leaves it."""
         self.page.get_by_label(label).fill(text)
+        self.page.keyboard.press("Tab")
         self.actions += 1
 
     def press(self, button: str) -> None:
@@ -166,7 +168,7 @@ def contact(visitor: Visitor) -> None:
     visitor.page.mouse.click(point["x"] + point["width"] / 2, point["y"] + point["height"] / 2)
     for field in ("pressure", "gap"):
         visitor.page.get_by_alt_text(f"{field} of the contact").wait_for()
-    visitor.sees("temperature 0, velocity 1")
+    visitor.sees(re.compile("^temperature T = 0 °C, speed v = 1 m/s: μ = .* ± "))
     visitor.sees("standard uncertainty of the friction coefficient")
     visitor.sees(re.compile("^the answer depends on the shortest waves"))
     visitor.shoot("browser-contact")
@@ -194,17 +196,25 @@ def looks(visitor: Visitor) -> None:
     page = visitor.page
     nameless = """[...document.querySelectorAll('input:not([type=file], [type=checkbox]), [role=combobox]')]
         .filter(field => !field.labels?.length && !field.ariaLabel).map(field => field.outerHTML)"""
-    assert page.evaluate(nameless) == []
+    assert page.evaluate(nameless) == [] and page.evaluate("document.documentElement.lang") == "en-US"
+    for label in ("table of moduli", "file", "measured friction"):
+        assert page.get_by_role("button", name=f"drop or choose a file: {label}", exact=True).count() == 1
     page.locator(".js-plotly-plot").scroll_into_view_if_needed()
     for width, height, scheme, name in ((1280, 800, "dark", "browser-dark"), (390, 844, "dark", "browser-phone-dark"), (390, 844, "light", "browser-phone")):
         page.emulate_media(color_scheme=scheme)
         page.set_viewport_size({"width": width, "height": height})
         page.wait_for_function(f"document.body.classList.contains('body--dark') === {str(scheme == 'dark').lower()}")
         page.wait_for_function("document.documentElement.scrollWidth <= window.innerWidth")
+        cut = "[...document.querySelectorAll('.q-field__label')].filter(label => label.scrollWidth > label.clientWidth).map(label => label.innerText)"
+        assert page.evaluate(cut) == []
         page.get_by_role("progressbar").scroll_into_view_if_needed()
         visitor.shoot(name)
     visitor.choose("colours", "dark")
     page.wait_for_function("document.body.classList.contains('body--dark')")
+    # What has the focus can be read: the label is lighter than the primary colour of the light page.
+    page.get_by_label("relative error").focus()
+    page.wait_for_function("""[...document.querySelectorAll('.q-field--focused .q-field__label')].map(label => getComputedStyle(label).color)
+        .includes('rgb(124, 192, 238)')""")
 
 
 def chosen_ball(visitor: Visitor, n_speeds: int) -> None:
@@ -264,7 +274,7 @@ def test_wrong_input_is_said_beside_its_field(browser: Any, servers: dict[str, S
     visitor = Visitor(browser, servers["wrong"].address)
     page = visitor.page
     visitor.press("Compute")
-    assert problem(visitor, "table of moduli") == "material: a table of moduli is needed"
+    assert problem(visitor, "table of moduli") == "table of moduli: a table of moduli is needed"
     # A file that is none, and one of the other kind.
     (tmp_path / "noise.csv").write_bytes(bytes(range(256)) * 40)
     drops = page.locator(".q-uploader input[type=file]")
@@ -283,19 +293,20 @@ def test_wrong_input_is_said_beside_its_field(browser: Any, servers: dict[str, S
     page.get_by_label("kind", exact=True).nth(2).click()
     page.get_by_role("option", name="computed").click()
     visitor.fill("conductivity [W/m/K]", "0.3")
-    assert problem(visitor, "duration [s]").startswith("heat.duration is needed")
+    visitor.fill("duration [s]", "")
+    assert problem(visitor, "duration [s]").startswith("duration [s] is needed: the time")
     page.get_by_label("kind", exact=True).nth(2).click()
     page.get_by_role("option", name="none").click()
     visitor.choose("kind", "sphere")
     visitor.fill("radius [mm]", "-1")
-    assert problem(visitor, "radius [mm]") == "indenter.sphere.radius must be finite and greater than 0, but is -0.001"
+    assert problem(visitor, "radius [mm]") == "radius [mm] must be finite and greater than 0, but is -1"
     visitor.fill("radius [mm]", "10")
     visitor.fill("temperatures [°C]", "0 warm")
-    assert "must be numbers between blanks, such as 0 20 39, but is 0 warm" in problem(visitor, "temperatures [°C], between blanks")
+    assert problem(visitor, "temperatures [°C]") == "temperatures [°C] must be numbers between blanks, such as 0 20.5 39, but is 0 warm"
     visitor.fill("temperatures [°C]", "0 100")
     visitor.fill("normal force [N]", "1")
     visitor.press("Compute")
-    assert problem(visitor, "temperatures [°C], between blanks").startswith("material.file.temperature")
+    assert problem(visitor, "temperatures [°C]").startswith("temperatures [°C]")
     # The page lives on, and another unit of lengths changes no scene.
     visitor.fill("temperatures [°C]", "20")
     visitor.fill("number of speeds", "2")
@@ -306,14 +317,76 @@ def test_wrong_input_is_said_beside_its_field(browser: Any, servers: dict[str, S
     assert page.get_by_label("radius [m]").input_value() == "0.01"
     visitor.press("Compute")
     visitor.sees(re.compile(r"friction-\d+: 2 of 2 points, finished"))
-    assert len(list(servers["wrong"].folder.glob("friction-*.json"))) == 2
-    # The picture of a finished computation is found again after another one without points.
-    visitor.choose("computation", "friction-1")
-    visitor.sees("friction-1: 0 of 10 points, ")
-    assert page.locator(".scatterlayer .points path").count() == 0
-    visitor.choose("computation", "friction-2")
-    visitor.sees("friction-2: 2 of 2 points, finished")
-    page.wait_for_function("document.querySelectorAll('.scatterlayer .points path').length === 2")
+    # What failed has left no entry.
+    assert [path.name for path in servers["wrong"].folder.glob("friction-*.json")] == ["friction-1.json"]
+    visitor.leave()
+
+
+MISTAKES = (
+    ("normal force [N]", "0", "normal force [N] must be finite and greater than 0, but is 0"),
+    ("normal force [N]", "-5", "normal force [N] must be finite and greater than 0, but is -5"),
+    ("normal force [N]", "", "normal force [N] must be finite and greater than 0, but is missing"),
+    ("slowest speed [m/s]", "-0.001", "slowest speed [m/s] must be finite and greater than 0, but is -0.001"),
+    ("slowest speed [m/s]", "20", "slowest speed [m/s] must be less than the fastest, 10 m/s, but is 20"),
+    ("number of speeds", "2.5", "number of speeds must be a whole number from 1 to 1000, but is 2.5"),
+    ("number of speeds", "100000", "number of speeds must be a whole number from 1 to 1000, but is 100000"),
+    ("relative error", "2", "relative error must be greater than 0 and at most 0.1, but is 2"),
+    ("thickness of a layer [mm]", "-2", "thickness of a layer [mm] must be finite and greater than 0, but is -2"),
+    ("slowest speed [m/s]", "1e-3 bis 1", "slowest speed [m/s] must be finite and greater than 0, but is 1e-3 bis 1"),
+)
+
+
+def test_a_field_that_is_left_says_its_range_and_pages_show_the_newest_choices(browser: Any, servers: dict[str, Server]) -> None:
+    first, second = (Visitor(browser, servers["pages"].address) for _ in range(2))
+    for label, typed, sentence in MISTAKES:
+        first.fill(label, typed)
+        first.page.locator("label.q-field", has_text=label).locator("[role=alert]").get_by_text(sentence, exact=True).wait_for()
+
+    def shows(visitor: Visitor, label: str, value: str) -> None:
+        of_field = "[...document.querySelectorAll('input')].find(one => one.labels?.[0]?.innerText.includes(name))?.value"
+        visitor.page.wait_for_function(f"([name, value]) => {of_field} === value", arg=[label, value])
+
+    # What was typed stays, and a comma is a decimal point.
+    first.page.reload()
+    shows(first, "slowest speed", "1e-3 bis 1")
+    first.fill("normal force [N]", "3,0e5")
+    shows(second, "normal force [N]", "300000")
+    for visitor, other, count in ((first, second, "3"), (second, first, "4"), (first, second, "3")):
+        visitor.fill("number of speeds", count)
+        shows(other, "number of speeds", count)
+    second.choose("unit of lengths", "µm")
+    for visitor in (first, second):
+        visitor.page.get_by_label("thickness of a layer [µm]").wait_for()
+        shows(visitor, "thickness of a layer", "-2000")
+        visitor.leave()
+
+
+def test_what_is_doubtful_stands_beside_the_figures(browser: Any, servers: dict[str, Server]) -> None:
+    server = servers["told"]
+    moduli = vf.read_moduli(DATA / "tread-rubber.csv")
+    assert moduli.angular_frequency is not None and moduli.storage is not None and moduli.loss is not None and moduli.temperature is not None
+    wave = 1 + 0.1 * np.sin(2 * np.pi * np.log10(moduli.angular_frequency) / 3 + moduli.temperature / 7)
+    columns = moduli.angular_frequency / (2 * np.pi), moduli.temperature, wave * moduli.storage, moduli.loss
+    np.savetxt(server.folder / "wave.csv", np.transpose(columns), "%.9g", ",", header="f,T,G′,G″\nHz,C,Pa,Pa", comments="", encoding="utf-8")
+    visitor = Visitor(browser, server.address)
+    visitor.choose("table of moduli", "wave.csv")
+    visitor.sees("are not noise: from one frequency to the next they change their sign 15 of 72 times")
+    chosen_ball(visitor, 2)
+    # The slow contact is too large for the ball, and the fast one nearly.
+    visitor.fill("normal force [N]", "600")
+    visitor.fill("fastest speed [m/s]", "1000")
+    visitor.fill("temperatures [°C]", "0")
+    visitor.press("Compute")
+    reason = re.compile("^temperature T = 0 °C, speed v = 0.001 m/s: no answer: .* lower normal force .N. or")
+    visitor.sees(reason)
+    visitor.sees(re.compile("where linear theory ends .at 1 of 2 points.$"))
+    visitor.page.reload()
+    visitor.sees(reason)
+    visitor.choose("point, or click on one", "temperature T = 0 °C, speed v = 0.001 m")
+    of_point = visitor.page.locator(".q-card", has_text="The contact of a point")
+    of_point.get_by_text(re.compile("a vertical wall of the indenter is in contact; lower normal force")).wait_for()
+    visitor.choose("point, or click on one", "temperature T = 0 °C, speed v = 1000 m")
+    of_point.get_by_text(re.compile("^temperature T = 0 °C, speed v = 1000 m/s: μ = .* ± ")).last.wait_for()
     visitor.leave()
 
 

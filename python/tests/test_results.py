@@ -490,3 +490,19 @@ def test_an_answer_has_the_error_of_its_material() -> None:
     assert np.shape(speeds.friction_coefficient_material_error) == (2,)
     with pytest.raises(ValueError, match="covariance.relative"):
         vf.slide(vf.Cone(0.1), vf.Prony(1e6, [(1e7, 1e-3)], relative_covariance=[[0.1]]), normal_force=1.0, velocity=0.1)
+
+
+def test_isotherms_that_do_not_lie_on_one_curve_are_a_warning_as_of_the_program(tmp_path: Path) -> None:
+    table = ROOT / "examples" / "data" / "tread-rubber.csv"
+    assert vf.fit_material(table).warnings == ()
+    moduli = vf.read_moduli(table)
+    omega, temperature, storage, loss = moduli.angular_frequency, moduli.temperature, moduli.storage, moduli.loss
+    assert omega is not None and temperature is not None and storage is not None and loss is not None
+    wave = 1 + 0.1 * np.sin(2 * np.pi * np.log10(omega) / 3 + temperature / 7)
+    columns = np.transpose([omega / (2 * np.pi), temperature, wave * storage, loss])
+    head = "f,T,G′,G″\nHz,C,Pa,Pa"
+    np.savetxt(tmp_path / "wave.csv", columns, "%.9g", ",", header=head, comments="", encoding="utf-8")
+    # The program counts the same changes.
+    [warning] = vf.fit_material(tmp_path / "wave.csv").warnings
+    assert warning.startswith("the errors of G′, 6.67 % rms, are not noise: from one frequency to the next they change their sign 15 of 72 times")
+    assert "the isotherms do not lie on one curve" in warning

@@ -16,7 +16,7 @@ from ._arrays import Compared, numbers
 from ._kinds import Cone, Edges, HeightMapFile, HeightsAre, LengthUnit
 from ._tables import Body
 
-__all__ = ["HeightMap", "Pyramid", "Roughness", "plausible_unit", "read_height_map"]
+__all__ = ["HeightMap", "Pyramid", "Roughness", "plausible_height_map", "plausible_unit", "read_height_map"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -187,17 +187,25 @@ def read_height_map(file: HeightMapFile | str | os.PathLike[str]) -> HeightMap:
 SMALLEST_GRADIENT = 1e-3
 
 
-def plausible_unit(file: HeightMapFile) -> LengthUnit | None:
-    """A guess at the unit of the heights in a file that does not state it: the first of m, µm, nm and mm with slopes as surfaces in contact
-    have them; None for metres, for a file that states its unit, and where no unit helps. Raises ValueError for another file."""
+def plausible_height_map(file: HeightMapFile) -> tuple[HeightMap, LengthUnit | None]:
+    """The surface in a file of heights, with its unit: ``file.unit``, or a guess where neither that nor the file states one. The guess is the first
+    of m, µm, nm and mm with slopes as surfaces in contact have them, and None for metres, for a file that states its unit, and where no unit
+    helps. A surface that is plausible in metres is read once. Raises ValueError for another file."""
+    if file.unit is not None:
+        return read_height_map(file), file.unit
     guesses: tuple[LengthUnit | None, ...] = (None, "um", "nm", "mm")
-    plain = []
+    flat: LengthUnit | None = None
     for unit in guesses:
         surface = read_height_map(replace(file, unit=unit))
         if any("unit" in note for note in surface.notes):
             continue
         # What is flatter than polished glass has probably another unit.
         if unit is None or surface.roughness.rms_gradient >= SMALLEST_GRADIENT:
-            return unit
-        plain.append(unit)
-    return next(iter(plain), None)
+            return surface, unit
+        flat = flat or unit
+    return read_height_map(replace(file, unit=flat)), flat
+
+
+def plausible_unit(file: HeightMapFile) -> LengthUnit | None:
+    """The unit of ``plausible_height_map``; None for a file whose ``unit`` is right."""
+    return plausible_height_map(replace(file, unit=None))[1]

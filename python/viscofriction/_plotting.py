@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import base64
+import html
+import io
 import math
 from dataclasses import dataclass
 from typing import Any
@@ -37,6 +40,8 @@ PREFIXES = ["p", "n", "µ", "m", "", "k", "M", "G"]
 DARKEST = 0.01
 # With more lines than these a legend says nothing.
 LINES = 6
+# Heights along an edge of a picture: those between them are left out, because each takes some 200 bytes while it is drawn.
+MOST_DRAWN = 1000
 # Beside friction: the key in a table, what the legend says, and the line.
 BESIDE: tuple[tuple[str, str, Any], ...] = (
     ("friction_from_hysteresis", "hysteresis", ":"),
@@ -53,6 +58,27 @@ def axes(ax: Any) -> Any:
         ax = pyplot.subplots(layout="constrained")[1]
         ax.set_prop_cycle(color=COLOURS)
     return ax
+
+
+def new_axes(size: tuple[float, float] = (6.0, 4.0)) -> Any:
+    """Axes of a picture of their own, which any thread may draw."""
+    from matplotlib.figure import Figure
+
+    ax = Figure(figsize=size, layout="constrained").subplots()
+    ax.set_prop_cycle(color=COLOURS)
+    return ax
+
+
+def file_of(ax: Any, ends: str = "png") -> bytes:
+    """The picture of axes as a file: "png" or "svg"."""
+    out = io.BytesIO()
+    ax.figure.savefig(out, format=ends, dpi=130)
+    return out.getvalue()
+
+
+def image(ax: Any, meaning: str) -> str:
+    """The picture of axes as a part of a page, with the words in its place for who does not see it."""
+    return f'<img alt="{html.escape(meaning)}" src="data:image/png;base64,{base64.b64encode(file_of(ax)).decode()}">'
 
 
 def label(name: str) -> str:
@@ -258,8 +284,9 @@ def master_curve(fit: Any, ax: Any) -> Any:
 def heights(surface: Any, ax: Any) -> Any:
     """A map in its colours, whose summits touch first, with the direction of motion."""
     (rows, columns), (dx, dy) = surface.heights.shape, surface.spacing
-    shown = surface.heights - np.nanmean(surface.heights)
-    image = ax.pcolormesh(dx * np.arange(columns), dy * np.arange(rows), shown, shading="nearest", cmap=FIELD)
+    step = max(1, max(rows, columns) // MOST_DRAWN)
+    shown = surface.heights[::step, ::step] - np.nanmean(surface.heights)
+    image = ax.pcolormesh(dx * np.arange(0, columns, step), dy * np.arange(0, rows, step), shown, shading="nearest", cmap=FIELD)
     _coloured(ax, image, "height z [m]", float(np.nanmax(np.abs(shown))))
     motion(ax)
     return tidy(ax, "x [m]", "y [m]", (None, None))

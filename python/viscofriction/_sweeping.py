@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import copy
 import csv
 import io
 import os
+import re
+import shlex
 import shutil
 import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
+from functools import reduce
 from pathlib import Path
+from pprint import pformat
 from typing import IO, Any
 
 import numpy as np
@@ -21,7 +26,7 @@ from ._friction import MeasuredFriction
 from ._results import QUANTITIES, html_page, html_table, noted, with_bars, with_unit
 from ._solving import MAX_SCENE_SIZE, Progress, Scene, read, shown
 
-__all__ = ["Sweep", "read_sweep", "sweep"]
+__all__ = ["Sweep", "read_sweep", "scene_of_point", "sweep"]
 
 # Columns that hold no numbers, and those that hold whole ones; keys may hold either.
 TEXTS = {"sweep", "check", "program", "method", "model", "warnings", "failure"}
@@ -71,6 +76,25 @@ class Sweep(Compared):
         """Sentences about the validity of the answers, each once, with how many points have it; the column has all."""
         return _native.shared_warnings([text.split(" | ") if text else [] for text in self._cells("warnings")])
 
+    @property
+    def points(self) -> list[str]:
+        """Of each point what varies, and its friction with the total standard uncertainty where that is known, else with its error."""
+        from ._plotting import label
+
+        total, error = self._known("friction_coefficient_uncertainty"), self["friction_coefficient_error"]
+        errors = error if total is None else np.where(np.isnan(total), error, total)
+        printed = with_bars(self["friction_coefficient"], errors)
+        parts = [re.fullmatch(r"(.*?)(?: \[(.*)\])?", label(key)) for key in self.keys]
+        names = [(part[1], f" {part[2]}" if part[2] else "") for part in parts if part is not None]
+        values = [[f"{value:g}" if isinstance(value, float) else value for value in self[key].tolist()] for key in self.keys]
+        where = [", ".join(f"{name} = {value}{unit}" for (name, unit), value in zip(names, row)) for row in zip(*values)]
+        return [f"{place}: {'μ = ' + friction if friction else 'no answer'}" for place, friction in zip(where, printed)]
+
+    @property
+    def notes(self) -> list[str]:
+        """The ``warnings``, and of each point without an answer what varies and why it has none."""
+        return [*self.warnings, *(f"{point}: {failure}" for point, failure in zip(self.points, self.failures) if failure)]
+
     def to_dict(self) -> dict[str, list[Any]]:
         """Columns by their names, numbers as int and float, None where not known; a column of which nothing is known is left out."""
         columns: dict[str, list[Any]] = {}
@@ -103,8 +127,7 @@ class Sweep(Compared):
         columns = [self._cells(key) for key in self.keys]
         columns += [with_bars(self[name], self[f"{name}_error"]) for name in known]
         rows = list(zip(*columns, strict=True))
-        failed = [f"not reached: {failure}" for failure in dict.fromkeys(self.failures) if failure]
-        return html_table(f"{len(self)} points", head, rows, [*self.warnings, *failed], all_rows=all_rows)
+        return html_table(f"{len(self)} points", head, rows, self.notes, all_rows=all_rows)
 
     def plot(
         self,
@@ -138,17 +161,53 @@ class Sweep(Compared):
     def to_html(self, file: str | os.PathLike[str], *, picture: Any = None, texts: Mapping[str, str] | None = None) -> None:
         """Writes a page of its own with the picture, all points with their errors, the warnings, and ``texts`` by their names, such as the
         scene; a file that is there is not replaced. ``picture`` are axes of matplotlib, those of ``plot`` unless others are given."""
-        drawn = io.StringIO()
-        (self.plot() if picture is None else picture).figure.savefig(drawn, format="svg")
-        svg = drawn.getvalue()
-        title = f"A sweep over {' and '.join(self.keys)}"
+        axes, title = self.plot() if picture is None else picture, f"A sweep over {' and '.join(self.keys)}"
         with Path(file).open("x", encoding="utf-8") as out:
-            out.write(html_page(title, svg[svg.index("<svg") :] + self._html(all_rows=True), texts or {}))
+            out.write(page_of(title, axes, {"": self}, texts or {}))
 
     def _known(self, column: str) -> NDArray[np.float64] | None:
         """The numbers of a column of which something is known."""
         values = self[column] if column in self._header else np.array([np.nan])
         return None if np.isnan(values).all() else values
+
+
+def page_of(title: str, picture: Any, sweeps: Mapping[str, Sweep], texts: Mapping[str, str]) -> str:
+    """A page of its own with a picture, axes of matplotlib, all points of the sweeps below their names, and texts that unfold."""
+    drawn = io.StringIO()
+    picture.figure.savefig(drawn, format="svg")
+    svg = drawn.getvalue()
+    tables = [(f"<h2>{name}</h2>" if name else "") + sweep._html(all_rows=True) for name, sweep in sweeps.items()]
+    return html_page(title, svg[svg.index("<svg") :] + "".join(tables), texts)
+
+
+def command_of(scene: str, vary: Mapping[str, list[float]], out: str, *, sensitivity: bool, measured: str = "") -> str:
+    """The command of the program that computes the table ``out`` of a sweep of a scene file over numbers, or goes on with it."""
+    # A list has two values and more.
+    ranges = {key: ",".join(map(repr, values)) if len(values) > 1 else f"{values[0]!r}:{values[0]!r}:1" for key, values in vary.items()}
+    words = ["viscofriction sweep", shlex.quote(scene), *(f"--vary {key}={values}" for key, values in ranges.items())]
+    options = ["--sensitivity"] * sensitivity + [f"--measured {shlex.quote(measured)}"] * bool(measured)
+    return " ".join([*words, *options, f"--resume --out {shlex.quote(out)}"])
+
+
+def program_of(scene: Mapping[str, Any], vary: Mapping[str, list[float]], out: str, *, sensitivity: bool, picture: str) -> str:
+    """Lines of Python that compute the table ``out`` of a sweep, or go on with it, and draw its picture; ``vf`` is this package."""
+    lines = [f"scene = {pformat(scene, sort_dicts=False)}", f"vary = {pformat(vary, sort_dicts=False)}"]
+    lines += [f"sweep = vf.sweep(scene, vary, sensitivity={sensitivity}, out={out!r}, resume=True)"]
+    return "\n".join([*lines, f"sweep.plot().figure.savefig({picture!r})", ""])
+
+
+def scene_of_point(scene: Scene, sweep: Sweep, row: int) -> dict[str, Any]:
+    """The scene of one point of its sweep, for ``vf.solve``, which has its fields; files are named from the root of the file system."""
+    given, folder, _ = read(scene)
+    table = copy.deepcopy(given)
+    for family in ("indenter", "material", "interface", "strain"):
+        for keys in (keys for keys in table.get(family, {}).values() if isinstance(keys, dict)):
+            keys |= {name: os.path.abspath(os.path.join(folder, keys[name])) for name in ("file", "path") if name in keys}
+    for key in sweep.keys:
+        *above, last = key.split(".")
+        value = sweep[key][row].item()
+        reduce(lambda place, name: place.setdefault(name, {}), above, table)[last] = value
+    return table
 
 
 def sweep(
@@ -225,7 +284,8 @@ def sweep(
                 _compute(request, missing, client, take)
         complete = [row for row in rows if row is not None]
         if out is not None:
-            _sort(Path(out).resolve(), _text(header, *complete))
+            # In the order of the points.
+            write_whole(Path(out).resolve(), _text(header, *complete))
     if samples is not None:
         values["sample"] = np.arange(samples + 1.0)
     return Sweep(header, complete, values)
@@ -361,13 +421,14 @@ def _lock(file: IO[str], path: Path) -> None:
         raise ValueError(f"{path}: another sweep is writing it") from None
 
 
-def _sort(path: Path, text: str) -> None:
-    """Gives a finished file its rows in order, so that an interruption leaves the old one or the new one."""
-    if path.read_bytes() == text.encode("utf-8"):
+def write_whole(path: Path, text: str) -> None:
+    """Writes a file so that it is whole or the old one; one that is there with this text stays as it is."""
+    if path.exists() and path.read_bytes() == text.encode("utf-8"):
         return
     part = path.with_name(f".{path.name}.part")
     part.write_text(text, encoding="utf-8", newline="")
-    shutil.copymode(path, part)
+    if path.exists():
+        shutil.copymode(path, part)
     part.replace(path)
 
 

@@ -9,7 +9,7 @@ import socket
 import sys
 import webbrowser
 from pathlib import Path
-from typing import Any
+
 
 def main() -> None:
     """Runs the program."""
@@ -44,7 +44,7 @@ def main() -> None:
     token = secrets.token_urlsafe(24)
     address = f"http://127.0.0.1:{port}/?token={token}"
 
-    @ui.page("/", title="Friction of rubber")
+    @ui.page("/", title="Friction of rubber", language="en-US")
     async def page() -> None:
         # What is chosen before there is a connection would be lost.
         await ui.context.client.connected(timeout=60)
@@ -58,7 +58,7 @@ def main() -> None:
     app.add_middleware(Guard, token=token, port=port)
     app.on_startup(begin)
     app.on_shutdown(project.stop)
-    quiet: dict[str, Any] = {"show": False, "reload": False, "show_welcome_message": False, "uvicorn_logging_level": "warning"}
     # A browser that is busy, or a machine that sleeps, comes back to the page as it was.
-    ui.run(host="127.0.0.1", port=port, favicon="μ", reconnect_timeout=60.0, **quiet)
+    ui.run(host="127.0.0.1", port=port, favicon="μ", reconnect_timeout=60.0, show=False, reload=False, show_welcome_message=False,
+           uvicorn_logging_level="warning")
 

@@ -4,41 +4,43 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
+import re
 import shlex
-import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, field, fields, replace
-from decimal import Decimal
-from itertools import product
 from pathlib import Path
-from pprint import pformat
 from typing import Any
 
 import numpy as np
 
 import viscofriction as vf
 
-from .. import _native
 from .._fitting import Deformation, Fit, Vertical
-from .._forms import Family, kinds
-from .._sweeping import Sweep
+from .._forms import Family, Typed, number, problem, problem_of_load, shown
+from .._sweeping import command_of, program_of
 
 #: Ends of the names of files that hold heights with their positions, and of tables.
 MAPS = {".asc", ".gsf", ".npy", ".sdf", ".sur", ".x3p", ".xyz"}
 TABLES = {".csv", ".dat", ".tsv", ".txt"}
 #: Largest number of temperatures, each of which is a curve of the picture.
 LARGEST_COUNT = 6
+#: Largest number of speeds.
+LARGEST_N_SPEEDS = 1000
 #: Heights within the shortest wave that is kept of a map, unless another one is chosen: a first picture in seconds.
 HEIGHTS_PER_WAVE = 8
 #: Units in which lengths are chosen and shown, with their powers of ten.
 LENGTHS = {"mm": -3, "µm": -6, "m": 0}
+#: What a key without a value has; of two numbers both are empty then.
+NOTHING: tuple[Any, ...] = (None, [None, None])
 #: What a scene may have beside its material and its load.
 FAMILIES: tuple[Family, ...] = ("indenter", "interface", "heat", "strain")
 
 
 @dataclass(frozen=True)
 class Choices:
-    """All that a person has chosen. Files are names in the folder; all numbers are in SI, temperatures in °C.
+    """All that a person has chosen. Files are names in the folder; all numbers are in SI, temperatures in °C. A text that is no number is
+    kept as it was typed, until ``check`` refuses it.
 
     ``material``: A table of moduli, or a material file (TOML).
     ``tables``: Of "indenter", "interface", "heat" and "strain" the chosen kind with its keys, as in a scene; absent where nothing is.
@@ -54,15 +56,15 @@ class Choices:
     material: str = ""
     deformation: Deformation | None = None
     vertical: Vertical | None = None
-    reference_temperature: float | None = None
+    reference_temperature: Typed = None
     tables: Mapping[str, Mapping[str, Mapping[str, Any]]] = field(default_factory=dict)
-    thickness: float | None = None
-    force: float | None = None
-    slowest: float | None = 1e-3
-    fastest: float | None = 10.0
-    n_speeds: float | None = 5.0
-    temperatures: tuple[float, ...] = ()
-    relative_error: float | None = 0.05
+    thickness: Typed = None
+    force: Typed = None
+    slowest: Typed = 1e-3
+    fastest: Typed = 10.0
+    n_speeds: Typed = 5.0
+    temperatures: tuple[Typed, ...] = ()
+    relative_error: Typed = 0.05
     band: bool = True
     cold_too: bool = True
     measured: str = ""
@@ -75,7 +77,7 @@ class Choices:
     def keys(self, family: str) -> Mapping[str, Any]:
         """The keys of the chosen kind that have a value."""
         chosen = self.tables.get(family, {})
-        return next(({name: value for name, value in keys.items() if value is not None} for keys in chosen.values()), {})
+        return next(({name: value for name, value in keys.items() if value not in NOTHING} for keys in chosen.values()), {})
 
     def with_table(self, family: str, kind: str | None, keys: Mapping[str, Any]) -> Choices:
         """The same with this kind of a family, or without one."""
@@ -128,18 +130,14 @@ class Choices:
         known = json.loads(text)
         if not isinstance(known, dict) or not isinstance(known.get("tables", {}), dict):
             raise ValueError("the choices must be an object of JSON")
-        names = {one.name for one in fields(cls)} - ({"unit"} if known.get("unit") not in LENGTHS else set())
-        kept = {name: value for name, value in known.items() if name in names}
+        known["unit"] = known["unit"] if known.get("unit") in LENGTHS else "mm"
+        kept = {one.name: known[one.name] for one in fields(cls) if one.name in known}
         return cls(**kept | {"temperatures": tuple(kept.get("temperatures", ()))})
-
-
-def shifted(number: float | None, power: int) -> float | None:
-    """A number times a power of ten with the same digits, which a product in floating point may change."""
-    return None if number is None else float(Decimal(repr(number)).scaleb(power))
 
 
 def fit(choices: Choices, folder: Path) -> Fit:
     """The fit of the table of moduli. Raises ValueError with line and column."""
+    check(choices, "reference_temperature")
     return vf.fit_material(folder / choices.material, **choices.of_fit)
 
 
@@ -151,54 +149,61 @@ def guessed_temperatures(found: Fit) -> tuple[float, ...]:
     return tuple(one for one in (0.0, 20.0) if first <= one <= last) or (found.shift["temperature"],)
 
 
-def number(text: Any) -> float | None:
-    """The number of a text or a number, None for an empty text. Raises ValueError for a comma, which may be either of two things."""
-    words = "" if text is None else str(text).strip()
-    try:
-        return float(words) if words else None
-    except ValueError:
-        raise ValueError(f"must be a number with a decimal point and without separators, such as 0.01, but is {words}") from None
-
-
-def shown(value: float | None) -> str:
-    """A number as a text, with all its digits and no others."""
-    return "" if value is None else repr(value).removesuffix(".0")
-
-
-def temperatures(text: str) -> tuple[float, ...]:
-    """Numbers between blanks or semicolons. Raises ValueError for anything else, such as a decimal comma."""
-    try:
-        return tuple(float(word) for word in text.replace(", ", " ").replace(";", " ").split())
-    except ValueError:
-        raise ValueError(f"material.file.temperature must be numbers between blanks, such as 0 20 39, but is {text}") from None
+def temperatures(text: str) -> tuple[Typed, ...]:
+    """Numbers between blanks or semicolons, and words that are none."""
+    return tuple(number(word) for word in text.replace(", ", " ").replace(";", " ").split())
 
 
 def surface(choices: Choices, folder: Path) -> tuple[vf.HeightMap, Choices]:
     """The chosen height map, and the choices with what was guessed where nothing is chosen: a unit of plausible heights, and the
     shortest wave. Raises ValueError with the line of the file or the key."""
     keys = dict(choices.keys("indenter"))
+    if text := problem("indenter", "height-map", keys):
+        raise ValueError(text)
     file = vf.HeightMapFile(**keys | {"file": folder / keys["file"]})
-    unit = file.unit or vf.plausible_unit(file)
-    found = vf.read_height_map(replace(file, unit=unit))
+    found, unit = vf.plausible_height_map(file)
     keys |= {} if unit is None else {"unit": unit}
     if choices.is_periodic and file.shortest_wavelength is None:
         keys["shortest_wavelength"] = float(f"{HEIGHTS_PER_WAVE * max(found.spacing):.3g}")
     return found, choices.with_table("indenter", "height-map", keys)
 
 
-def check(choices: Choices, family: Family) -> None:
-    """Raises ValueError for a number that is missing or out of its range in the table of a family."""
-    kind = choices.kind(family)
-    if kind is None:
-        return
-    table = choices.keys(family)
-    for key in kinds(family)[kind].keys:
-        if key.is_required and table.get(key.name) in (None, ""):
-            path = ".".join(part for part in (family, kind, key.name) if part)
-            raise ValueError(f"{path} is needed: {key.meaning}")
-    if family == "heat" and choices.is_periodic and table.get("duration") is None:
-        raise ValueError("heat.duration is needed: the time for which the surface has been sliding [s], because its mean temperature grows")
-    _native.check_table({family: _table(choices, family)})
+def check(choices: Choices, only: str = "") -> None:
+    """Raises ValueError for what is missing, no number, or out of the range that the package allows, in a sentence that begins with the key;
+    with ``only`` for nothing but this key, while others may be missing."""
+    for problem in _problems(choices, only):
+        if only in ("", re.split("[ :]", problem)[0]):
+            raise ValueError(problem)
+
+
+def _problems(choices: Choices, only: str) -> Iterator[str]:
+    if not choices.material:
+        yield "material: a table of moduli is needed"
+    if isinstance(choices.reference_temperature, str):
+        yield f"reference_temperature must be a number, but is {choices.reference_temperature}"
+    if choices.kind("indenter") is None:
+        yield "indenter: a body is needed"
+    chosen = {family: kind for family in FAMILIES if (kind := choices.kind(family)) is not None}
+    yield from filter(None, (problem(family, kind, choices.keys(family), only) for family, kind in chosen.items()))
+    if "heat" in chosen and choices.is_periodic and "duration" not in choices.keys("heat"):
+        yield "heat.duration is needed: the time for which the surface has been sliding [s], because its mean temperature grows"
+    load = {"layer.thickness": choices.thickness, f"load.{choices.force_key}": choices.force, "solve.relative_error": choices.relative_error}
+    yield from filter(None, [problem_of_load(load, only)])
+    speeds: dict[str, Any] = {"slowest": choices.slowest, "fastest": choices.fastest}
+    wrong = {name: speed for name, speed in speeds.items() if not isinstance(speed, int | float) or not 0 < speed < math.inf}
+    yield from (f"load.velocity.{name} must be finite and greater than 0, but is {shown(speed) or 'missing'}" for name, speed in wrong.items())
+    if choices.n_speeds not in range(1, LARGEST_N_SPEEDS + 1):
+        yield f"load.velocity.count must be a whole number from 1 to {LARGEST_N_SPEEDS}, but is {shown(choices.n_speeds) or 'missing'}"
+    elif choices.n_speeds != 1 and not wrong and speeds["slowest"] >= speeds["fastest"]:
+        name, what, other = ("slowest", "less", "fastest") if only.endswith("slowest") else ("fastest", "greater", "slowest")
+        yield f"load.velocity.{name} must be {what} than the {other}, {speeds[other]:g} m/s, but is {speeds[name]:g}"
+    hot = choices.temperatures
+    if not all(isinstance(one, int | float) and math.isfinite(one) for one in hot):
+        yield f"material.file.temperature must be numbers between blanks, such as 0 20.5 39, but is {' '.join(map(shown, hot))}"
+    elif len(hot) > LARGEST_COUNT:
+        yield f"material.file.temperature: at most {LARGEST_COUNT} temperatures are drawn"
+    elif len(set(hot)) < len(hot):
+        yield "material.file.temperature: a temperature is given twice"
 
 
 def _table(choices: Choices, family: str) -> dict[str, Any]:
@@ -207,52 +212,27 @@ def _table(choices: Choices, family: str) -> dict[str, Any]:
 
 
 def speeds(choices: Choices) -> list[float]:
-    """The speeds [m/s], in equal factors, with three digits. Raises ValueError for what is missing or out of its range."""
-    first = _positive("load.velocity.slowest", choices.slowest)
-    last = _positive("load.velocity.fastest", choices.fastest)
-    count = choices.n_speeds
-    if count is None or not float(count).is_integer() or not 1 <= count <= 1000:
-        raise ValueError(f"load.velocity.count must be a whole number from 1 to 1000, but is {_shown(count)}")
-    if count > 1 and last <= first:
-        raise ValueError(f"load.velocity.fastest must be greater than the slowest, {first:g} m/s, but is {last:g}")
-    rounded = [float(f"{speed:.3g}") for speed in np.geomspace(first, last if count > 1 else first, int(count))]
-    return list(dict.fromkeys(rounded))
+    """The speeds [m/s], in equal factors, with three digits."""
+    count, slowest, fastest = (float(one or 0) for one in (choices.n_speeds, choices.slowest, choices.fastest))
+    spaced = np.geomspace(slowest, fastest if count > 1 else slowest, int(count))
+    return list(dict.fromkeys(float(f"{speed:.3g}") for speed in spaced))
 
 
 def vary(choices: Choices) -> dict[str, list[float]]:
-    """The keys that vary, as ``vf.sweep`` takes them; the speed varies fastest."""
-    if len(choices.temperatures) > LARGEST_COUNT:
-        raise ValueError(f"material.file.temperature: at most {LARGEST_COUNT} temperatures are drawn")
-    if not np.isfinite(choices.temperatures).all():
-        raise ValueError("material.file.temperature must be numbers between blanks, such as 0 20 39")
-    if len(set(choices.temperatures)) < len(choices.temperatures):
-        raise ValueError("material.file.temperature: a temperature is given twice")
-    hot = {"material.file.temperature": list(choices.temperatures)} if choices.temperatures else {}
-    return hot | {"load.velocity": speeds(choices)}
+    """The keys that vary, as ``vf.sweep`` takes them; the speed varies fastest. Raises ValueError for what is missing or wrong."""
+    check(choices)
+    hot: Any = choices.temperatures
+    return ({"material.file.temperature": list(hot)} if hot else {}) | {"load.velocity": speeds(choices)}
 
 
 def scene(choices: Choices, name: str, *, heated: bool = True) -> dict[str, Any]:
     """The scene of the computation with this name, for the folder of its files. Raises ValueError for what is missing."""
-    if not choices.material:
-        raise ValueError("material: a table of moduli is needed")
-    if choices.kind("indenter") is None:
-        raise ValueError("indenter: a body is needed")
-    for family in FAMILIES:
-        check(choices, family)
-    effects = [family for family in FAMILIES[1:] if family in choices.tables and (heated or family != "heat")]
-    material: dict[str, Any] = {"path": material_file(choices, name)}
-    if choices.temperatures:
-        material["temperature"] = choices.temperatures[0]
-    layer = {} if choices.thickness is None else {"layer": {"thickness": _positive("layer.thickness", choices.thickness)}}
-    load = {choices.force_key: _positive(f"load.{choices.force_key}", choices.force), "velocity": speeds(choices)[0]}
-    return {
-        "indenter": _table(choices, "indenter"),
-        "material": {"file": material},
-        **layer,
-        **{family: _table(choices, family) for family in effects},
-        "load": load,
-        "solve": {"relative_error": _positive("solve.relative_error", choices.relative_error)},
-    }
+    check(choices)
+    given: dict[str, Any] = {family: _table(choices, family) for family in FAMILIES if family in choices.tables and (heated or family != "heat")}
+    given |= {} if choices.thickness is None else {"layer": {"thickness": choices.thickness}}
+    material = {"path": material_file(choices, name)} | ({"temperature": choices.temperatures[0]} if choices.temperatures else {})
+    load = {choices.force_key: choices.force, "velocity": speeds(choices)[0]}
+    return given | {"material": {"file": material}, "load": load, "solve": {"relative_error": choices.relative_error}}
 
 
 def material_file(choices: Choices, name: str) -> str:
@@ -271,20 +251,11 @@ def with_band(choices: Choices, part: Mapping[str, Any]) -> bool:
     return choices.band and not {"heat", "strain"} & part.keys()
 
 
-def scene_text(table: Mapping[str, Any]) -> str:
-    """The scene file of a scene."""
-    return _native.toml_text(dict(table))
-
-
 def command(choices: Choices, name: str) -> str:
     """The commands of the program that compute the same in the folder, or go on with what is there."""
-    # A list has two values and more.
-    several = {key: ",".join(map(repr, values)) for key, values in vary(choices).items()}
-    varied = [f"--vary {key}={values if ',' in values else f'{values}:{values}:1'}" for key, values in several.items()]
-    measured, lines = ["--measured", shlex.quote(choices.measured)] if choices.measured else [], []
+    lines = []
     for part, table in parts(choices, name).items():
-        band = ["--sensitivity"] * with_band(choices, table)
-        lines += [" ".join([f"viscofriction sweep {part}.toml", *varied, *band, *measured, f"--resume --out {part}.csv"])]
+        lines += [command_of(f"{part}.toml", vary(choices), f"{part}.csv", sensitivity=with_band(choices, table), measured=choices.measured)]
     if choices.is_fitted:
         given = [f"--{option.replace('_', '-')} {value}" for option, value in choices.of_fit.items()]
         words = ["viscofriction fit-material", shlex.quote(choices.material), *given, f"--out {name}-fit"]
@@ -299,12 +270,9 @@ def python(choices: Choices, name: str) -> str:
         given = "".join(f", {option}={value!r}" for option, value in choices.of_fit.items())
         lines = ["from pathlib import Path", "", *lines, f"fit = vf.fit_material({choices.material!r}{given})"]
         lines += [f"Path({material_file(choices, name)!r}).write_text(fit.material.to_toml(), encoding='utf-8')", ""]
-    lines += [f"vary = {pformat(vary(choices), sort_dicts=False)}"]
     for part, table in parts(choices, name).items():
-        lines += ["", f"scene = {pformat(table, sort_dicts=False)}"]
-        sweep = f"sweep = vf.sweep(scene, vary, sensitivity={with_band(choices, table)}, out={part + '.csv'!r}, resume=True)"
-        lines += [sweep, f"sweep.plot().figure.savefig({part + '.png'!r})"]
-    return "\n".join(lines) + "\n"
+        lines += [program_of(table, vary(choices), f"{part}.csv", sensitivity=with_band(choices, table), picture=f"{part}.png")]
+    return "\n".join(lines)
 
 
 def digests(choices: Choices, folder: Path) -> dict[str, str]:
@@ -334,26 +302,3 @@ def stored(choices: Choices, folder: Path) -> str:
     """What the folder keeps of a computation to know it again."""
     kept = asdict(replace(choices, measured="", unit="mm")) | {"files": digests(choices, folder), "version": vf.__version__}
     return json.dumps(kept, indent=1, ensure_ascii=False, sort_keys=True) + "\n"
-
-
-def at_point(folder: Path, part: str, sweep: Sweep, row: int) -> dict[str, Any]:
-    """The scene of one point of a sweep, with its files where they are."""
-    table = tomllib.loads((folder / f"{part}.toml").read_text("utf-8"))
-    files = [keys for family in (*FAMILIES, "material") for keys in table.get(family, {}).values() if isinstance(keys, dict)]
-    for keys, name in product(files, ("file", "path")):
-        if name in keys:
-            keys[name] = str(folder.absolute() / keys[name])
-    points = {key: float(sweep[key][row]) for key in sweep.keys}
-    table["load"]["velocity"] = points.pop("load.velocity")
-    table["material"]["file"] |= {"temperature": temperature for temperature in points.values()}
-    return table
-
-
-def _positive(name: str, value: float | None) -> float:
-    if value is None or not np.isfinite(value) or value <= 0:
-        raise ValueError(f"{name} must be finite and greater than 0, but is {_shown(value)}")
-    return float(value)
-
-
-def _shown(value: float | None) -> str:
-    return "missing" if value is None else f"{value:g}"

@@ -5,8 +5,14 @@ from __future__ import annotations
 import hmac
 
 from starlette.requests import HTTPConnection
-from starlette.responses import PlainTextResponse, RedirectResponse
+from starlette.responses import HTMLResponse, RedirectResponse
 from starlette.types import ASGIApp, Receive, Scope, Send
+
+from .._results import html_page
+
+#: What a browser without the token sees.
+REFUSAL = """<p>The address of this page ends with a token, which is another one after each start of viscofriction-app.
+Whoever has started the program finds the address in the terminal, where it is printed first. Open it in this browser.</p>"""
 
 
 class Guard:
@@ -32,7 +38,7 @@ class Guard:
             inside = RedirectResponse("/", 303)
             inside.set_cookie(self.cookie, self.token, httponly=True, samesite="strict")
             return inside
-        return PlainTextResponse("Open the address that viscofriction-app has printed; it has the token.", 403) if is_page else None
+        return HTMLResponse(html_page("Friction of rubber: this address lacks the token", REFUSAL, {}), 403) if is_page else None
 
     def _is_token(self, given: str) -> bool:
         return hmac.compare_digest(given.encode(), self.token.encode())

@@ -2,23 +2,21 @@
 
 from __future__ import annotations
 
-import base64
 import html
-import math
+import re
 import tempfile
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any, Literal
 
-import numpy as np
 from nicegui import background_tasks, events, run, ui
 
-import viscofriction as vf
-
 from .._fitting import Fit
-from .._forms import Family, Key, kinds
+from .._forms import Family, Key, Typed, kinds, shifted, shown
+from .._forms import number as typed_number
+from .._plotting import image, label, new_axes
 from . import _choices, _curves
 from ._choices import FAMILIES, LENGTHS, MAPS, TABLES, Choices
 from ._work import Project
@@ -34,23 +32,20 @@ OF_FILE = ("unit", "shortest_wavelength")
 GUESSED: dict[str, dict[str, Any]] = {"height-map": {"edges": "mirrored", "level": True}}
 VERTICAL = {None: "as the isotherms show", "none": "none", "entropic": "with the absolute temperature", "free": "a factor of each"}
 DEFORMATION = {None: "as the names of the columns say", "tension": "E: tension", "shear": "G: shear"}
-SPEEDS = (
-    ("slowest", "load.velocity.slowest", "slowest speed [m/s]"),
-    ("fastest", "load.velocity.fastest", "fastest speed [m/s]"),
-    ("n_speeds", "load.velocity.count", "number of speeds"),
-    ("relative_error", "solve.relative_error", "relative error of the computation"),
-)
+ENDS = (("slowest", "load.velocity.slowest", "slowest speed [m/s]"), ("fastest", "load.velocity.fastest", "fastest speed [m/s]"))
+SPEEDS = (*ENDS, ("n_speeds", "load.velocity.count", "number of speeds"), ("relative_error", "solve.relative_error", "relative error"))
 FIELDS: tuple[Literal["pressure", "gap", "temperature"], ...] = ("pressure", "gap", "temperature")
 ELSEWHERE = "Motions, histories and superpositions of powers are not in these forms. The program and Python compute them, from the scene file of this page."
+#: The picture is for the mouse.
+PLOT = 'role=img aria-label="friction over the speed; the list of points below has the same points for the keyboard"'
+#: The button of an upload, with a name that is read aloud.
+UPLOAD = '<q-btn flat no-caps icon="upload_file" label="or drop a file here" aria-label="drop or choose a file: {}"><q-uploader-add-trigger /></q-btn>'
+#: A number in a sentence about a length [m], after its comparison or before its unit.
+METRES = re.compile(r"((?:is|than|least|most|,) )(-?\d+(?:\.\d+)?(?:e-?\d+)?)( m\b)?")
 
 
-def image(ax: Any, meaning: str) -> str:
-    """A picture as a part of the page."""
-    return f'<img alt="{html.escape(meaning)}" src="data:image/png;base64,{base64.b64encode(_curves.picture(ax)).decode()}">'
-
-
-def paragraphs(lines: list[str] | tuple[str, ...]) -> str:
-    return "".join(f"<p>{html.escape(line)}</p>" for line in lines)
+def paragraphs(lines: Iterable[str], look: str = "") -> str:
+    return "".join(f'<p class="{look}">{html.escape(line)}</p>' for line in lines)
 
 
 def raw(content: str) -> None:
@@ -58,33 +53,37 @@ def raw(content: str) -> None:
 
 
 class Page:
-    """One view of the project; several may be open, and all of them show the same computation."""
+    """One view of the project; several may be open, and all of them show the newest choices and the same computation."""
 
     def __init__(self, project: Project) -> None:
         self.project = project
-        #: What shows the value of a key, and the problem with it, by the path of the key.
-        self.fields: dict[str, Any] = {}
         self.marks: dict[Any, object] = {}
         self.seen: Any = None
-        # Another page may choose another unit, and this one keeps that of its labels.
-        self.unit, self.known = project.choices.unit, project.choices
         ui.add_css(Path(__file__).with_name("page.css"))
         ui.colors(primary="#005a91")
         dark = ui.dark_mode(None)
         with ui.header().classes("items-center justify-between"):
             ui.html("<h1>Friction of rubber</h1>", sanitize=False)
-            schemes = {None: "as the system", False: "light", True: "dark"}
-            ui.select(schemes, label="colours", on_change=lambda event: dark.set_value(event.value)).props("dark dense borderless")
+            ui.select({None: "as the system", False: "light", True: "dark"}, label="colours").bind_value(dark).props("dark dense borderless")
         with ui.element("main").classes("both"):
-            with ui.column().classes("wide"):
-                self.material()
-                self.family("indenter")
-                self.load()
-                for family in FAMILIES[1:]:
-                    self.family(family)
+            self.left = ui.column().classes("wide")
             with ui.column().classes("wide"):
                 self.results()
+        self.forms()
         ui.timer(0.5, self.refresh)
+
+    def forms(self) -> None:
+        """The forms with the newest choices."""
+        #: What shows the value of a key, and the problem with it, by the path of the key.
+        self.fields: dict[str, Any] = {}
+        self.unit, self.known = self.chosen.unit, self.chosen
+        self.left.clear()
+        with self.left:
+            self.material()
+            self.family("indenter")
+            self.load()
+            for family in FAMILIES[1:]:
+                self.family(family)
         self.look_at_material()
         self.look_at_surface()
 
@@ -93,22 +92,36 @@ class Page:
         return self.project.choices
 
     def choose(self, choices: Choices | None = None, **changed: Any) -> None:
+        is_newest = self.known == self.chosen
         self.project.choose(replace(choices or self.chosen, **changed))
-        self.known = self.chosen
+        self.known = self.chosen if is_newest else self.known
         self.problem.set_text("")
+
+    def said(self, text: str) -> tuple[str, Any]:
+        """A sentence about keys with the labels of their fields, lengths in the unit of the page, and the first field that it names."""
+        # A sentence may begin with a key without those above it.
+        if (first := re.match(r"([\w-]+(?:\[\d\])?)(?=:| must| is needed)", text)) and first[1] not in self.fields:
+            text = next((path for path in self.fields if path.rpartition(".")[2] == first[1]), first[1]) + text[first.end() :]
+        paths = [re.escape(path) for path in sorted([*self.fields, _curves.SPEED], key=len, reverse=True)]
+        dotted = "|".join(path for path in paths if "." in path)
+        named: list[Any] = []
+
+        def name(found: re.Match[str]) -> str:
+            named.append(self.fields.get(found[0]))
+            return str(named[-1].props["label"] if named[-1] else label(found[0]))
+
+        text = re.sub(rf"^(?:{'|'.join(paths)})(?=:| must| is needed)|(?<![\w./-])(?:{dotted})(?![\w.\[-])", name, text)
+        field = next(filter(None, named), None)
+        if field is not None and field.props["label"].endswith(f"[{self.unit}]"):
+            text = METRES.sub(lambda found: found[1] + shown(self.in_unit(float(found[2]))) + (found[3] and f" {self.unit}" or ""), text)
+        return text, field
 
     def refuse(self, error: Exception, place: str = "") -> None:
         """Says an error beside the field that it names, or the one that it belongs to, and beside the button."""
-        # A sentence begins with the key that is wrong, perhaps without those above it, and may end with other keys of its point.
-        text = str(error)
-        ends = {path: f"{path.rpartition('.')[2]}:" for path in self.fields}
-        # A path of one word may be any word of a sentence.
-        places = {path: 0 if text.startswith((end, path)) else text.find(path if "." in path else end) for path, end in ends.items()}
-        named = sorted((at, -len(path), path) for path, at in places.items() if at >= 0)
-        field = self.fields.get(named[0][2] if named else place)
-        if field is not None:
-            field.error = str(error)
-        self.problem.set_text(str(error))
+        text, field = self.said(str(error))
+        if (field := field or self.fields.get(place)) is not None:
+            field.error = text
+        self.problem.set_text(text)
 
     def tried(self, work: Callable[[], Any], place: str = "") -> Any:
         """What comes of it, or None where it is refused, which is said."""
@@ -117,20 +130,34 @@ class Page:
         except (ValueError, OSError) as error:
             self.refuse(error, place)
 
-    async def later(self, place: Any, path: str, work: Callable[[], Any], tell: Callable[[Any], None]) -> None:
-        """Does what takes a while in a thread, and tells what came of it unless something else is wanted since."""
+    def later(self, place: Any, path: str, what: str, work: Callable[[], Any], tell: Callable[[Any], None]) -> None:
+        """Does what takes a while in a thread, if it is something, and tells what came of it unless something else is wanted since."""
+
+        def complain(error: Exception) -> None:
+            self.refuse(error, path)
+            raw(paragraphs([self.said(str(error))[0]], "text-negative"))
+
+        async def do() -> None:
+            # What is read for several choices at the same time would need the memory of all of them.
+            async with self.project.locks[path or mark]:
+                if self.marks[place] is not mark:
+                    return
+                try:
+                    show = partial(tell, await run.io_bound(work))
+                except Exception as error:  # Whatever it is, the page says it, and stays.
+                    show = partial(complain, error)
+            if self.marks[place] is mark and not place.is_deleted:
+                place.clear()
+                with place:
+                    show()
+
         mark = self.marks[place] = object()
         place.clear()
-        with place:
-            ui.spinner(size="lg").props('aria-label="working"')
-        try:
-            found = await run.io_bound(work)
-        except Exception as error:  # Whatever it is, the page says it, and stays.
-            found, tell = error, partial(self.refuse, place=path)
-        if self.marks[place] is mark:
-            place.clear()
-            with place:
-                tell(found)
+        if what:
+            with place, ui.row().classes("items-center"):
+                ui.spinner(size="lg").props('aria-hidden="true"')
+                ui.label(f"{what} …").props("role=status")
+            background_tasks.create(do())
 
     # What is chosen.
 
@@ -139,27 +166,31 @@ class Page:
 
     def changed(self, path: str, change: Callable[[Any], None], event: events.ValueChangeEventArguments[Any]) -> None:
         """Takes a value; its problem is that of the value before."""
-        if path in self.fields:
-            self.fields[path].error = None
+        if (field := self.fields.get(path)) is not None:
+            field.props(remove="hint").error = None
         change(event.value)
 
-    def number(self, path: str, label: str, value: float | None, change: Callable[[float | None], None]) -> Any:
-        def read(text: Any) -> None:
-            try:
-                change(_choices.number(text))
-            except ValueError as error:
-                # Nothing is computed with the number that was there before.
-                change(math.nan)
-                self.refuse(ValueError(f"{label} {error}"), path)
+    def text(self, path: str, label: str, value: str, change: Callable[[str], None]) -> Any:
+        """A field of a text, which is checked when it is left."""
+        field = self.field(path, ui.input(label, value=value, on_change=partial(self.changed, path, change)))
+        # Each end of the speeds may be what was wrong with the other.
+        return field.on("blur", lambda: self.check(field, *(end for _, path, _ in ENDS if (end := self.fields[path]).error)))
 
-        return self.field(path, ui.input(label, value=_choices.shown(value), on_change=partial(self.changed, path, read)).props("inputmode=decimal"))
+    def check(self, *fields: Any) -> None:
+        for field in fields:
+            field.error = None
+        for path in (path for path, field in self.fields.items() if field in fields):
+            self.tried(partial(_choices.check, self.chosen, path))
 
-    def length(self, path: str, label: str, value: float | None, change: Callable[[float | None], None]) -> Any:
+    def number(self, path: str, label: str, value: Typed, change: Callable[[Typed], None]) -> Any:
+        return self.text(path, label, shown(value), lambda text: change(typed_number(text))).props("inputmode=decimal")
+
+    def length(self, path: str, label: str, value: Typed, change: Callable[[Typed], None]) -> Any:
         """A number in the unit of lengths, which is [m] for everybody else."""
-        return self.number(path, f"{label} [{self.unit}]", self.in_unit(value), lambda shown: change(_choices.shifted(shown, LENGTHS[self.unit])))
+        return self.number(path, f"{label} [{self.unit}]", self.in_unit(value), lambda length: change(shifted(length, LENGTHS[self.unit])))
 
-    def in_unit(self, length: float | None) -> float | None:
-        return _choices.shifted(length, -LENGTHS[self.unit])
+    def in_unit(self, length: Typed) -> Typed:
+        return shifted(length, -LENGTHS[self.unit])
 
     def field(self, path: str, field: Any) -> Any:
         """Keeps a field by the key that it shows; its problem stays until something else is chosen."""
@@ -178,7 +209,8 @@ class Page:
                 kept = await run.io_bound(self.project.keep, event.file.name, dropped)
             chooser.set_options([*dict.fromkeys([*self.project.files(ends), kept])], value=kept)
 
-        upload = ui.upload(label="or drop a file here", auto_upload=True, max_file_size=LARGEST_DROP, on_upload=keep)
+        upload = ui.upload(auto_upload=True, max_file_size=LARGEST_DROP, on_upload=keep)
+        upload.add_slot("header", UPLOAD.format(html.escape(label)))
         too_large = f"{path}: at most {LARGEST_DROP >> 20} MiB can be dropped; put a larger file into {self.project.folder}"
         upload.props("flat bordered").on_rejected(lambda: self.refuse(ValueError(too_large)))
 
@@ -193,12 +225,7 @@ class Page:
                 for name, label, words in (("vertical", "vertical shift", VERTICAL), ("deformation", "moduli", DEFORMATION)):
                     self.select(name, label, words, getattr(chosen, name), partial(self.choose_material, name))
             self.of_material = ui.column().classes("wide")
-            label = "thickness of a layer on a rigid base"
-            self.length("layer.thickness", label, chosen.thickness, partial(self.choose_one, "thickness"))
-
-    def choose_unit(self, unit: str) -> None:
-        self.choose(unit=unit)
-        ui.navigate.reload()
+            self.length("layer.thickness", "thickness of a layer", chosen.thickness, partial(self.choose_one, "thickness"))
 
     def choose_one(self, name: str, value: Any) -> None:
         self.choose(**{name: value})
@@ -218,16 +245,15 @@ class Page:
         def look() -> tuple[Fit, str]:
             fit = _choices.fit(chosen, folder)
             has_curve = fit.storage_error is not None
-            return fit, image(fit.plot(_curves.new_axes()), "moduli over the frequency, measured and fitted") if has_curve else ""
+            return fit, image(fit.plot(new_axes()), "moduli over the frequency, measured and fitted") if has_curve else ""
 
         def tell(found: tuple[Fit, str]) -> None:
-            raw(paragraphs(found[0].decisions) + found[1])
+            raw(paragraphs(found[0].warnings, "caution") + paragraphs(found[0].decisions) + found[1])
             if not self.chosen.temperatures:
                 self.fields["material.file.temperature"].set_value(" ".join(f"{one:g}" for one in _choices.guessed_temperatures(found[0])))
 
-        self.of_material.clear()
-        if chosen.material and chosen.is_fitted:
-            background_tasks.create(self.later(self.of_material, "material", look, tell))
+        what = f"reading and fitting {chosen.material}" if chosen.material and chosen.is_fitted else ""
+        self.later(self.of_material, "material", what, look, tell)
 
     def family(self, family: Family) -> None:
         """The kinds of a family, and the keys of the chosen one."""
@@ -258,7 +284,9 @@ class Page:
         with ui.card():
             raw(f"<h2>{TITLES[family]}</h2>")
             if family == "indenter":
-                self.select("unit", "unit of lengths", list(LENGTHS), self.unit, self.choose_unit)
+                # The page then has its forms anew, as for what another page chooses.
+                unit = ui.select(list(LENGTHS), label="unit of lengths", value=self.unit)
+                unit.on_value_change(lambda event: self.project.choose(replace(self.chosen, unit=event.value))).classes("wide")
             self.select(family, "kind", options, self.chosen.kind(family), choose)
             form = ui.column().classes("wide gap-1")
             if family == "indenter":
@@ -275,15 +303,12 @@ class Page:
         def change(value: Any) -> None:
             if value == self.chosen.keys(family).get(key.name, key.default):
                 return
-            if path in self.fields:
-                self.fields[path].props(remove="hint")
             # What was guessed or chosen for another file is not kept.
             gone = OF_FILE if (kind, key.name) == ("height-map", "file") else ()
             kept = {name: value for name, value in self.chosen.keys(family).items() if name not in gone}
             self.choose(self.chosen.with_table(family, kind, kept | {key.name: None if value == key.default else value}))
             for name in gone:
                 self.fields[f"{family}.{kind}.{name}"].props(remove="hint").set_value(None)
-            self.tried(lambda: _choices.check(self.chosen, family))
             if family == "indenter":
                 self.look_at_surface()
 
@@ -298,98 +323,86 @@ class Page:
         elif key.entry == "pair":
             ends = list(value or (None, None))
 
-            def change_end(nth: int, end: float | None) -> None:
+            def change_end(nth: int, end: Typed) -> None:
                 ends[nth] = end
-                change(None if None in ends else list(ends))
+                change(list(ends))
 
             for nth, axis in enumerate("xy"):
-                number(path if nth == 0 else f"{path}[1]", f"{axis}: {label}", ends[nth], partial(change_end, nth))
+                number(f"{path}[{nth}]", f"{axis}: {label}", ends[nth], partial(change_end, nth))
         else:
             whole = key.entry == "count"
-            number(path, label, value, lambda value: change(int(value) if whole and value and value.is_integer() else value)).tooltip(key.meaning)
+            number(path, label, value, lambda value: change(int(value) if whole and isinstance(value, float) and value.is_integer() else value)).tooltip(key.meaning)
 
     def look_at_surface(self) -> None:
         chosen, folder = self.chosen, self.project.folder
         self.force.props(f'label="{chosen.force_label}"')
-        self.of_surface.clear()
-        if chosen.kind("indenter") != "height-map" or not chosen.keys("indenter").get("file"):
-            return
+        path = folder / (chosen.keys("indenter").get("file", "") if chosen.kind("indenter") == "height-map" else "")
 
-        def look() -> tuple[vf.HeightMap, Choices, str]:
+        def look() -> tuple[Choices, str]:
             found, guessed = _choices.surface(chosen, folder)
-            return found, guessed, image(found.plot(_curves.new_axes()), "the surface, its summits bright")
-
-        def tell(found: tuple[vf.HeightMap, Choices, str]) -> None:
-            body, guessed, picture = found
-            rough = body.roughness
-            (rows, columns), (dx, dy) = body.heights.shape, body.spacing
-            along, across, sq, sa = (f"{self.in_unit(one):.3g} {self.unit}" for one in (dx, dy, rough.rms_height, rough.mean_deviation))
+            rough, (rows, columns), (dx, dy) = found.roughness, found.heights.shape, found.spacing
+            along, across, sq, sa = (f"{self.in_unit(one):.3g} {chosen.unit}" for one in (dx, dy, rough.rms_height, rough.mean_deviation))
             lines = [f"{columns} × {rows} heights along x and y, {along} × {across} apart"]
             lines += [f"Sq {sq}, Sa {sa}, Sdq {rough.rms_gradient:.3g}", f"Ssk {rough.skewness:.2g}, Sku {rough.kurtosis:.2g}"]
-            new = {name: value for name, value in guessed.keys("indenter").items() if name not in chosen.keys("indenter")}
-            self.choose(self.chosen.with_table("indenter", "height-map", guessed.keys("indenter")))
+            told = paragraphs(lines) + paragraphs(dict.fromkeys([*found.notes, *rough.warnings]), "caution")
+            return guessed, told + image(found.plot(new_axes()), "the surface, its summits bright")
+
+        def tell(found: tuple[Choices, str]) -> None:
+            guessed = found[0].keys("indenter")
+            new = {name: value for name, value in guessed.items() if name not in chosen.keys("indenter")}
+            self.choose(self.chosen.with_table("indenter", "height-map", guessed))
             for name, value in new.items():
                 field = self.fields[f"indenter.height-map.{name}"]
-                field.set_value(_choices.shown(self.in_unit(value)) if isinstance(value, float) else value)
+                field.set_value(shown(self.in_unit(value)) if isinstance(value, float) else value)
                 field.props('hint="this is a guess"')
-            raw(paragraphs([*lines, *dict.fromkeys([*body.notes, *rough.warnings])]) + picture)
+            raw(found[1])
 
-        background_tasks.create(self.later(self.of_surface, "indenter.height-map.file", look, tell))
+        what = f"reading {path.name}, {path.stat().st_size / 1e6:.3g} MB" if path.is_file() else ""
+        self.later(self.of_surface, "indenter.height-map.file", what, look, tell)
 
     def load(self) -> None:
         chosen = self.chosen
         with ui.card():
             raw("<h2>3. Load and speeds</h2>")
-            self.force = self.number("load", chosen.force_label, chosen.force, partial(self.choose_one, "force"))
+            self.force = self.number("load.normal_force", chosen.force_label, chosen.force, partial(self.choose_one, "force"))
+            self.fields["load.mean_pressure"] = self.force
             for name, path, label in SPEEDS:
                 self.number(path, label, getattr(chosen, name), partial(self.choose_one, name))
-            text = " ".join(f"{one:g}" for one in chosen.temperatures)
-            path = "material.file.temperature"
-            hot = ui.input("temperatures [°C], between blanks", value=text, on_change=partial(self.changed, path, self.choose_temperatures))
-            self.field(path, hot)
+            text = " ".join(map(shown, chosen.temperatures))
+            self.text("material.file.temperature", "temperatures [°C]", text, lambda text: self.choose(temperatures=_choices.temperatures(text or "")))
             ui.switch("band of the material", value=chosen.band, on_change=lambda event: self.choose_one("band", event.value))
             self.file("measured", "measured friction", TABLES, chosen.measured, self.choose_measured)
             raw(paragraphs([ELSEWHERE]))
-
-    def choose_temperatures(self, text: str) -> None:
-        try:
-            self.choose(temperatures=_choices.temperatures(text or ""))
-        except ValueError as error:
-            self.choose(temperatures=(math.nan,))
-            self.refuse(error)
 
     # What comes of it.
 
     def results(self) -> None:
         with ui.card():
             with ui.row().classes("items-center wide"):
-                self.go = ui.button("Compute", on_click=self.compute).props("no-caps")
-                self.halt = ui.button("Stop", on_click=lambda: self.project.stop()).props("no-caps color=negative")
+                ui.button("Compute", on_click=self.compute).props("no-caps").bind_enabled_from(self.project, "is_running", lambda on: not on)
+                ui.button("Stop", on_click=self.project.stop).props("no-caps color=negative").bind_visibility_from(self.project, "is_running")
                 self.told = ui.label().props("role=status")
             self.shown = ui.select({}, label="computation", on_change=self.show_other).classes("wide")
             self.bar = ui.linear_progress(0.0, show_value=False).props('aria-label="points that are computed"')
             self.problem = ui.label().classes("text-negative wide").props("role=alert")
-            self.plot = ui.plotly(_curves.plotly({}, None)).classes("wide").props('role=img aria-label="friction over the speed"')
+            self.plot = ui.plotly(_curves.plotly({}, None)).classes("wide chart").props(PLOT)
             self.plot.on("plotly_click", self.clicked, ["points"])
-            with ui.row().classes("wide"):
-                for kind in ("Scene file", "Command", "Python"):
-                    ui.button(kind, on_click=partial(self.show, kind), color=None).props("outline no-caps")
-                for kind in ("CSV", "SVG", "PNG", "Report"):
-                    ui.button(kind, on_click=partial(self.give, kind), color=None).props("outline no-caps icon=download")
+            self.notes = ui.html("", sanitize=False).classes("wide notes")
+            with ui.row().classes("wide gap-2"):
+                for kind in ("Scene file", "Command", "Python", "CSV", "SVG", "PNG", "Report"):
+                    is_text = kind in ("Scene file", "Command", "Python")
+                    save = ui.button(kind, on_click=partial(self.show if is_text else self.give, kind), color=None).props("outline no-caps dense")
+                    save.props("" if is_text else "icon=download")
             with ui.expansion("all points as a table").classes("wide"):
-                self.table = ui.column().classes("wide")
+                self.table = ui.html("", sanitize=False).classes("wide")
         with ui.card():
             raw("<h2>The contact of a point</h2>")
             self.point = ui.select({}, label="point, or click on one", on_change=lambda event: self.look_at_point(event.value)).classes("wide point")
             self.of_point = ui.column().classes("wide")
 
     def compute(self) -> None:
-        if self.chosen != self.known:
-            self.refuse(ValueError("another page has chosen something else; load this page again to see it"))
-            return
-        self.choose()
-        for field in self.fields.values():
-            field.error = None
+        self.problem.set_text("")
+        self.check(*self.fields.values())
         self.tried(self.project.compute)
 
     def show_other(self, event: events.ValueChangeEventArguments[Any]) -> None:
@@ -404,59 +417,54 @@ class Page:
         self.tried(self.project.measured, "measured")
 
     def refresh(self) -> None:
-        """Shows the state, and the points where there are other ones."""
+        """Shows the newest choices and the state, and the points where there are other ones."""
+        if self.chosen != self.known:
+            self.forms()
         computation = self.project.computation
-        self.halt.set_visibility(self.project.is_running)
-        self.go.set_enabled(not self.project.is_running)
         self.bar.set_value(computation.done / computation.total if computation else 0.0)
         self.told.set_text(computation.told if computation else "nothing is computed yet")
-        state = computation and (computation, computation.done, computation.state, self.chosen.measured)
-        if computation is None or state == self.seen:
+        state = (computation, computation and computation.state, computation and computation.done, self.chosen.measured)
+        if state == self.seen:
             return
-        if self.seen is None or (self.seen[0], self.seen[2]) != (computation, computation.state):
+        if self.seen is None or self.seen[:2] != state[:2]:
             # All tables of the folder are read, which takes too long for each point.
-            self.shown.set_options(self.project.computations(), value=computation.name)
+            listed = self.project.computations()
+            self.shown.set_options(listed, value=computation.name if computation and computation.name in listed else None)
         self.seen = state
         self.draw()
-        if computation.problem:
+        if computation and computation.problem:
             self.refuse(ValueError(computation.problem))
 
     def draw(self) -> None:
         sweeps = self.tried(self.project.sweeps) or {}
         self.plot.update_figure(_curves.plotly(sweeps, self.tried(self.project.measured, "measured")))
         self.point.set_options({f"{part}:{row}": text for (part, row), text in _curves.points(sweeps).items()})
-        if missing := sum(int(np.isnan(sweep[_curves.FRICTION]).sum()) for sweep in sweeps.values() if len(sweep)):
-            self.problem.set_text(f"points without an answer: {missing}; the list of points and the report say why")
-        self.table.clear()
-        with self.table:
-            for part, sweep in sweeps.items():
-                raw(f"<h3>{html.escape(part)}</h3>" + sweep._repr_html_())
+        self.notes.set_content(paragraphs((self.said(line)[0] for line in _curves.notes(sweeps)), "caution"))
+        self.table.set_content("".join(f"<h3>{html.escape(part)}</h3>" + sweep._repr_html_() for part, sweep in sweeps.items()))
 
     def clicked(self, event: events.GenericEventArguments) -> None:
         points = [point["customdata"] for point in event.args["points"] if point.get("customdata")]
-        if points:
-            self.point.set_value(f"{points[0][0]}:{points[0][1]}")
+        for part, row in points[:1]:
+            self.point.set_value(f"{part}:{row}")
 
     def look_at_point(self, chosen: str | None) -> None:
-        computation = self.project.computation
-        self.of_point.clear()
-        if computation is None or not chosen:
-            return
-        part, row = chosen.rsplit(":", 1)
+        computation: Any = self.project.computation
+        name = dict(self.point.options).get(chosen, "")
 
         def look() -> str:
-            answer, title = computation.point(part, int(row))
+            part, row = str(chosen).rsplit(":", 1)
+            answer = computation.point(part, int(row))
             fields = FIELDS if answer.largest_temperature_rise is not None else FIELDS[:2]
             known = [field for field in fields if hasattr(answer, field) or hasattr(answer, f"line_{field}")]
-            lines = [title, *(f"{answer.method} has no {field} of the contact" for field in fields if field not in known)]
-            pictures = [image(answer.plot(_curves.new_axes(), field), f"{field} of the contact") for field in known]
-            return paragraphs(lines) + "".join(pictures) + answer._repr_html_()
+            lines = [name, *(f"{answer.method} has no {field} of the contact" for field in fields if field not in known)]
+            pictures = [image(answer.plot(new_axes(), field), f"{field} of the contact") for field in known]
+            return paragraphs(lines) + paragraphs(answer.warnings, "caution") + "".join(pictures) + str(answer._repr_html_())
 
         def tell(found: str) -> None:
             raw(found)
             ui.run_javascript(f"setTimeout(() => getHtmlElement({self.point.id}).scrollIntoView({{behavior: 'smooth'}}), 200)")
 
-        background_tasks.create(self.later(self.of_point, "", look, tell))
+        self.later(self.of_point, "", name and f"computing {name}", look, tell)
 
     # What leads on.
 
@@ -474,4 +482,3 @@ class Page:
     def give(self, kind: str) -> None:
         for name, content in (self.tried(lambda: self.project.exported(kind)) or {}).items():
             ui.download.content(content, name)
-

@@ -2,51 +2,51 @@
 
 from __future__ import annotations
 
+import asyncio
 import filecmp
+import math
 import os
 import re
 import threading
 import time
+from collections import defaultdict
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
-from typing import Literal
 
 import viscofriction as vf
 
+from .. import _native
 from .._fitting import LARGEST_TABLE
-from .._results import html_page
-from .._sweeping import Sweep
+from .._plotting import file_of
+from .._sweeping import Sweep, page_of, write_whole
 from . import _choices, _curves
 from ._choices import Choices
 
 #: Names of the files of computations.
 OWN = re.compile(r"(friction-\d+)(-without-heat|-material)?\.(csv|toml)")
 
-State = Literal["ready", "running", "stopped", "finished", "failed"]
-
 
 class Computation:
     """The sweeps of some choices, in files of the folder that ``vf.sweep`` and the program go on with.
 
-    ``state``, ``problem``: Where it is, and the sentence of what ended it.
+    ``state``, ``problem``: "ready", "running", "stopped", "finished" or "failed", and the sentence of what ended it.
     ``done``, ``total``: Points that are computed, and all of them.
     """
 
     def __init__(self, folder: Path, choices: Choices, name: str) -> None:
         self.folder, self.choices, self.name = folder, choices, name
         self.problem = ""
-        counts = {part: len(vf.read_sweep(self.table(part))) for part in _choices.parts(choices, name) if self.table(part).exists()}
-        self._done = dict.fromkeys(_choices.parts(choices, name), 0) | counts
-        n_points = 1
-        for values in _choices.vary(choices).values():
-            n_points *= len(values)
-        self.total = n_points * len(self._done)
-        self._begun: tuple[float, int] = (0.0, 0)
-        self._wanted = threading.Event()
-        self._thread: threading.Thread | None = None
-        self.state: State = "finished" if self.done == self.total else "stopped" if self.done else "ready"
+        tables = {part: self.table(part) for part in _choices.parts(choices, name)}
+        self._done = {part: len(vf.read_sweep(table)) if table.exists() else 0 for part, table in tables.items()}
+        self.total = math.prod(map(len, _choices.vary(choices).values())) * len(self._done)
+        #: When this run began, with how many points, and when the last point was finished.
+        self._begun, self._before, self._last = 0.0, 0, 0.0
+        #: Set to ask for the end; the points that are computed stay.
+        self.is_ending = threading.Event()
+        self._thread = threading.Thread(target=self._run, daemon=True)
+        self.state = "finished" if self.done == self.total else "stopped" if self.done else "ready"
 
     @classmethod
     def all(cls, folder: Path) -> Iterator[Computation]:
@@ -65,26 +65,22 @@ class Computation:
         return sum(self._done.values())
 
     @property
-    def seconds_left(self) -> float | None:
-        """An estimate of the time that the missing points take [s], from those of this run; None before the first of them."""
-        begun, before = self._begun
-        now = self.done - before
-        return (time.monotonic() - begun) / now * (self.total - self.done) if self.state == "running" and now else None
-
-    @property
     def told(self) -> str:
-        """The state as a sentence, with an estimate of what is left."""
-        left = self.seconds_left
-        after = {"running": "about to begin" if left is None else f"about {left:.0f} s left", "stopped": "stopped; Compute goes on"}
-        words = after | {"finished": "finished", "failed": "ended by an error", "ready": ""}
-        return f"{self.name}: {self.done} of {self.total} points, {words[self.state]}"
+        """The state as a sentence, with an estimate of what is left from the points of this run; it falls while the next one is computed."""
+        now, left = self.done - self._before, "about to begin"
+        if now:
+            of_missing = (self._last - self._begun) / now * (self.total - self.done)
+            left = f"about {max(0.0, of_missing - (time.monotonic() - self._last)):.0f} s left"
+        words = {"running": left, "stopped": "stopped; Compute goes on", "finished": "finished", "failed": "ended by an error"}
+        return f"{self.name}: {self.done} of {self.total} points, {words.get(self.state, 'Compute begins')}"
 
-    def point(self, part: str, row: int) -> tuple[vf.Answer, str]:
-        """The answer of a point with its fields and its budget, and what it is. Raises ValueError and NotReached."""
+    def point(self, part: str, row: int) -> vf.Answer:
+        """The answer of a point with its fields and its budget. Raises ValueError with the reason for a point that has none, and NotReached."""
         sweep = self.sweeps()[part]
-        text = ", ".join(f"{key.rsplit('.', 1)[-1]} {sweep[key][row]:g}" for key in sweep.keys)
-        scene = _choices.at_point(self.folder, part, sweep, row)
-        return vf.solve(scene, sensitivity=_choices.with_band(self.choices, scene)), text
+        if failure := sweep.failures[row]:
+            raise ValueError(failure)
+        scene = vf.scene_of_point(self.folder / f"{part}.toml", sweep, row)
+        return vf.solve(scene, sensitivity=_choices.with_band(self.choices, scene))
 
     def sweeps(self) -> dict[str, Sweep]:
         """The points that are in the files, by the names of the parts."""
@@ -93,21 +89,17 @@ class Computation:
     def start(self) -> None:
         """Writes the files of the scenes and computes the missing points in a thread of its own."""
         self.state, self.problem = "running", ""
-        self._wanted.clear()
-        self._begun = (time.monotonic(), self.done)
+        self.is_ending.clear()
+        self._begun, self._before = time.monotonic(), self.done
         self._thread = threading.Thread(target=self._run, daemon=True)
         self._thread.start()
 
-    def stop(self) -> None:
-        """Asks for the end; the points that are computed stay."""
-        self._wanted.set()
-
     def wait(self) -> None:
         """Returns when the thread has ended."""
-        if self._thread is not None:
-            self._thread.join()
+        self._thread.join()
 
     def _run(self) -> None:
+        is_new = not (self.folder / f"{self.name}.json").exists()
         try:
             self._write()
             for part in self._done:
@@ -115,39 +107,31 @@ class Computation:
             self.state = "finished" if self.done == self.total else "stopped"
         except Exception as error:  # Whatever it is, the page says it, and stays.
             self.state, self.problem = "failed", str(error) or type(error).__name__
+        if is_new and not self.done:
+            self._remove()
 
     def _write(self) -> None:
-        scenes = {part: _choices.scene_text(table) for part, table in _choices.parts(self.choices, self.name).items()}
+        scenes = {part: _native.toml_text(table) for part, table in _choices.parts(self.choices, self.name).items()}
         if self.choices.is_fitted:
             text = _choices.fit(self.choices, self.folder).material.to_toml()
-            write(self.folder / _choices.material_file(self.choices, self.name), text)
+            write_whole(self.folder / _choices.material_file(self.choices, self.name), text)
         for part, text in scenes.items():
-            write(self.folder / f"{part}.toml", text)
-        write(self.folder / f"{self.name}.json", _choices.stored(self.choices, self.folder))
+            write_whole(self.folder / f"{part}.toml", text)
+        write_whole(self.folder / f"{self.name}.json", _choices.stored(self.choices, self.folder))
+
+    def _remove(self) -> None:
+        """Gives the name back, for which this run has begun files and there are no points."""
+        for name in (f"{self.name}.json", f"{self.name}-material.toml", *(f"{part}.{ends}" for part in self._done for ends in ("toml", "csv"))):
+            (self.folder / name).unlink(missing_ok=True)
 
     def _sweep(self, part: str) -> None:
         def count(done: int, _: int) -> None:
-            self._done[part] = done
+            self._done[part], self._last = done, time.monotonic()
 
         if self._done[part] < self.total // len(self._done):
-            vf.sweep(
-                self.folder / f"{part}.toml",
-                _choices.vary(self.choices),
-                sensitivity=_choices.with_band(self.choices, _choices.parts(self.choices, self.name)[part]),
-                out=self.table(part),
-                resume=True,
-                progress=count,
-                stop=self._wanted.is_set,
-            )
-
-
-def write(path: Path, text: str) -> None:
-    """Writes a file so that it is whole or the old one; one that is there with this text stays as it is."""
-    if path.exists() and path.read_bytes() == text.encode("utf-8"):
-        return
-    part = path.with_name(f".{path.name}.part")
-    part.write_text(text, encoding="utf-8", newline="")
-    os.replace(part, path)
+            vary, band = _choices.vary(self.choices), _choices.with_band(self.choices, _choices.parts(self.choices, self.name)[part])
+            scene, out = self.folder / f"{part}.toml", self.table(part)
+            vf.sweep(scene, vary, sensitivity=band, out=out, resume=True, progress=count, stop=self.is_ending.is_set)
 
 
 class Project:
@@ -155,19 +139,18 @@ class Project:
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
+        #: What is read and computed for the page, one after another for each key.
+        self.locks: defaultdict[object, asyncio.Lock] = defaultdict(asyncio.Lock)
         self.computation = next(Computation.all(folder), None)
         self.choices = Choices() if self.computation is None else self.computation.choices
-        draft = self._draft
-        if draft.is_file():
-            try:
-                self.choices = Choices.from_json(draft.read_text("utf-8"))
-            except (ValueError, TypeError):
-                # Whatever it is, it is not lost.
-                self.keep("viscofriction-app-unreadable.json", draft)
-
-    @property
-    def _draft(self) -> Path:
-        return self.folder / "viscofriction-app.json"
+        self._draft = folder / "viscofriction-app.json"
+        try:
+            self.choices = Choices.from_json(self._draft.read_text("utf-8"))
+        except FileNotFoundError:
+            pass
+        except (ValueError, TypeError):
+            # Whatever it is, it is not lost.
+            self.keep("viscofriction-app-unreadable.json", self._draft)
 
     @property
     def is_running(self) -> bool:
@@ -177,7 +160,7 @@ class Project:
     def choose(self, choices: Choices) -> None:
         """Keeps the choices, also for the next start."""
         self.choices = choices
-        write(self._draft, choices.to_json())
+        write_whole(self._draft, choices.to_json())
 
     def compute(self) -> Computation:
         """Begins the computation of the choices, or goes on with it. Raises ValueError for what is missing or wrong."""
@@ -190,7 +173,7 @@ class Project:
 
     def computations(self) -> dict[str, str]:
         """What the computations of the folder are of, by their names, the newest first."""
-        return {one.name: f"{one.name}: {one.choices.title}; {one.done} of {one.total} points" for one in Computation.all(self.folder)}
+        return {one.name: f"{one.name}: {one.choices.title}" for one in Computation.all(self.folder)}
 
     def show(self, name: str) -> None:
         """Shows another computation of the folder. Raises ValueError while one runs."""
@@ -218,7 +201,7 @@ class Project:
     def stop(self) -> None:
         """Ends the computation that runs; its points stay."""
         if self.computation is not None:
-            self.computation.stop()
+            self.computation.is_ending.set()
 
     def shown(self) -> tuple[Choices, str]:
         """The choices and the name of the computation that is shown, or of the one that would begin."""
@@ -241,9 +224,9 @@ class Project:
         """Files by their names: "Scene file", "Command", "Python", "CSV", "SVG", "PNG" or "Report" of what is shown. Raises ValueError for
         what is missing in the choices, and without points."""
         choices, name = self.shown()
-        scenes = {f"{part}.toml": _choices.scene_text(table) for part, table in _choices.parts(choices, name).items()}
-        texts = {"Scene file": scenes, "Command": {f"{name}.sh": _choices.command(choices, name)}}
-        texts |= {"Python": {f"{name}.py": _choices.python(choices, name)}}
+        scenes = {f"{part}.toml": _native.toml_text(table) for part, table in _choices.parts(choices, name).items()}
+        command, python = {f"{name}.sh": _choices.command(choices, name)}, {f"{name}.py": _choices.python(choices, name)}
+        texts = {"Scene file": scenes, "Command": command, "Python": python}
         if kind in texts:
             return {file: text.encode() for file, text in texts[kind].items()}
         sweeps = self.sweeps()
@@ -253,8 +236,6 @@ class Project:
             return {f"{part}.csv": (self.folder / f"{part}.csv").read_bytes() for part in sweeps}
         axes = _curves.drawn(sweeps, self.measured())
         if kind != "Report":
-            return {f"{name}.{kind.lower()}": _curves.picture(axes, kind.lower())}
-        svg = _curves.picture(axes, "svg").decode()
-        tables = "".join(f"<h2>{part}</h2>{sweep._html(all_rows=True)}" for part, sweep in sweeps.items())
+            return {f"{name}.{kind.lower()}": file_of(axes, kind.lower())}
         below = {file: text for of in texts.values() for file, text in of.items()}
-        return {f"{name}.html": html_page(f"Friction over the speed: {name}", svg[svg.index("<svg") :] + tables, below).encode()}
+        return {f"{name}.html": page_of(f"Friction over the speed: {name}", axes, sweeps, below).encode()}
