@@ -119,7 +119,7 @@ pub(crate) fn fit_oscillation<'py>(
     options: Options,
 ) -> PyResult<Bound<'py, PyDict>> {
     let points = points(&[angular_frequency, storage, loss]);
-    fitted(py, MeasuredCurve::oscillation(points), &options)
+    fitted(py, MeasuredCurve::oscillation(points), &options, false)
 }
 
 /// Fits a Prony series to relaxation moduli over time; the result is that of [`fit_oscillation`].
@@ -133,7 +133,7 @@ pub(crate) fn fit_relaxation<'py>(
     let (times, moduli) = (time.as_array(), modulus.as_array());
     let point = |(&time, &modulus)| RelaxationPoint { time, modulus };
     let points = times.iter().zip(moduli.iter()).map(point).collect();
-    fitted(py, MeasuredCurve::relaxation(points), &options)
+    fitted(py, MeasuredCurve::relaxation(points), &options, false)
 }
 
 /// Expands a function G(t) in a Prony series with its largest relative error; exceptions of the function are passed on.
@@ -176,11 +176,12 @@ fn series<'py>(py: Python<'py>, spectrum: &RelaxationSpectrum) -> PyResult<Bound
     Ok(dictionary)
 }
 
-/// Fits a series to a curve; returns a dictionary.
+/// Fits a series to a curve, which may be one of several isotherms; returns a dictionary.
 pub(crate) fn fitted<'py>(
     py: Python<'py>,
     curve: Result<MeasuredCurve, RheologyError>,
     options: &Options,
+    of_isotherms: bool,
 ) -> PyResult<Bound<'py, PyDict>> {
     let options = options.checked()?;
     let curve = curve.map_err(wrong)?;
@@ -190,6 +191,7 @@ pub(crate) fn fitted<'py>(
     dictionary.set_item("valid_frequencies", (lowest, highest))?;
     dictionary.set_item("rms_relative_error", found.rms_relative_error)?;
     let pair = |error: Option<RelativeError>| error.map(|one| (one.rms, one.max));
+    dictionary.set_item("warnings", found.systematic_errors(of_isotherms))?;
     dictionary.set_item("storage_error", pair(found.storage_error))?;
     dictionary.set_item("loss_error", pair(found.loss_error))?;
     dictionary.set_item("max_relative_error", found.max_relative_error)?;

@@ -151,7 +151,8 @@ pub(crate) fn fit_isotherms<'py>(
         .map_err(wrong)?;
     let master = found.master;
     let shift = found.shift.map(|shift| serde_json::to_string(&shift));
-    let dictionary = fitted(py, Ok(master.curve), &options)?;
+    let of_isotherms = master.shifts.len() > 1;
+    let dictionary = fitted(py, Ok(master.curve), &options, of_isotherms)?;
     let place = |shift: &IsothermShift| {
         let factors = (shift.log10_factor, shift.modulus_factor);
         (shift.temperature, factors, shift.placed_by_law)

@@ -504,5 +504,5 @@ def test_isotherms_that_do_not_lie_on_one_curve_are_a_warning_as_of_the_program(
     np.savetxt(tmp_path / "wave.csv", columns, "%.9g", ",", header=head, comments="", encoding="utf-8")
     # The program counts the same changes.
     [warning] = vf.fit_material(tmp_path / "wave.csv").warnings
-    assert warning.startswith("the errors of G′, 6.67 % rms, are not noise: from one frequency to the next they change their sign 15 of 72 times")
+    assert warning.startswith("the errors of G', 6.67 % rms, are not noise: from one frequency to the next they change their sign 15 of 72 times")
     assert "the isotherms do not lie on one curve" in warning

@@ -30,11 +30,6 @@ _VERTICAL: dict[Vertical, str] = {
     "free": "the moduli of each isotherm have a factor b_T",
 }
 
-#: Largest rms error of a modulus that is not reported, and the standard deviations below the expected number of changes of sign that chance
-#: does not explain: both those of the program's ``fit-material``.
-REPORTED_RMS = 0.01
-CHANCE_DEVIATIONS = 4.0
-
 __all__ = ["Fit", "IsothermShift", "Moduli", "fit_material", "fit_relaxation", "read_moduli", "scaling_factor"]
 
 
@@ -76,6 +71,8 @@ class Fit:
     ``covariance_method``: How it was found.
     ``measured``: The moduli of a table that were fitted, of several isotherms shifted onto the master curve: at the frequencies a_T ω
     the moduli over b_T, with the temperature at which each was measured.
+    ``warnings``: Sentences about moduli whose errors are not noise: above 1 % rms, with too few changes of sign along the isotherms
+    (Geary 1970).
     """
 
     material: Prony
@@ -91,6 +88,7 @@ class Fit:
     covariance: Numbers | None = field(default=None, compare=False, repr=False)
     covariance_method: str | None = None
     measured: Moduli | None = field(default=None, compare=False, repr=False)
+    warnings: tuple[str, ...] = ()
 
     @property
     def residuals(self) -> tuple[Numbers, Numbers]:
@@ -119,26 +117,6 @@ class Fit:
             lines.append("the isotherms do not show whether moduli change with temperature, and the errors of the moduli include both")
         placed = ", ".join(f"{shift.temperature:g}" for shift in self.shifts if shift.placed_by_law)
         return (*lines, f"placed by the shift law of the others: the isotherms of {placed}") if placed else tuple(lines)
-
-    @property
-    def warnings(self) -> tuple[str, ...]:
-        """Sentences about moduli whose relative errors are not noise: above 1 % rms, with too few changes of sign along the isotherms (Geary 1970)."""
-        points = self.measured
-        if self.storage_error is None or self.loss_error is None or points is None or points.angular_frequency is None:
-            return ()
-        isotherm = np.zeros(points.angular_frequency.size) if points.temperature is None else points.temperature
-        order = np.lexsort((points.angular_frequency, isotherm))
-        is_neighbour = np.diff(isotherm[order]) == 0
-        possible = int(is_neighbour.sum())
-        one_curve = "the isotherms do not lie on one curve, " if len(self.shifts) > 1 else ""
-        lines = []
-        for name, (rms, _), residuals in zip(("G′", "G″"), (self.storage_error, self.loss_error), self.residuals):
-            changes = int((np.diff(residuals[order] > 0) & is_neighbour).sum())
-            if rms > REPORTED_RMS and changes < 0.5 * (possible - CHANCE_DEVIATIONS * math.sqrt(possible)):
-                found = f"from one frequency to the next they change their sign {changes} of {possible} times, and noise does every other time"
-                why = f"{one_curve}the two moduli contradict each other, or the series does not have their form"
-                lines.append(f"the errors of {name}, {100 * rms:.2f} % rms, are not noise: {found}; {why}: see the errors below the moduli")
-        return tuple(lines)
 
     def plot(self, ax: Any = None) -> Any:
         """Draws the moduli of a table and of the fit over the frequency, on the master curve, and below them the relative error of every
@@ -370,7 +348,7 @@ def _fit(found: dict[str, Any], poisson_ratio: float) -> Fit:
         shift=json.loads(found["shift"]) if found.get("shift") else None,
     )
     errors = (found[name] for name in ("rms_relative_error", "max_relative_error", "storage_error", "loss_error"))
-    fit = Fit(material, *errors)
+    fit = Fit(material, *errors, warnings=tuple(found["warnings"]))
     if relative is None:
         return fit
     moduli = np.array([found["equilibrium_modulus"], *(modulus for modulus, _ in found["branches"])])

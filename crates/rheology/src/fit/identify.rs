@@ -96,6 +96,40 @@ pub struct Identification {
     pub covariance: Option<ModuliCovariance>,
 }
 
+/// Largest rms relative error of a modulus up to which systematic errors are not reported. Chosen: smaller than errors that
+/// matter for friction.
+const MIN_REPORTED_RMS: f64 = 0.01;
+
+impl Identification {
+    /// A sentence for each modulus whose relative errors change their sign too rarely from one frequency to the next to be noise,
+    /// and have an rms of more than 1 %. A curve `of_isotherms` may have them because those do not lie on one curve.
+    pub fn systematic_errors(&self, of_isotherms: bool) -> Vec<String> {
+        let moduli = [
+            ("G'", self.storage_error, self.storage_sign_changes),
+            ("G''", self.loss_error, self.loss_sign_changes),
+        ];
+        let sentence = |(name, error, changes): (
+            &str,
+            Option<RelativeError>,
+            Option<SignChanges>,
+        )| {
+            let (error, changes) = (error?, changes?);
+            let matters = error.rms > MIN_REPORTED_RMS && changes.are_too_few();
+            matters.then(|| {
+                format!(
+                    "the errors of {name}, {:.2} % rms, are not noise: from one frequency to the next they change their sign {} of {} times, \
+                     and noise does every other time; {}the two moduli contradict each other, or the series does not have their form",
+                    100.0 * error.rms,
+                    changes.found,
+                    changes.possible,
+                    if of_isotherms { "the isotherms do not lie on one curve, " } else { "" }
+                )
+            })
+        };
+        moduli.into_iter().filter_map(sentence).collect()
+    }
+}
+
 /// The identified series as an expansion of the measured curve, with the largest error at the points.
 impl From<Identification> for PronyExpansion {
     fn from(found: Identification) -> Self {

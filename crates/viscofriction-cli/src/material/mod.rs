@@ -16,7 +16,7 @@ use measurements::moduli::{
 use rheology::RheologyError;
 use rheology::fit::{
     Control, Identification, IdentifyOptions, LongTimeLimit, MeasuredCurve, ModulusPoint,
-    RelativeError, RelaxationPoint, SignChanges, VerticalChoice, VerticalShift, identify,
+    RelativeError, RelaxationPoint, VerticalChoice, VerticalShift, identify,
 };
 use viscofriction::WrongInput;
 use viscofriction::scene::ShiftLaw;
@@ -320,40 +320,10 @@ impl Fitted<'_> {
         shifted.filter(|shifted| shifted.master.shifts.len() > 1)
     }
 
-    /// A warning for each modulus whose relative errors change their sign too rarely from one frequency to the next to be
-    /// noise, and have an rms of more than [`MIN_REPORTED_RMS`].
+    /// A warning for each modulus whose errors matter and are not noise.
     fn warnings(&self) -> Vec<String> {
-        let moduli = [
-            (
-                "G'",
-                self.found.storage_error,
-                self.found.storage_sign_changes,
-            ),
-            ("G''", self.found.loss_error, self.found.loss_sign_changes),
-        ];
-        let warning = |(name, error, changes): (
-            &str,
-            Option<RelativeError>,
-            Option<SignChanges>,
-        )| {
-            let (error, changes) = (error?, changes?);
-            let matters = error.rms > MIN_REPORTED_RMS && changes.are_too_few();
-            matters.then(|| {
-                format!(
-                    "the errors of {name}, {:.2} % rms, are not noise: from one frequency to the next they change their sign {} of {} times, \
-                     and noise does every other time; {}the two moduli contradict each other, or the series does not have their form: see the \
-                     errors in fit.svg",
-                    100.0 * error.rms,
-                    changes.found,
-                    changes.possible,
-                    self.isotherms().map_or("", |_| "the isotherms do not lie on one curve, ")
-                )
-            })
-        };
-        moduli.into_iter().filter_map(warning).collect()
+        let errors = self.found.systematic_errors(self.isotherms().is_some());
+        let place = |error| format!("{error}: see the errors in fit.svg");
+        errors.into_iter().map(place).collect()
     }
 }
-
-/// Largest rms relative error of a modulus up to which systematic errors are not reported. Chosen: smaller than errors that
-/// matter for friction.
-const MIN_REPORTED_RMS: f64 = 0.01;
