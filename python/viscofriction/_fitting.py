@@ -348,7 +348,7 @@ def _fit(found: dict[str, Any], poisson_ratio: float) -> Fit:
         shift=json.loads(found["shift"]) if found.get("shift") else None,
     )
     errors = (found[name] for name in ("rms_relative_error", "max_relative_error", "storage_error", "loss_error"))
-    fit = Fit(material, *errors, warnings=tuple(found["warnings"]))
+    fit = replace(Fit(material, *errors), warnings=tuple(found["warnings"]))
     if relative is None:
         return fit
     moduli = np.array([found["equilibrium_modulus"], *(modulus for modulus, _ in found["branches"])])
