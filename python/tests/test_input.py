@@ -249,7 +249,7 @@ def test_friction_from_outside_of_the_measured_frequencies_is_said() -> None:
     assert np.allclose(share["outside_window"], share["below_window"] + share["above_window"])
     assert share["below_window"][0] > 0.99 and share["outside_window"][1] < 0.1 and share["above_window"][2] > 0.5
     (warning,) = friction.warnings
-    assert "was not measured" in warning and warning.endswith("(at 2 of 3 points)")
+    assert "was not measured" in warning and warning.endswith("(at 2 of 3 points, with the numbers of the first)")
 
 
 def test_strain_dependences_are_checked_when_they_are_made() -> None:

@@ -236,7 +236,7 @@ def test_results_know_their_warnings_and_what_is_not_in_them() -> None:
     scene = {"indenter": steep, "material": vf.Viscous(1e4), "load": load}
     table = vf.sweep(scene, {"indenter.cone.slope": [0.1, 0.8, 0.9]})
     (shared,) = table.warnings
-    assert shared == f"{sentence} (at 2 of 3 points)"
+    assert shared == f"{sentence} (at 2 of 3 points, with the numbers of the first)"
     assert table["warnings"].tolist()[:2] == ["", sentence]
     for result in (answer, several, table):
         assert "warning: the mean slope" in repr(result) and "<p>the mean slope" in result._repr_html_()

@@ -5,8 +5,10 @@ use std::fmt;
 /// A warning that some of many answers share.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SharedWarning<W> {
-    /// The warning of the first answer; those of others may differ in their numbers.
+    /// The warning of the first answer.
     pub warning: W,
+    /// Whether those of others differ from it in their numbers.
+    pub numbers_differ: bool,
     /// Number of answers with this warning.
     pub answers: usize,
     /// Total number of answers.
@@ -17,10 +19,16 @@ impl<W: fmt::Display> fmt::Display for SharedWarning<W> {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self {
             warning,
+            numbers_differ,
             answers,
             of,
         } = self;
-        write!(out, "{warning} (at {answers} of {of} points)")
+        let numbers = if *numbers_differ {
+            ", with the numbers of the first"
+        } else {
+            ""
+        };
+        write!(out, "{warning} (at {answers} of {of} points{numbers})")
     }
 }
 
@@ -33,13 +41,18 @@ pub fn each_once<W: fmt::Display>(
     for warnings in answers {
         of += 1;
         for warning in warnings {
-            let kind = without_numbers(&warning.to_string());
+            let sentence = warning.to_string();
+            let kind = without_numbers(&sentence);
             match found.iter_mut().find(|(known, _)| *known == kind) {
-                Some((_, shared)) => shared.answers += 1,
+                Some((_, shared)) => {
+                    shared.answers += 1;
+                    shared.numbers_differ |= shared.warning.to_string() != sentence;
+                }
                 None => {
                     let answers = 1;
                     let shared = SharedWarning {
                         warning,
+                        numbers_differ: false,
                         answers,
                         of,
                     };
