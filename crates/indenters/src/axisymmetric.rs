@@ -76,6 +76,15 @@ pub trait Axisymmetric: Send + Sync {
         f64::INFINITY
     }
 
+    /// Radius beyond which the equivalent line only rises, \[m]: up to it the body may come down again outside a contact.
+    ///
+    /// The default is the end of the body, and 0 for an endless one, which is taken to rise outside its contact.
+    fn falling_up_to(&self) -> f64 {
+        Some(self.max_radius())
+            .filter(|end| end.is_finite())
+            .unwrap_or_default()
+    }
+
     /// Jumps of slope or curvature inside the body, by increasing radius.
     fn kinks(&self) -> Vec<Kink> {
         Vec::new()

@@ -4,9 +4,11 @@
 //! h̃(a) = d,   h̃ rising on [0, a]
 //! ```
 
+use std::f64::consts::FRAC_PI_2;
+
 use crate::leading_edge::crossing;
 use crate::{Axisymmetric, EquivalentLine, IndenterError};
-use numerics::{InvalidParameter, bracketed_root, in_range, positive};
+use numerics::{InvalidParameter, bracketed_root, in_range, integrate, positive};
 
 /// Ratio of neighbouring radii of the search, 2^(1/8). Chosen: valleys of the line that are narrower than a step are missed.
 const SEARCH_STEP: f64 = 1.090_507_732_665_257_7;
@@ -20,7 +22,68 @@ const APEX_EXPONENT_TOLERANCE: f64 = 1e-2;
 /// x. Chosen: some thousand roundings.
 const FALL_TOLERANCE: f64 = 1e-12;
 
-/// Contact radius a \[m] at an indentation `depth` d > 0 \[m]: the smallest radius with h̃(a) = d.
+/// Relative tolerance of the gap outside a contact, of whose integral only the sign matters, and of the radius of the largest contact
+/// with an open gap. Chosen: far below errors that matter for a limit.
+const GAP_TOLERANCE: f64 = 1e-9;
+
+/// Contact radius a \[m] at an indentation `depth` d > 0 \[m]: the [`line_radius`], outside of which the body does not touch.
+///
+/// A body that comes down again outside a circle a, as one whose slope is negative there, must leave a gap to the surface that bulges
+/// around the contact (Sneddon 1965, Int. J. Eng. Sci. 3, 47):
+///
+/// ```text
+/// g(r) = (2/π) ∫_a^r (h̃(x) − d) dx/√(r² − x²) ≥ 0
+/// ```
+///
+/// # Errors
+/// Those of [`line_radius`]; [`IndenterError::NonMonotoneLine`] also where the gap closes. It then holds the largest radius and depth
+/// of a contact that is one circle.
+pub fn contact_radius(
+    body: &(impl Axisymmetric + ?Sized),
+    depth: f64,
+) -> Result<f64, IndenterError> {
+    let radius = line_radius(body, depth)?;
+    if gap_stays_open(body, radius, depth) {
+        return Ok(radius);
+    }
+    // The gap falls with the depth, so that the largest radius at which it is open follows by bisection.
+    let [mut open, mut closed] = [0.0, radius];
+    while closed - open > GAP_TOLERANCE * closed {
+        let middle = 0.5 * (open + closed);
+        if gap_stays_open(body, middle, body.line_height(middle)) {
+            open = middle;
+        } else {
+            closed = middle;
+        }
+    }
+    Err(IndenterError::NonMonotoneLine {
+        limiting_radius: open,
+        limiting_depth: body.line_height(open),
+        depth,
+    })
+}
+
+/// Whether no point outside a contact of a radius and depth \[m] touches, on radii in steps of [`SEARCH_STEP`].
+fn gap_stays_open(body: &(impl Axisymmetric + ?Sized), radius: f64, depth: f64) -> bool {
+    let end = body.falling_up_to();
+    let mut r = radius;
+    while r < end {
+        r = (r * SEARCH_STEP).min(end);
+        // The gap can only close where the line comes below the depth.
+        if body.line_height(r) >= depth {
+            continue;
+        }
+        let excess = |angle: f64| body.line_height(r * angle.sin()) - depth;
+        let gap = integrate(excess, [(radius / r).asin(), FRAC_PI_2], GAP_TOLERANCE);
+        if gap.value < 0.0 {
+            return false;
+        }
+    }
+    true
+}
+
+/// Radius at which the equivalent line first has the height of a `depth` d > 0, h̃(a) = d, \[m], whether or not the body touches
+/// farther out.
 ///
 /// The contact radius of a body that is flat to its end, as [`FlatPunch`](crate::FlatPunch), is its own radius. The line is
 /// searched from the apex outwards in steps of an eighth of an octave (9 % of the radius). Narrower valleys are missed
@@ -31,10 +94,7 @@ const FALL_TOLERANCE: f64 = 1e-12;
 /// - [`IndenterError::NotHighEnough`] when the body ends below the depth;
 /// - [`IndenterError::InvalidParameter`] when the depth is out of its range or exceeded at the smallest positive radius, or
 ///   when a height of the line is NaN.
-pub fn contact_radius(
-    body: &(impl Axisymmetric + ?Sized),
-    depth: f64,
-) -> Result<f64, IndenterError> {
+pub fn line_radius(body: &(impl Axisymmetric + ?Sized), depth: f64) -> Result<f64, IndenterError> {
     let depth = positive("depth", depth)?;
     let search = Search { body, depth };
     // Collect the kinks at which the slope jumps down, because the line falls just outside them by an inverse square root.
@@ -65,7 +125,7 @@ pub fn contact_radius(
     }
 }
 
-/// Search for the contact radius of a body at one depth.
+/// Search for the radius at which the line of a body reaches one depth.
 struct Search<'a, P: ?Sized> {
     /// Body that is pressed.
     body: &'a P,

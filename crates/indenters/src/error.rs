@@ -69,15 +69,16 @@ pub enum IndenterError {
         /// Upper end of the body, \[m].
         upper: f64,
     },
-    /// The equivalent line turns downwards before it reaches the depth asked for.
+    /// The equivalent line turns downwards before it reaches the depth, or the body touches outside the contact of that depth.
     ///
     /// The contact is then no longer a single circle, and the method of dimensionality reduction does not hold.
     #[error(
-        "the equivalent line rises only up to radius {} m, where its height is {} m; a depth of {} m was asked for",
+        "the body comes down again farther out: its contact is one circle only up to radius {} m, at a depth of {} m; a depth of {} m \
+         was asked for",
         Rounded(*limiting_radius), Rounded(*limiting_depth), Rounded(*depth)
     )]
     NonMonotoneLine {
-        /// Radius at which the equivalent line stops rising, \[m].
+        /// Radius at which the equivalent line stops rising, or of the largest contact outside of which the body does not touch, \[m].
         limiting_radius: f64,
         /// Height of the equivalent line at this radius, \[m].
         limiting_depth: f64,

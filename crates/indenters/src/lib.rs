@@ -73,7 +73,7 @@ struct ReadMe;
 
 pub use analytic_line::AnalyticLine;
 pub use axisymmetric::{Axisymmetric, Kink, LinePoint, ProfilePoint, abel_height, abel_slope};
-pub use contact_radius::contact_radius;
+pub use contact_radius::{contact_radius, line_radius};
 pub use cylinder::Cylinder;
 pub use equivalent_profile::EquivalentProfile;
 pub use error::IndenterError;

@@ -34,6 +34,9 @@ pub struct Superposition {
     /// Radius at which the body ends, \[m]; `+∞` if it does not.
     #[cfg_attr(feature = "serde", serde(skip))]
     max_radius: f64,
+    /// Radius beyond which the equivalent line only rises, \[m].
+    #[cfg_attr(feature = "serde", serde(skip))]
+    falling_up_to: f64,
 }
 
 impl Superposition {
@@ -68,8 +71,15 @@ impl Superposition {
         for term in &mut line_terms {
             term.coefficient *= stretch(term.exponent)?;
         }
+        let is_endless = terms[terms.len() - 1].coefficient > 0.0;
+        let crest = outermost_turn(&terms);
         Ok(Self {
-            max_radius: outermost_crest(&terms),
+            max_radius: if is_endless { f64::INFINITY } else { crest },
+            falling_up_to: if is_endless {
+                outermost_turn(&line_terms)
+            } else {
+                crest
+            },
             terms,
             line_terms,
         })
@@ -99,6 +109,10 @@ impl Axisymmetric for Superposition {
 
     fn max_radius(&self) -> f64 {
         self.max_radius
+    }
+
+    fn falling_up_to(&self) -> f64 {
+        self.falling_up_to
     }
 
     fn closed_line(&self, x: f64) -> Option<LinePoint> {
@@ -134,11 +148,8 @@ fn derivative(terms: &[PowerTerm], order: f64, weight: impl Fn(f64) -> f64, radi
     scaled_power(mantissa, radius, shift - order)
 }
 
-/// Largest radius at which the slope of a sum of powers changes from rising to falling, \[m]; `+∞` if the highest power rises.
-fn outermost_crest(terms: &[PowerTerm]) -> f64 {
-    if terms.last().is_none_or(|highest| highest.coefficient > 0.0) {
-        return f64::INFINITY;
-    }
+/// Largest radius at which the slope of a sum of powers changes its sign, \[m]; 0 if it does not.
+fn outermost_turn(terms: &[PowerTerm]) -> f64 {
     let slope: Vec<PowerTerm> = terms
         .iter()
         .map(|term| PowerTerm {
@@ -148,7 +159,7 @@ fn outermost_crest(terms: &[PowerTerm]) -> f64 {
         .collect();
     sign_changes(&slope)
         .last()
-        .map_or(f64::INFINITY, |logarithm| logarithm.exp())
+        .map_or(0.0, |logarithm| logarithm.exp())
 }
 
 /// Logarithms t of the radii at which a sum Σ a e^(p t) of powers, by increasing exponent, changes its sign, in increasing order.

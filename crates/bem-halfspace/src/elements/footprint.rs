@@ -63,12 +63,11 @@ impl Footprint {
         } else {
             1.5
         } * depth;
-        let footprint = reached(height)?;
-        let [_, radius] = footprint.x;
-        if radius < body.max_radius() || body.profile_height(radius) >= height {
-            return Ok(footprint);
+        // A flat punch has no front.
+        if body.profile_height(body.max_radius()) <= 0.0 {
+            return Err(nowhere_as_high(height).into());
         }
-        Err(nowhere_as_high(height).into())
+        reached(height)
     }
 
     /// The rectangle that holds the contact, if on a half space only points of the surface below a `height` \[m] touch. On a layer,

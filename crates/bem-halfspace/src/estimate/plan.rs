@@ -1,6 +1,6 @@
 //! The grids that a refinement starts from: footprint and approximate contact length from surface, material and load.
 
-use indenters::{Axisymmetric, Control, SlidingLoad, Surface, contact_radius};
+use indenters::{Axisymmetric, Control, SlidingLoad, Surface, line_radius};
 use numerics::whole_part;
 
 use crate::elements::footprint::{Footprint, MAX_HEIGHT_IN_DEPTH_SCALES};
@@ -124,7 +124,7 @@ impl GridPlan {
         footprint: Footprint,
         depth: f64,
     ) -> Result<Self, BemError> {
-        let spacing = contact_radius(body, depth)? / ELEMENTS_ON_COARSEST_GRID;
+        let spacing = line_radius(body, depth)? / ELEMENTS_ON_COARSEST_GRID;
         Ok(Self::smooth(footprint, spacing, body.profile_exponent()))
     }
 
@@ -240,6 +240,6 @@ pub(crate) fn kinks(
     if jumps == 0.0 {
         return Ok(0.0);
     }
-    let slope = body.profile(contact_radius(body, depth)?).slope;
+    let slope = body.profile(line_radius(body, depth)?).slope;
     Ok((jumps / slope.powi(2)).min(1.0))
 }

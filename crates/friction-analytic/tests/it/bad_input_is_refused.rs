@@ -184,20 +184,30 @@ fn contacts_beyond_the_body_are_refused() {
              normal_force or indentation_depth, or check the unit of shear_modulus or viscosity";
         assert_eq!(result.unwrap_err().to_string(), expected, "the message");
     }
-    // h̃ = (π/2) x − 2 x² rises up to x = π/8, where the moment ∫ x h̃' dx, which is the impulse over 8 η, is π³/768.
+    // h̃ = (π/2) x − 2 x² rises up to x = π/8, where the moment ∫ x h̃' dx, which is the impulse over 8 η, is π³/768. The crest at 1/2
+    // touches before.
     let falling = superposition(&[(1.0, 1.0), (-1.0, 2.0)]);
+    let limit = |impulse: f64| match indentation_after_impulse(&falling, &material, impulse) {
+        Err(FrictionError::Indenter(IndenterError::NonMonotoneLine {
+            limiting_radius,
+            limiting_depth,
+            ..
+        })) => [limiting_radius, limiting_depth],
+        other => panic!("{other:?}"),
+    };
     let largest = 8.0 * std::f64::consts::PI.powi(3) / 768.0;
-    let limit = std::f64::consts::PI / 8.0;
-    let result = indentation_after_impulse(&falling, &material, 0.999_999 * largest).unwrap();
+    let [turn, _] = limit(1.000_001 * largest);
     assert!(
-        result.contact_radius < limit && result.contact_radius > 0.99 * limit,
-        "{result:?}"
+        (turn * 8.0 / std::f64::consts::PI - 1.0).abs() < 1e-9,
+        "{turn}"
     );
-    let result = indentation_after_impulse(&falling, &material, 1.000_001 * largest);
-    assert_matches!(
-        result,
-        Err(FrictionError::Indenter(IndenterError::NonMonotoneLine { limiting_radius, .. }))
-            if (limiting_radius / limit - 1.0).abs() < 1e-9
+    let [radius, depth] = limit(0.999_999 * largest);
+    assert!(radius < 0.9 * turn, "{radius}");
+    let impulse = impulse_to_depth(&falling, &material, 0.999 * depth).unwrap();
+    let pressed = indentation_after_impulse(&falling, &material, impulse).unwrap();
+    assert!(
+        (pressed.indentation_depth / (0.999 * depth) - 1.0).abs() < 1e-9,
+        "{pressed:?}"
     );
     // h̃ = (π/2) x − 2 x² + 0.15 π x³ falls from 0.47 to 2.4, and is higher again at 4.
     let dented = superposition(&[(1.0, 1.0), (-1.0, 2.0), (0.2, 3.0)]);

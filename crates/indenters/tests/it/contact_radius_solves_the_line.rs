@@ -1,9 +1,9 @@
 use casebook::{GaussianDip, assert_close, assert_matches, fixed_cases, superposition};
 use indenters::{
     Axisymmetric, FlatCone, FlatPunch, IndenterError, PowerProfile, ProfilePoint, Sphere,
-    contact_radius,
+    contact_radius, line_radius,
 };
-use numerics::integrate;
+use numerics::{bracketed_root, integrate};
 use proptest::prelude::*;
 
 use crate::support::table;
@@ -91,12 +91,15 @@ fn turns_that_are_narrow_or_far_below_are_not_overlooked() {
 fn a_downward_kink_limits_the_contact() {
     let body = table(&[0.0, 1.0, 2.0, 3.0], &[0.0, 0.1, 0.5, 0.6]);
     let limit = body.line_height(2.0);
-    let below = contact_radius(&body, 0.999 * limit).unwrap();
+    let below = line_radius(&body, 0.999 * limit).unwrap();
     let is_near = (1.9..2.0).contains(&below);
     assert!(is_near, "radius {below} just below the edge at 2");
     let [radius, depth] = limits(&body, 1.001 * limit);
     assert_close!(radius => 2.0, within 0.0);
     assert_close!(depth => limit, within 0.0);
+    // The flat flank beyond the kink touches before: there the gap closes at the end of the body.
+    let [radius, _] = limits(&body, 0.999 * limit);
+    assert!(radius > 1.7 && radius < 1.9, "radius {radius}");
 }
 
 #[test]
@@ -179,4 +182,29 @@ proptest! {
         // One ulp of depth is h̃ / (x h̃') ulps of radius; the local exponent is at least 0.2 here.
         assert_close!(actual => expected, within 1e-14; "{body:?}");
     }
+}
+
+/// The contact of a body that turns down at a radius of 1 closes its gap there before its line turns.
+#[test]
+fn a_body_that_touches_farther_out_has_no_contact_radius() {
+    // h = r²/2 − r⁴/4, h̃ = x² − 2 x⁴/3.
+    let body = superposition(&[(0.5, 2.0), (-0.25, 4.0)]);
+    let gap_at_crest = |a: f64| {
+        let depth = body.line_height(a);
+        // ∫ x² and ∫ x⁴ over √(1 − x²) from a to 1, in closed form.
+        let (root, angle) = ((1.0 - a * a).sqrt(), a.acos());
+        let square = 0.5 * (angle + a * root);
+        let fourth = 0.25 * (a.powi(3) * root + 3.0 * square);
+        square - 2.0 / 3.0 * fourth - depth * angle
+    };
+    let limit = bracketed_root(gap_at_crest, [0.3, 0.86]).unwrap();
+    let [radius, depth] = limits(&body, body.line_height(0.5 * (limit + 0.75_f64.sqrt())));
+    assert_close!(radius => limit, within 1e-8);
+    assert_close!(depth => body.line_height(limit), within 1e-8);
+    let inside = body.line_height(0.999 * limit);
+    assert_close!(contact_radius(&body, inside).unwrap() => 0.999 * limit, within 1e-12);
+    assert!(
+        line_radius(&body, depth * 1.001).is_ok(),
+        "the line itself still rises"
+    );
 }

@@ -360,17 +360,22 @@ const N_SHRINKING_CHECKS: i32 = 24;
 
 /// The radii up to a depth \[m], or as far as the line of the body rises; `deepest` is then reduced to that.
 fn radii_up_to(body: &dyn EquivalentProfile, deepest: &mut f64) -> Result<Radii, MdrError> {
-    let available = match Radii::new(body, *deepest) {
-        Err(MdrError::Indenter(IndenterError::NotHighEnough { available, .. })) => available,
-        Err(MdrError::Indenter(IndenterError::NonMonotoneLine { limiting_depth, .. })) => {
-            limiting_depth
+    loop {
+        let available = match Radii::new(body, *deepest) {
+            Err(MdrError::Indenter(IndenterError::NotHighEnough { available, .. })) => available,
+            Err(MdrError::Indenter(IndenterError::NonMonotoneLine { limiting_depth, .. })) => {
+                limiting_depth
+            }
+            // The radii end at a depth a thousandth below that of the vertical edge, well inside it.
+            Err(MdrError::DepthBeyondEdge { available, .. }) => 0.999 * available,
+            other => return other,
+        };
+        // A line may reach a depth at which the body touches farther out, so that a second limit follows the first.
+        if available >= *deepest {
+            return Radii::new(body, available);
         }
-        // The radii end at a depth a thousandth below that of the vertical edge, well inside it.
-        Err(MdrError::DepthBeyondEdge { available, .. }) => 0.999 * available,
-        other => return other,
-    };
-    *deepest = available;
-    Radii::new(body, available)
+        *deepest = available;
+    }
 }
 
 /// Richardson extrapolation of two curves, the finer one with twice as many parts, for errors of the given order.

@@ -111,6 +111,7 @@ fn with_fewer_points(arguments: &str, expected: &str) -> (String, String) {
         ("computed, ", " in"),
         ("(at ", " of"),
         (" of ", " points)"),
+        (" of ", " points, with"),
     ];
     let expected = counts
         .iter()

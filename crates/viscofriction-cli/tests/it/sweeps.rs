@@ -331,7 +331,10 @@ fn warnings_are_a_column_and_are_said_once() {
     let [warning] = warnings[..] else {
         panic!("{said}");
     };
-    assert!(warning.ends_with("(at 2 of 3 points, with the numbers of the first)"), "{warning}");
+    assert!(
+        warning.ends_with("(at 2 of 3 points, with the numbers of the first)"),
+        "{warning}"
+    );
     // Below the warnings stands the page that explains them.
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/numbers.md");
     let page = fs::read_to_string(page).expect("the page");

@@ -11,6 +11,7 @@ use numerics::{ErrorParts, Estimate, Progress};
 use rheology::RheologyError;
 
 use super::answer::Answer;
+use super::body::Body;
 use super::error::{Result, SolveError};
 use super::half_space::Simple;
 use super::period_grids::PeriodGrids;
@@ -28,6 +29,9 @@ const AIMED_SHARE: f64 = 0.7;
 /// Range of the ratio of successive requests. Chosen: a single coarse solution may mislead by less than a factor of 100, and each
 /// solution shall be appreciably finer than the one before.
 const REQUEST_RATIOS: [f64; 2] = [0.01, 0.7];
+/// First and largest number of elements along an elastic contact that moves. Derived: those of the refinement of a motion on any other
+/// material.
+const ELASTIC_MOTION_ELEMENTS: [usize; 2] = [8, 64];
 /// Largest number of solutions with smaller and smaller requested errors. Derived: with the largest of [`REQUEST_RATIOS`] the request
 /// falls by a factor of 0.7⁹ = 1/25, and with the smallest far below rounding.
 const MAX_SOLUTIONS: usize = 10;
@@ -192,9 +196,18 @@ pub(super) fn solve(first: Plan, watch: &dyn Progress) -> Result<Answer> {
     };
     let mut request = asked.max(MAX_HYSTERESIS_ERROR);
     let mut grids = PeriodGrids::of(problem);
+    // An elastic body that moves has no friction but shear, on any grid, so that no request refines its area.
+    let is_elastic = problem.simple() == Some(&Simple::Elastic);
+    let is_elastic_motion = is_elastic && matches!(problem.motion(), Motion::Moving(_));
+    let is_body = !matches!(problem.body(), Body::Periodic(_));
+    let [mut elements, most_elements] = ELASTIC_MOTION_ELEMENTS;
     let mut solutions = 0;
     loop {
-        let accuracy = grids.take().unwrap_or(Accuracy::RelativeError(request));
+        let accuracy = if is_elastic_motion && is_body {
+            Accuracy::Elements(elements)
+        } else {
+            grids.take().unwrap_or(Accuracy::RelativeError(request))
+        };
         let near = problem.clone().with_accuracy(accuracy);
         let Solved { answer, missed } = Solved::of(plan_again(&near, method)?.solve_once(watch))?;
         solutions += 1;
@@ -210,9 +223,8 @@ pub(super) fn solve(first: Plan, watch: &dyn Progress) -> Result<Answer> {
                 ..answer
             });
         }
-        // An elastic body that moves has no friction but shear, on any grid, so that no request refines the area.
-        let is_elastic = problem.simple() == Some(&Simple::Elastic);
-        let is_stuck = is_elastic && matches!(problem.motion(), Motion::Moving(_));
+        let is_stuck = is_elastic_motion && (!is_body || elements >= most_elements);
+        elements *= 2;
         if missed.is_some() || is_stuck || solutions == MAX_SOLUTIONS {
             let why = SolveError::ShearNotReached {
                 asked,

@@ -6,7 +6,7 @@
 
 use std::f64::consts::{FRAC_1_PI, PI};
 
-use indenters::{Axisymmetric, Control, FlatPunch, PressingLoad, Surface, contact_radius};
+use indenters::{Axisymmetric, Control, FlatPunch, PressingLoad, Surface, line_radius};
 use numerics::{ErrorParts, Request, positive};
 use rheology::{Compressible, Elastic, Material as _};
 
@@ -353,7 +353,7 @@ fn refine_press(
     bars::resolve(&resolution, solve, |estimate: PressEstimate| {
         if let Some(body) = surface.as_axisymmetric() {
             // Refuse a contact beyond the end of the body, as beyond the equator of a sphere.
-            contact_radius(body, estimate.finest.indentation_depth)?;
+            line_radius(body, estimate.finest.indentation_depth)?;
         }
         Ok(estimate)
     })
