@@ -127,3 +127,33 @@ fn powers_of_ten_and_lists_are_met_exactly() {
     assert_eq!([&thirds[3], &thirds[6]], ["0.01", "0.1"]);
     assert_eq!(values("load.velocity=0.3, 0.1,2"), ["0.3", "0.1", "2.0"]);
 }
+
+/// A sum of powers that turns down slides as long as its crest, at 4 mm, is not in contact: under a force and at the depth of it.
+#[test]
+fn a_body_that_turns_down_slides_on_its_rising_part() {
+    let folder = Folder::new("turns-down");
+    let scene = |load: &str| {
+        format!(
+            "[indenter.superposition]\nterms = [{{ coefficient = 50.0, exponent = 2.0 }}, {{ coefficient = -1.5625e6, exponent = 4.0 \
+             }}]\n[material.standard-solid]\nequilibrium_modulus = 1e6\nmaxwell_modulus = 9e6\nviscosity = 9e3\n[load]\n{load}\nvelocity \
+             = 0.3\n"
+        )
+    };
+    folder.write("force.toml", scene("normal_force = 8.5"));
+    let under_force = folder.solved("force.toml").answer;
+    let depth = under_force.indentation_depth.expect("a depth");
+    folder.write(
+        "depth.toml",
+        scene(&format!("indentation_depth = {}", depth.value)),
+    );
+    let at_depth = folder.solved("depth.toml").answer;
+    let force = at_depth.normal_force;
+    let stiffness = 1.5 * 8.5 / depth.value;
+    let difference = (force.value - 8.5).abs();
+    assert!(
+        difference <= force.error + stiffness * depth.error,
+        "{force} at {depth}"
+    );
+    folder.write("heavy.toml", scene("normal_force = 12.0"));
+    folder.ends("heavy.toml", 1, "vertical wall");
+}
