@@ -68,7 +68,8 @@ fn gap_stays_open(body: &(impl Axisymmetric + ?Sized), radius: f64, depth: f64) 
     let end = body.falling_up_to();
     let mut r = radius;
     while r < end {
-        r = (r * SEARCH_STEP).min(end);
+        // The smallest numbers are rounded down to themselves.
+        r = (r * SEARCH_STEP).max(r.next_up()).min(end);
         // The gap can only close where the line comes below the depth.
         if body.line_height(r) >= depth {
             continue;
