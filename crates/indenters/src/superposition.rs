@@ -229,6 +229,6 @@ mod tests {
         let crest = sum(1e200).expect("a body").max_radius() * 1e200;
         assert!((crest - 0.5_f64.sqrt()).abs() < 1e-12, "{crest}");
         let rising = Superposition::new(vec![power(1.0, 2.0), power(-1.0, 3.0), power(1.0, 5.0)]);
-        assert_eq!(rising.expect("a body").max_radius(), f64::INFINITY);
+        assert!(rising.expect("a body").max_radius().is_infinite());
     }
 }

@@ -86,7 +86,7 @@ pub enum SolveError {
         /// Its part from the shear of the contact area.
         shear: Estimate,
         /// Reason why the part from hysteresis misses the error that the sum needs; `None` if it does not.
-        hysteresis: Option<Box<SolveError>>,
+        hysteresis: Option<Box<Self>>,
     },
     /// The friction at the temperature of the contact does not have the requested error.
     #[error(
