@@ -10,10 +10,9 @@ use indenters::rough::PeriodicSurface;
 
 use crate::elements::gap_field::GapField;
 use crate::parallel::chunks::in_pool;
-use crate::stationary::periodic::check_periods;
 use crate::stationary::periodic::kernel::{MaterialAtSpeed, PeriodicKernel};
 use crate::stationary::periodic::load::PeriodicLoad;
-use crate::stationary::periodic::refinement::SampledSurface;
+use crate::stationary::periodic::refinement::{SampledSurface, check_periods};
 use crate::{BemError, Elastomer, PressureField};
 
 /// Gap between a periodic surface and the elastomer under a load, from the pressure of the stationary state or of the pressed

@@ -48,7 +48,6 @@ pub mod sensitivity;
 #[cfg(feature = "rough")]
 mod subgrid_gaps;
 
-use indenters::rough::PeriodicSurface;
 use numerics::{InvalidParameter, in_range, positive};
 
 use crate::elements::area;
@@ -207,20 +206,5 @@ pub(crate) fn check_surface(grid: &Grid, heights: &[f64]) -> Result<(), BemError
     let is_flat = heights.iter().all(|h| h.total_cmp(&heights[0]).is_eq());
     let allowed = "not the same everywhere: a flat surface has no friction";
     in_range("height", heights[0], !is_flat, allowed)?;
-    Ok(())
-}
-
-/// Largest relative difference of two periods that count as equal. Chosen above the rounding 5e-10 of numbers of ten digits in a
-/// file; it only decides whether a surface is refused.
-const PERIOD_TOLERANCE: f64 = 1e-9;
-
-/// Refuses a surface whose periods are not those of the grid.
-pub(crate) fn check_periods(surface: &PeriodicSurface, grid: &Grid) -> Result<(), BemError> {
-    let edges = grid.shape().into_iter().zip(grid.spacing());
-    for (period, (edge, spacing)) in surface.period().into_iter().zip(edges) {
-        let own = edge as f64 * spacing;
-        let is_own = (period - own).abs() <= PERIOD_TOLERANCE * own;
-        in_range("period", period, is_own, "that of the grid")?;
-    }
     Ok(())
 }

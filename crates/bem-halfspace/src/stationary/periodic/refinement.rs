@@ -7,7 +7,7 @@ use std::borrow::Cow;
 use indenters::rough::PeriodicSurface;
 use numerics::{
     Estimate, Level, LevelForecast, NotReached, Request, SUMMATION_ERROR, between_zero_and_one,
-    refine_levels,
+    in_range, refine_levels,
 };
 
 use crate::elements::grid::MAX_ELEMENTS;
@@ -370,6 +370,21 @@ impl<S> PeriodicEstimate<S> {
             elements,
         )
     }
+}
+
+/// Largest relative difference of two periods that count as equal. Chosen above the rounding 5e-10 of numbers of ten digits in a
+/// file; it only decides whether a surface is refused.
+const PERIOD_TOLERANCE: f64 = 1e-9;
+
+/// Refuses a surface whose periods are not those of the grid.
+pub(crate) fn check_periods(surface: &PeriodicSurface, grid: &Grid) -> Result<(), BemError> {
+    let edges = grid.shape().into_iter().zip(grid.spacing());
+    for (period, (edge, spacing)) in surface.period().into_iter().zip(edges) {
+        let own = edge as f64 * spacing;
+        let is_own = (period - own).abs() <= PERIOD_TOLERANCE * own;
+        in_range("period", period, is_own, "that of the grid")?;
+    }
+    Ok(())
 }
 
 #[cfg(test)]

@@ -30,9 +30,8 @@ use crate::stationary::change;
 use crate::stationary::periodic::contact::PeriodicContact;
 use crate::stationary::periodic::kernel::{MaterialAtSpeed, PeriodicKernel};
 use crate::stationary::periodic::nested::interpolated;
-use crate::stationary::periodic::{
-    PeriodicControl, PeriodicLoad, PeriodicOptions, check_periods, solve_from,
-};
+use crate::stationary::periodic::refinement::check_periods;
+use crate::stationary::periodic::{PeriodicControl, PeriodicLoad, PeriodicOptions, solve_from};
 use crate::steady::sensitivity::{ByModuli, Change, TwoGridExtrapolation};
 use crate::substrate::base::check_unchanged_moduli;
 use crate::{BemError, Elastomer, Grid, PressureField};
