@@ -73,8 +73,7 @@ pub enum IndenterError {
     ///
     /// The contact is then no longer a single circle, and the method of dimensionality reduction does not hold.
     #[error(
-        "the body comes down again farther out: its contact is one circle only up to radius {} m, at a depth of {} m; a depth of {} m \
-         was asked for",
+        "the contact is one circle only up to radius {} m, at a depth of {} m; a depth of {} m was asked for",
         Rounded(*limiting_radius), Rounded(*limiting_depth), Rounded(*depth)
     )]
     NonMonotoneLine {
