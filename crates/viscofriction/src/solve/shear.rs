@@ -236,13 +236,15 @@ pub(super) fn solve(first: Plan, watch: &dyn Progress) -> Result<Answer> {
             return Solved { answer, missed }.into_result();
         }
         let [smallest, largest] = REQUEST_RATIOS;
-        // The error that was reached may be far smaller than the request, which the same grid would then meet again. The next grid of a
-        // motion has eight times the work, so that none is left out.
+        let needed = AIMED_SHARE * allowed / friction.error;
+        // The error that was reached may be far smaller than the request, which the same grid would then meet again.
         let reached = answer.hysteresis().map_or(request, |h| h.relative_error());
-        let ratio = (AIMED_SHARE * allowed / friction.error).clamp(smallest, largest);
         request = match problem.motion() {
+            // A grid without a request tells nothing about the error that a request reaches.
+            _ if !is_trusted => request * needed.clamp(smallest, 1.0),
+            // The next grid of a motion has eight times the work, so that none is left out.
             Motion::Moving(_) => AIMED_SHARE * request.min(reached),
-            _ => ratio * request.min(reached),
+            _ => request.min(reached) * needed.clamp(smallest, largest),
         };
         if is_trusted {
             grids.leave_out_if_too_coarse(friction, allowed);
