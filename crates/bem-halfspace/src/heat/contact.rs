@@ -33,6 +33,17 @@ struct BulkGrid {
 }
 
 impl BulkGrid {
+    /// Multiple of the edges of the finest elements from which the strain is refined by halves, for a contact of a number of elements. It is 2
+    /// for a period, because coarser elements would leave waves out.
+    fn coarsest_multiple(self, elements: usize) -> usize {
+        let finest = elements.div_ceil(elements.div_ceil(self.most_elements));
+        let halvings = match self.period_over_contact {
+            1 => 1,
+            _ => (finest / FEWEST_STRAIN_ELEMENTS).max(2).ilog2(),
+        };
+        1 << halvings
+    }
+
     /// Half the elements along the contact.
     const fn coarser(self) -> Self {
         Self {
@@ -59,18 +70,20 @@ const OF_PERIOD: BulkGrid = BulkGrid {
     most_elements: 256,
     period_over_contact: 1,
 };
-/// Grid of the strain below a body. Chosen: the contact of a strongly dissipating material is a crescent, which needs many elements.
+/// Finest grid of the strain below a body. Chosen: the contact of a strongly dissipating material is a crescent, which needs many elements,
+/// and with twice as many it would take seconds.
 const STRAIN_OF_BODY: BulkGrid = BulkGrid {
-    most_elements: 96,
+    most_elements: 192,
     period_over_contact: 4,
 };
+/// Smallest number of elements along a contact on which its strain is computed. Chosen: below a sphere it is then known to some per cent.
+const FEWEST_STRAIN_ELEMENTS: usize = 16;
 /// Number of elements along a body on which the effect of the period on the strain is computed. Measured: under a pressure of Hertz, 12
 /// elements change the strain by 1e-4.
 const ELEMENTS_OF_PERIODS: usize = 16;
-/// Multiples of the period of [`STRAIN_OF_BODY`] at which this effect is computed. Measured: from 4 to 8 and to 16 contact lengths the
-/// strain increases by 2.6 % and by 0.5 % of Hertz, and by 3.2 % and 0.8 % under a crescent.
-const PERIODS_OF_BODY: [usize; 3] = [1, 2, 4];
 /// Range of the ratio of successive changes by doubled periods. Derived: stresses fall with the square of the distance or its cube.
+/// Measured: from 4 to 8 and to 16 contact lengths the strain increases by 2.6 % and by 0.5 % of Hertz, and by 3.2 % and 0.8 % under a
+/// crescent.
 const CHANGE_RATIOS: [f64; 2] = [4.0, 8.0];
 /// Grid of the strain below a period. Chosen: waves of all lengths strain the material equally, so that none are left out.
 const STRAIN_OF_PERIOD: BulkGrid = BulkGrid {
@@ -81,9 +94,15 @@ const STRAIN_OF_PERIOD: BulkGrid = BulkGrid {
 /// [`OF_BODY`].
 const ERROR_OVER_POWER_ERROR: f64 = 0.5;
 
-/// Error of the strain over the difference from that on elements with twice the edges. Derived: 1/(2^(3/2) − 1), for the order 3/2 of a
-/// pressure that falls to zero like a root.
-const ERROR_OVER_DIFFERENCE: f64 = 0.547;
+/// Error of the strain over its change from elements with twice the edges. Derived: 1/(2^(3/2) − 1), for the order 3/2 of a pressure that
+/// falls to zero like a root.
+const ERROR_OVER_CHANGE: f64 = 0.547;
+/// The same below a body. Measured: 1.05 on 24 elements below a cone, at whose tip the pressure has no limit and the order is the first; a
+/// tenth is added. More elements are needed for the order 3/2 where the contact is a crescent.
+const ERROR_OVER_CHANGE_OF_BODY: f64 = 1.15;
+/// Smallest ratio of successive changes of the strain that a bar uses, because elements may resolve a contact alike by chance. Chosen, as
+/// for the area of rough contacts.
+const MIN_CHANGE_RATIO: f64 = 0.3;
 
 /// Range of the exponents n with which the temperature by a given power of the shear falls with the contact area, T ∝ A^(−n), without the
 /// mean over a period. Derived: T ∝ P/(ka) for the contact radius a and Pe ≪ 1, T ∝ P √(Da/v)/(ka²) for Pe ≫ 1.
@@ -260,14 +279,20 @@ impl SlidingContact<'_> {
     /// Amplitude of the equivalent (von Mises) strain: its root mean square over the half space, weighted with the power that is dissipated
     /// at each place.
     ///
-    /// Under one wave in full contact it is half of the root mean square slope of the surface. The error bar is about half of the difference
-    /// from the same pressure on elements with twice the edges. Around a body it also has what larger periods may add; on periods, half of
-    /// the relative difference between the power of the waves and [`bulk_power`](Self::bulk_power).
+    /// Under one wave in full contact it is half of the root mean square slope of the surface. The pressure of a body or a line is taken to
+    /// larger elements, as long as the amplitude changes by at most `relative_error` where they are halved; with 0 they are the finest. The
+    /// error bar is about this change below a body, and half of it otherwise. Around a body it also has what larger periods may add; on periods,
+    /// half of the relative difference between the power of the waves and [`bulk_power`](Self::bulk_power).
     ///
     /// # Errors
     /// [`BemError::WaveShiftWithoutPeriod`] as for [`temperature`](Self::temperature); [`BemError::InvalidParameter`] for a velocity that
-    /// is not positive, a contact without pressure, and a material that flows or does not dissipate.
-    pub fn strain_amplitude(&self, kind: ContactKind) -> Result<Estimate, BemError> {
+    /// is not positive, a negative `relative_error`, a contact without pressure, and a material that flows or does not dissipate.
+    pub fn strain_amplitude(
+        &self,
+        kind: ContactKind,
+        relative_error: f64,
+    ) -> Result<Estimate, BemError> {
+        not_negative("relative_error", relative_error)?;
         positive("velocity", self.velocity)?;
         self.check_wave_shift(kind)?;
         positive("power of the bulk", self.bulk_power)?;
@@ -298,11 +323,27 @@ impl SlidingContact<'_> {
             ContactKind::Line => OF_LINE,
             ContactKind::Period { .. } => STRAIN_OF_PERIOD,
         };
-        let [fine, coarse] = in_pool(self.pressure.grid.n_elements(), || {
-            [strain_on(grid, 1), strain_on(grid, 2)]
-        });
-        let ([fine, power], [coarse, _]) = (fine?, coarse?);
-        let resolved = estimate(fine, fine + ERROR_OVER_DIFFERENCE * (coarse - fine))?;
+        let (fine, change, power) = in_pool(self.pressure.grid.n_elements(), || {
+            let longest = self.pressure.grid.shape().into_iter().max().unwrap_or(1);
+            let mut multiple = grid.coarsest_multiple(longest);
+            let [mut coarse, _] = strain_on(grid, multiple)?;
+            let mut change_before = 0.0;
+            loop {
+                // Halve the elements until the strain changes little; it may change little by chance once.
+                multiple /= 2;
+                let [fine, power] = strain_on(grid, multiple)?;
+                let change = (coarse - fine).abs().max(MIN_CHANGE_RATIO * change_before);
+                if multiple == 1 || change <= relative_error * fine {
+                    return Ok::<_, BemError>((fine, change, power));
+                }
+                (coarse, change_before) = (fine, change);
+            }
+        })?;
+        let error_over_change = match kind {
+            ContactKind::Body => ERROR_OVER_CHANGE_OF_BODY,
+            ContactKind::Line | ContactKind::Period { .. } => ERROR_OVER_CHANGE,
+        };
+        let resolved = estimate(fine, fine + error_over_change * change)?;
         match kind {
             ContactKind::Line => Ok(resolved),
             ContactKind::Period { .. } => {
@@ -318,15 +359,14 @@ impl SlidingContact<'_> {
                     };
                     strain_on(grid, 1).map(|[strain, _]| strain)
                 };
-                let [short, long, longest] = PERIODS_OF_BODY.map(on_period);
-                let (short, long, longest) = (short?, long?, longest?);
-                let [first, second] = [long - short, longest - long];
-                // The strain is extrapolated by the ratio of both changes, within the range of orders.
-                let [lowest, highest] = CHANGE_RATIOS;
-                let ratio = (first / second).max(lowest).min(highest);
-                let remaining = second / (ratio - 1.0);
-                let limit = (longest + remaining) / short;
-                Ok((resolved * limit).widened(remaining.abs() / short * fine))
+                let [short, long] = [on_period(1)?, on_period(2)?];
+                let (mut last, mut remaining) = (long, remaining_change(long - short));
+                if remaining.error > relative_error * short {
+                    last = on_period(4)?;
+                    remaining = remaining_change(last - long);
+                }
+                let limit = (last + remaining.value) / short;
+                Ok((resolved * limit).widened(remaining.error / short * fine))
             }
         }
     }
@@ -441,6 +481,12 @@ impl AreaCorrection {
         let local_error = self.local_error + self.exponent_error;
         local_error * (temperature - mean).abs() + self.area_error * mean.abs()
     }
+}
+
+/// Change of the strain by all longer periods from the last change by a doubled one, within the range of [`CHANGE_RATIOS`].
+fn remaining_change(last: f64) -> Estimate {
+    let [most, least] = CHANGE_RATIOS.map(|ratio| last / (ratio - 1.0));
+    Estimate::new(0.5 * (most + least), 0.5 * (most - least).abs())
 }
 
 /// A field on a grid around the contact, with the pressure in the middle of it.

@@ -76,7 +76,7 @@ fn amplitude_of(amplitudes: &[f64], factors: ModulusFactors) -> Estimate {
         bulk_power: power * pressure.grid.element_area() * pressure.pressure.len() as f64,
     };
     let kind = ContactKind::Period { duration: 1.0 };
-    contact.strain_amplitude(kind).expect("an amplitude")
+    contact.strain_amplitude(kind, 0.0).expect("an amplitude")
 }
 
 /// One wave: half of the root mean square slope q p/(2 q |G*|)/√2.
@@ -165,7 +165,7 @@ fn friction_is_the_dissipated_power() {
                 contact_area: None,
                 bulk_power: power,
             };
-            let amplitude = contact.strain_amplitude(kind).expect("an amplitude");
+            let amplitude = contact.strain_amplitude(kind, 0.0).expect("an amplitude");
             let allowed = if kind == ContactKind::Line {
                 5e-3
             } else {
@@ -234,38 +234,70 @@ fn factors_need_a_stationary_state() {
     }
 }
 
-/// A pressure of Hertz that slides slowly over a Kelvin–Voigt solid, from the closed stress field (Huber 1904) by the midpoint rule over
-/// radius and depth (Python, 1600 × 1600 points up to 100 radii): the strain rate is that of the elastic strains, whose square is
-/// weighted with that of the rate. ε G/p₀ = 0.1041, and the power is 1.643 η v² p₀² a/(2G²).
-#[test]
-fn the_strain_of_hertz_follows_from_its_stress_field() {
+/// Strain amplitude times G/p₀ under a pressure p₀ `shape`(r/a) on n × n elements, which slides slowly over a Kelvin–Voigt solid and
+/// dissipates 1.643 η v² p₀² a/(2G²).
+fn slow_strain(shape: fn(f64) -> f64, n: usize, relative_error: f64) -> Estimate {
     let (radius, largest, modulus) = (5e-4, 1e5, 1e6);
     let viscosity = modulus * 1e-3 * radius / VELOCITY;
     let material = KelvinVoigt::new(modulus, viscosity).expect("a material");
+    let edge = 2.0 * radius / n as f64;
+    let pressure = |index: usize| {
+        let [x, y] = [index / n, index % n].map(|k| (2.0 * k as f64 + 1.0) / n as f64 - 1.0);
+        largest * shape(x.hypot(y).min(1.0))
+    };
+    let pressure = PressureField {
+        grid: Grid::new([n; 2], [edge; 2]).expect("a grid"),
+        origin: [0.0; 2],
+        pressure: (0..n * n).map(pressure).collect(),
+    };
+    let contact = SlidingContact {
+        pressure: &pressure,
+        material: &material,
+        factors: ModulusFactors::NONE,
+        wave_shift: None,
+        velocity: VELOCITY,
+        shear_power: 0.0,
+        contact_area: None,
+        bulk_power: 1.643 * viscosity * (VELOCITY * largest / modulus).powi(2) * radius / 2.0,
+    };
+    let found = contact.strain_amplitude(ContactKind::Body, relative_error);
+    found.expect("an amplitude") * (modulus / largest)
+}
+
+/// Pressure of a paraboloid over the radius (Hertz 1882).
+fn hertz(radius: f64) -> f64 {
+    (1.0 - radius * radius).sqrt()
+}
+
+/// Pressure of a cone over the radius (Sneddon 1965), infinite at the tip.
+fn cone(radius: f64) -> f64 {
+    radius.recip().acosh()
+}
+
+/// A pressure of Hertz, from the closed stress field (Huber 1904) by the midpoint rule over radius and depth (Python, 1600 × 1600 points
+/// up to 100 radii): the strain rate is that of the elastic strains, whose square is weighted with that of the rate. ε G/p₀ = 0.1041.
+#[test]
+fn the_strain_of_hertz_follows_from_its_stress_field() {
     for n in [24_usize, 48] {
-        let edge = 2.0 * radius / n as f64;
-        let pressure = |index: usize| {
-            let [x, y] = [index / n, index % n].map(|k| (2.0 * k as f64 + 1.0) / n as f64 - 1.0);
-            largest * (1.0 - x * x - y * y).max(0.0).sqrt()
-        };
-        let pressure = PressureField {
-            grid: Grid::new([n; 2], [edge; 2]).expect("a grid"),
-            origin: [0.0; 2],
-            pressure: (0..n * n).map(pressure).collect(),
-        };
-        let contact = SlidingContact {
-            pressure: &pressure,
-            material: &material,
-            factors: ModulusFactors::NONE,
-            wave_shift: None,
-            velocity: VELOCITY,
-            shear_power: 0.0,
-            contact_area: None,
-            bulk_power: 1.643 * viscosity * (VELOCITY * largest / modulus).powi(2) * radius / 2.0,
-        };
-        let found = contact.strain_amplitude(ContactKind::Body);
-        let found = found.expect("an amplitude") * (modulus / largest);
+        let found = slow_strain(hertz, n, 0.0);
         assert!((found.value - 0.1041).abs() < found.error, "{n}: {found}");
-        assert!(found.error < 0.03 * found.value, "{n}: {found}");
+        assert!(found.error < 0.04 * found.value, "{n}: {found}");
+    }
+}
+
+/// Bars of few elements hold the strain of many, also where the pressure has no limit: below the cone 0.4065 and 0.4093 on 96 and 192
+/// elements tend to 0.412 by the first order.
+#[test]
+fn bars_of_few_elements_hold_the_strain_of_many() {
+    for (shape, strain) in [(hertz as fn(f64) -> f64, 0.1041), (cone, 0.412)] {
+        for (n, relative_error) in [(24, 0.0), (48, 0.0), (96, 0.0), (96, 0.1)] {
+            let found = slow_strain(shape, n, relative_error);
+            let difference = (found.value - strain).abs();
+            assert!(difference < found.error, "{n}, {relative_error}: {found}");
+            assert!(
+                found.error < 0.06 * strain,
+                "{n}, {relative_error}: {found}"
+            );
+        }
     }
 }

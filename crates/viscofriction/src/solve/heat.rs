@@ -15,7 +15,11 @@ use super::body::Body;
 use super::error::{Result, SolveError};
 use super::half_space::{HalfSpace, Simple};
 use super::problem::{Motion, Problem};
-use crate::scene::{MaterialTable, Model, Scene, SceneError};
+use crate::scene::{Accuracy, MaterialTable, Model, Scene, SceneError};
+
+/// Ratio of the relative error of the strain to that requested of the friction. Chosen: friction follows the strain with a power below 1,
+/// and a correction of the strain does not use up its error.
+const STRAIN_ERROR_OVER_REQUEST: f64 = 0.3;
 
 /// Heat of sliding of a scene.
 #[derive(Debug, Clone)]
@@ -226,8 +230,12 @@ impl Problem {
         };
         let mut answer = answer;
         if self.strain_dependence().is_some() {
+            let needed = match self.accuracy() {
+                Accuracy::RelativeError(asked) => STRAIN_ERROR_OVER_REQUEST * asked,
+                Accuracy::Elements(_) => 0.0,
+            };
             let found = contact
-                .strain_amplitude(kind)
+                .strain_amplitude(kind, needed)
                 .map_err(|error| SceneError::at("strain", error.to_string()))?;
             // The square of the strain is relative to the power.
             let relative_error = 0.5 * bulk.error / bulk.value;
