@@ -6,8 +6,11 @@
 //!
 //! Theory: docs/theory/heat.md, "Back on the material".
 
+use std::borrow::Cow;
+
 use bem_halfspace::heat::DepthProfile;
 use numerics::{Estimate, Progress};
+use rheology::ModulusFactors;
 
 use super::answer::Answer;
 use super::body::Body;
@@ -31,7 +34,7 @@ const NEGLIGIBLE_EXCESS: f64 = 1e-3;
 
 /// Temperature of material and shear strength, \[°C].
 pub(super) struct ContactTemperature<'a> {
-    problem: &'a Problem,
+    problem: Cow<'a, Problem>,
     /// Temperature far from the contact, \[°C].
     ambient: f64,
     /// Highest temperature at which material and shear strength are known, \[°C].
@@ -85,6 +88,15 @@ impl SelfConsistent for ContactTemperature<'_> {
 
     fn farthest(&self, found: f64) -> Option<f64> {
         Some(self.ambient + MAX_RISE.max(MAX_INCREASE_RATIO * (found - self.ambient)))
+    }
+
+    /// The moduli have the factors at the strain of the answer, which no further solutions have to find.
+    fn faster_near(&self, answer: &Answer) -> Option<Box<dyn SelfConsistent + '_>> {
+        let [storage, loss] = [answer.storage_factor?, answer.loss_factor?].map(|of| of.value);
+        let factors = ModulusFactors::new(storage, loss).ok()?;
+        let problem = self.problem.at_small_strains();
+        let problem = Cow::Owned(problem.with_modulus_factors(factors));
+        Some(Box::new(Self { problem, ..*self }))
     }
 
     fn is_narrow(&self, from: f64, to: f64) -> bool {
@@ -203,7 +215,7 @@ impl<'a> ContactTemperature<'a> {
     pub(super) fn of(problem: &'a Problem) -> Option<Self> {
         let ambient = problem.heating()?.ambient?;
         problem.depends_on_temperature().then(|| Self {
-            problem,
+            problem: Cow::Borrowed(problem),
             ambient,
             highest: problem.highest_temperature(),
         })

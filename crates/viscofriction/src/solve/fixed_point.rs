@@ -33,6 +33,9 @@ pub(super) const MAX_INCREASE_RATIO: f64 = 4.0;
 /// Number of values above the fixed point at which a second one is looked for. Chosen: the friction of a rubber has half its maximum over
 /// twenty kelvin and more, and over a decade of strain.
 const SCANNED_VALUES: u32 = 7;
+/// Ratio of an assumed increase to the one that a faster problem causes, from which there is no fixed point. Chosen: filled rubber softens
+/// by a factor of a few.
+const SCREENING_RATIO: f64 = 10.0;
 /// Smallest distance of two values, as a fraction of the increase, between which slopes are taken. Chosen: over smaller ones the errors
 /// of the solutions of the search would be taken for slopes.
 const SLOPE_DISTANCE: f64 = 0.1;
@@ -71,6 +74,12 @@ pub(super) trait SelfConsistent {
 
     /// Value up to which a second fixed point above the first one, `found`, is looked for; `None` if there can be no second one.
     fn farthest(&self, found: f64) -> Option<f64>;
+
+    /// The same value in a problem that is solved faster and differs little near an answer, by a factor far below [`SCREENING_RATIO`] in what
+    /// is caused; `None` if there is none.
+    fn faster_near(&self, _answer: &Answer) -> Option<Box<dyn SelfConsistent + '_>> {
+        None
+    }
 
     /// Whether the problem changes so little between two values that quantities are taken to be monotone in between.
     fn is_narrow(&self, from: f64, to: f64) -> bool;
@@ -373,10 +382,18 @@ impl FixedPoint<'_> {
         let mut upper = largest;
         let mut lower = None;
         let mut near = found.answer.clone();
+        let faster = self.of.faster_near(&near);
         for step in 0..SCANNED_VALUES {
             let increase = (largest - smallest) * ratio.powi(step.cast_signed());
             // The sum may exceed the largest value by rounding.
             let value = (smallest + increase).min(largest);
+            if let Some(of) = faster.as_deref() {
+                let state = FixedPoint { of, ..*self }.state(value, Some(&near), accuracy)?;
+                if SCREENING_RATIO * (state.caused.value - smallest) < increase {
+                    upper = value;
+                    continue;
+                }
+            }
             let state = self.state(value, Some(&near), accuracy)?.without_fields();
             if state.excess() >= 0.0 {
                 lower = Some(state);
