@@ -2,7 +2,8 @@
 
 use bem_halfspace::periodic;
 use bem_halfspace::{Accuracy, GapField, Grid, Layer, PeriodicLoad};
-use indenters::rough::SelfAffine;
+use indenters::rough::{PeriodicSurface, SelfAffine, Wave};
+use rheology::KelvinVoigt;
 
 use crate::gaps::check_complementary;
 use crate::support::{assert_refused, prony};
@@ -65,4 +66,31 @@ fn below_a_periodic_surface_its_mean_is_the_distance_of_the_mean_planes() {
         .finest;
     let field = periodic::gap(&surface, &layer, &load, &pressed.pressure).expect("a gap");
     check_complementary("layer", &field, &pressed.pressure, 3e-7);
+}
+
+/// Behind the contact of a viscous material a whole strip of elements penetrates by less than the tolerance if it is left out, and the area
+/// is too small.
+#[test]
+fn few_elements_in_contact_are_left_out() {
+    let wave = |numbers| Wave {
+        numbers,
+        amplitude: 1e-5,
+        phase: 0.0,
+    };
+    let waves = [[1, 0], [0, 1]].map(wave).to_vec();
+    let surface = PeriodicSurface::new([1.6e-3; 2], waves).expect("a surface");
+    let material = KelvinVoigt::new(1e6, 1e4).expect("a material");
+    let load = PeriodicLoad::new(8101.64, 0.078_437_8).expect("a load");
+    let found = periodic::steady(&surface, &material, &load, Accuracy::Elements(512));
+    let pressure = found.expect("a state").finest.pressure;
+    let gap = periodic::gap(&surface, &material, &load, &pressure).expect("a gap");
+    let elements = pressure.pressure.iter().zip(&gap.gap);
+    let (inside, outside): (Vec<_>, Vec<_>) = elements.partition(|(pressure, _)| **pressure > 0.0);
+    let solver_error = inside
+        .iter()
+        .fold(0.0_f64, |max, (_, gap)| max.max(gap.abs()));
+    let penetrating = outside.iter().filter(|(_, gap)| **gap < -solver_error);
+    let (n_wrong, n_inside) = (penetrating.count(), inside.len());
+    assert!(n_inside > 5000, "{n_inside}");
+    assert!(200 * n_wrong <= n_inside, "{n_wrong} of {n_inside}");
 }
