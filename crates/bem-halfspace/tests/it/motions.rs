@@ -1,6 +1,8 @@
 //! A motion with error bars: its end is steady sliding, and the bars of coarse grids hold finer values.
 
-use bem_halfspace::indenters::{MovingLoad, MovingPoint, PowerProfile, Shape, Sphere, Stroke};
+use bem_halfspace::indenters::{
+    Moved, MovingLoad, MovingPoint, PowerProfile, Shape, Sphere, Stroke,
+};
 use bem_halfspace::numerics::{Accuracy, Estimate};
 use bem_halfspace::rheology::{KelvinVoigt, Maxwell, StandardSolid, StandardSolidParameters};
 use bem_halfspace::{BemError, Control, SlidingLoad, move_along, steady};
@@ -64,28 +66,22 @@ fn bars_of_coarse_grids_hold_finer_cycles() {
         let on = |elements| {
             move_along(&ball(), &rubber(), &motion, Accuracy::Elements(elements)).expect("a cycle")
         };
-        let fine = on(12);
-        for elements in [8, 10] {
-            let coarse = on(elements);
-            for (name, coarse, fine) in [
-                (
-                    "friction",
-                    coarse.friction_coefficient,
-                    fine.friction_coefficient,
-                ),
-                ("peak", coarse.peak_friction, fine.peak_friction),
-                (
-                    "energy",
-                    coarse.dissipated_energy.expect("of a cycle"),
-                    fine.dissipated_energy.expect("of a cycle"),
-                ),
-            ] {
-                let error = (coarse.value - fine.value).abs();
-                assert!(
-                    error <= coarse.error + fine.error,
-                    "{name}, {elements} elements, {control:?}: {coarse:?}, {fine:?}"
-                );
-            }
+        let [coarse, fine] = [8, 12].map(on);
+        let energy = |cycle: &Moved| cycle.dissipated_energy.expect("of a cycle");
+        for (name, coarse, fine) in [
+            (
+                "friction",
+                coarse.friction_coefficient,
+                fine.friction_coefficient,
+            ),
+            ("peak", coarse.peak_friction, fine.peak_friction),
+            ("energy", energy(&coarse), energy(&fine)),
+        ] {
+            let error = (coarse.value - fine.value).abs();
+            assert!(
+                error <= coarse.error + fine.error,
+                "{name}, {control:?}: {coarse:?}, {fine:?}"
+            );
         }
     }
 }

@@ -170,15 +170,14 @@ impl Twice<'_> {
 }
 
 #[test]
-fn cones_paraboloids_and_skew_bodies_slide_alike_in_both() {
+fn cones_and_skew_bodies_slide_alike_in_both() {
     // An elliptic paraboloid that slides along none of its axes: no symmetry is left.
     let skew = Formula::new([false; 2], |[x, y]| {
         let height = x * x + 0.6 * x * y + 0.6 * y * y;
         (height, [2.0 * x + 0.6 * y, 0.6 * x + 1.2 * y])
     });
-    let table: [(_, &dyn Surface, _, _); 3] = [
+    let table: [(_, &dyn Surface, _, _); 2] = [
         ("cone", &cone(1.0), 1.6, 8.0),
-        ("paraboloid", &paraboloid(1.0), 1.4, 7.0),
         ("skew paraboloid", &skew, 2.2, 7.0),
     ];
     for (name, surface, half_width, elements) in table {

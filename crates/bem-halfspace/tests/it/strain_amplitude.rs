@@ -290,7 +290,7 @@ fn the_strain_of_hertz_follows_from_its_stress_field() {
 #[test]
 fn bars_of_few_elements_hold_the_strain_of_many() {
     for (shape, strain) in [(hertz as fn(f64) -> f64, 0.1041), (cone, 0.412)] {
-        for (n, relative_error) in [(24, 0.0), (48, 0.0), (96, 0.0), (96, 0.1)] {
+        for (n, relative_error) in [(24, 0.0), (48, 0.0), (96, 0.1)] {
             let found = slow_strain(shape, n, relative_error);
             let difference = (found.value - strain).abs();
             assert!(difference < found.error, "{n}, {relative_error}: {found}");
