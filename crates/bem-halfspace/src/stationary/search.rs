@@ -9,7 +9,7 @@
 //! 1. solves g = 0 on the active set, to a tolerance that follows the residual left by the last exchange (inexact Newton);
 //! 2. collects the KKT violations, p < 0 on the set and g < 0 outside it;
 //! 3. exchanges all violating elements, or fewer while the search does not improve (`contact/exchange_rule.rs`);
-//! 4. projects the pressure onto p ≥ 0, and tests for convergence.
+//! 4. projects the pressure onto p ≥ 0, and tests for convergence: gaps and tension below the tolerance, and few violations left.
 //!
 //! The gaps of step 2 are those of the solution with its tension. The projection onto p ≥ 0 changes the most compliant
 //! waves, if only slightly, and with them the gaps far from the contact.
@@ -45,10 +45,11 @@ const MAX_STAGNATIONS: usize = 5;
 /// contain the residual. Measured: tolerances of 1e-12 leave up to 2.4e-12 under a quarter of 30 random height maps.
 const LARGEST_ROUNDING_RATIO: f64 = 10.0;
 
-/// Number of elements in contact over that of elements that may be wrongly in or out of it. Chosen: areas have larger errors.
-const MAX_UNSETTLED_INVERSE: usize = 1000;
-/// Number of updates of a contact whose gaps are closed, by which more elements than that are settled. Chosen: elements at the boundary may
-/// change back and forth.
+/// Smallest number of elements in contact for each that violates the KKT conditions by more than the error of the solver. Chosen: areas have
+/// larger errors than a thousandth.
+const MIN_ACTIVE_OVER_VIOLATIONS: usize = 1000;
+/// Largest number of updates by which a contact with closed gaps is brought to that. Chosen: elements at the boundary may change back and
+/// forth.
 const MAX_SETTLING_UPDATES: usize = 8;
 
 /// Forcing terms of the inexact Newton method: inner residual over the residual that the last exchange left.
@@ -125,8 +126,6 @@ pub(crate) struct Search<'a, P> {
     scale: f64,
     /// Largest |gap| on the active set, relative to the scale.
     pub(crate) residual: f64,
-    /// Number of elements that violate the KKT conditions by more than the error of the solver.
-    pub(crate) unsettled: usize,
 }
 
 impl<'a, P: FixedSetSolver> Search<'a, P> {
@@ -150,7 +149,6 @@ impl<'a, P: FixedSetSolver> Search<'a, P> {
             depth: 0.0,
             scale: 0.0,
             residual: f64::INFINITY,
-            unsettled: 0,
         }
     }
 
@@ -226,9 +224,8 @@ impl<'a, P: FixedSetSolver> Search<'a, P> {
             if converged {
                 // Penetrations that count as closed may still be those of many elements, each of which is missing in the contact area.
                 let n_active = self.active.iter().filter(|active| **active).count();
-                self.unsettled = violations.len();
                 n_converged += 1;
-                if MAX_UNSETTLED_INVERSE * self.unsettled <= n_active
+                if MIN_ACTIVE_OVER_VIOLATIONS * violations.len() <= n_active
                     || n_converged > MAX_SETTLING_UPDATES
                 {
                     return Ok(());
