@@ -37,7 +37,7 @@ pub enum BemError {
         value: f64,
     },
     /// The grid would have more elements than can be handled.
-    #[error("the grid would have {elements:.1e} elements, but at most {limit:e} are allowed")]
+    #[error("the grid would have {elements:.3e} elements, but at most {limit:e} are allowed")]
     GridTooLarge {
         /// Number of elements that the grid would have.
         elements: f64,
