@@ -97,7 +97,7 @@ const ERROR_OVER_POWER_ERROR: f64 = 0.5;
 /// Error of the strain over its change from elements with twice the edges. Derived: 1/(2^(3/2) − 1), for the order 3/2 of a pressure that
 /// falls to zero like a root.
 const ERROR_OVER_CHANGE: f64 = 0.547;
-/// The same below a body. Measured: 1.05 on 24 elements below a cone, at whose tip the pressure has no limit and the order is the first; a
+/// Error of the strain below a body over this change. Measured: 1.05 on 24 elements below a cone, at whose tip the pressure has no limit and the order is the first; a
 /// tenth is added. More elements are needed for the order 3/2 where the contact is a crescent.
 const ERROR_OVER_CHANGE_OF_BODY: f64 = 1.15;
 /// Smallest ratio of successive changes of the strain that a bar uses, because elements may resolve a contact alike by chance. Chosen, as
@@ -279,7 +279,7 @@ impl SlidingContact<'_> {
     /// Amplitude of the equivalent (von Mises) strain: its root mean square over the half space, weighted with the power that is dissipated
     /// at each place.
     ///
-    /// Under one wave in full contact it is half of the root mean square slope of the surface. The pressure of a body or a line is taken to
+    /// Under one wave in full contact it is half of the root mean square slope of the surface. The pressure of a body or a line is averaged over
     /// larger elements, as long as the amplitude changes by at most `relative_error` where they are halved; with 0 they are the finest. The
     /// error bar is about this change below a body, and half of it otherwise. Around a body it also has what larger periods may add; on periods,
     /// half of the relative difference between the power of the waves and [`bulk_power`](Self::bulk_power).

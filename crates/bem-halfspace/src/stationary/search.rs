@@ -227,6 +227,7 @@ impl<'a, P: FixedSetSolver> Search<'a, P> {
                 n_converged += 1;
                 if MIN_ACTIVE_OVER_VIOLATIONS * violations.len() <= n_active
                     || n_converged > MAX_SETTLING_UPDATES
+                    || self.problem.budget_is_exhausted()
                 {
                     return Ok(());
                 }
@@ -250,8 +251,12 @@ impl<'a, P: FixedSetSolver> Search<'a, P> {
 
     /// Largest residual and penetration that count as closed, in the unit of the heights.
     fn allowed_gap(&self) -> f64 {
-        let rounding = DEPTH_ROUNDING_ULPS * f64::EPSILON * self.depth.abs();
-        (self.tolerance * self.scale).max(rounding)
+        (self.tolerance * self.scale).max(self.rounding())
+    }
+
+    /// Rounding error of gaps by that of the depth, in the unit of the heights.
+    fn rounding(&self) -> f64 {
+        DEPTH_ROUNDING_ULPS * f64::EPSILON * self.depth.abs()
     }
 
     /// Projects onto p ≥ 0, and p = 0 outside the active set, with little effect on the most compliant waves: the longest ones along the motion
@@ -284,10 +289,10 @@ impl<'a, P: FixedSetSolver> Search<'a, P> {
     }
 
     /// KKT violations: elements of the active set under tension, and elements outside it whose penetration reaches `solver_error` and
-    /// the allowed gap. Sizes are in the unit of the heights.
+    /// the rounding error, though it may be below the allowed gap. Sizes are in the unit of the heights.
     fn violations(&self, solver_error: f64) -> Vec<Violation> {
         let self_influence = self.problem.self_influence();
-        let smallest_penetration = solver_error;
+        let smallest_penetration = solver_error.max(self.rounding());
         // The violation of an active element is its tension times the self-influence, and that of any other element its
         // penetration.
         let violation = |element: usize| {

@@ -75,8 +75,8 @@ pub(super) trait SelfConsistent {
     /// Value up to which a second fixed point above the first one, `found`, is looked for; `None` if there can be no second one.
     fn farthest(&self, found: f64) -> Option<f64>;
 
-    /// The same value in a problem that is solved faster and differs little near an answer, by a factor far below [`SCREENING_RATIO`] in what
-    /// is caused; `None` if there is none.
+    /// This value in a problem that is solved faster; near an answer it causes values that differ by a factor far below [`SCREENING_RATIO`].
+    /// `None` if there is none.
     fn faster_near(&self, _answer: &Answer) -> Option<Box<dyn SelfConsistent + '_>> {
         None
     }
